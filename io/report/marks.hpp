@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Marks of loops: what a reader of a report decides about each, with a note. docs/formats.md has the form of
-// a file of them. The page has the same rules in io/report/page/marks.js.
+// Marks of loops: the decision of a report's reader on each, with a note. docs/formats.md has the form of a
+// file of marks. The page has the same rules in io/report/page/marks.js.
 #pragma once
 
 #include "engine/export.hpp"
@@ -24,7 +24,7 @@ inline constexpr std::string_view kMarksSchema = "marks 1";
 inline constexpr std::array<std::string_view, 5> kMarkNames = {"none", "real", "ignore", "scan again",
                                                                "done"};
 
-// The loop as it was in the result that the mark was made for.
+// The loop as it was in the result for which the mark was made.
 struct LoopMark {
   std::uint64_t id = 0;
   LoopKind kind = LoopKind::kHole;
@@ -34,7 +34,7 @@ struct LoopMark {
   std::string note;
 };
 
-// In the order of the file. Throws `Error` where the file is not a file of marks.
+// Reads marks in the order of the file. Throws `Error` if the file is not a file of marks.
 LACUNA_API std::vector<LoopMark> read_marks(const std::filesystem::path& file);
 
 struct MarkMatches {

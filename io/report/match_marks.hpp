@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which loop of a result each mark belongs to.
+// Finds the loop of a result that each mark belongs to.
 #pragma once
 
 #include "io/loops/json.hpp"
@@ -14,10 +14,10 @@ namespace lacuna::io {
 // 1. In the order of marks: the loop with its id, if its centroid is no farther than the smaller diameter.
 // 2. The other marks, the nearest pairs first: centroids are within half of the mark's diameter. Diameters
 //    differ by a factor of 1.5 at most. Equally near pairs go in the order of marks, then of loops.
-// Cost: the number of marks times that of loops.
+// Cost: the product of the numbers of marks and loops.
 MarkMatches match_marks(std::span<const LoopMark> marks, const Scene::Loops& loops);
 
-// What the page reads: ids, marks and notes of matched loops, and the others as they were in the file.
+// Returns the data that the page reads: ids, marks and notes of matched loops, and the others as in the file.
 Json marks_json(const MatchedMarks& marks, const Scene::Loops& loops);
 
 }  // namespace lacuna::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The value that stands at a share of all, in ascending order.
+// The value at a share of all values, in ascending order.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace lacuna::io {
 
-// `share` from 0 to 1. There is a value; their order changes. Cost: linear.
+// `share` is from 0 to 1. There is at least one value; the order of the values changes. Cost: linear.
 inline float percentile(std::vector<float>& values, double share) {
   const auto at = values.begin() + std::llround(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());

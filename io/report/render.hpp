@@ -19,31 +19,32 @@ struct PictureSize {
   std::size_t width = 0, height = 0;  // pixels
 };
 
-// A parallel projection: what is seen lies in a box around `middle`.
+// A parallel projection: the picture shows a box around `middle`.
 struct View {
   Eigen::Vector3f right{1, 0, 0}, up{0, 1, 0}, towards{0, 0, 1};  // unit, orthogonal; `towards` the viewer
   Eigen::Vector3f middle{0, 0, 0};
   float half_height = 1;  // of the picture, in units of the scan
-  float half_depth = 0;   // what lies further before or behind the middle is not drawn; 0: no bound
+  float half_depth = 0;   // points further before or behind the middle are not drawn; 0: no bound
 };
 
-// The view of this name: "oblique", "top", "front", "side", or the id of a loop, seen along its normal. The
-// picture holds nearly all points, or the loop with as much around it. Throws `Error` for any other name.
+// Returns the view of this name: "oblique", "top", "front", "side", or the id of a loop, viewed along its
+// normal. The picture holds nearly all points, or the loop with as much around it. Throws `Error` for any
+// other name.
 View find_view(const Scene& scene, std::string_view name, std::size_t width, std::size_t height);
 
-// Points are discs, grey to red by their boundary probability, or as they came where `as_it_came` is set and
-// the scan has colours. Curves of holes and outer curves have the colours of loops.ply. `take_row` gets the
-// rows from the top. The picture is drawn in bands of at most `band_bytes`, or of one row where that takes
+// Points are discs, grey to red by their boundary probability. If `as_it_came` is set and the scan has
+// colours, they keep these. Curves of holes and outer curves have the colours of loops.ply. `take_row` gets
+// the rows from the top. The picture is drawn in bands of at most `band_bytes`, or of one row if that takes
 // more; its pixels do not depend on them. Cost: about 0.1 us a point, and 0.01 us a point and band.
 inline constexpr std::size_t kBandBytes = std::size_t{128} << 20;
 void render(const Scene& scene, const View& view, PictureSize size, bool as_it_came,
             const std::function<void(std::span<const Colour> row)>& take_row,
             std::size_t band_bytes = kBandBytes);
 
-// By which an own picture is recognised: its first text, behind the sizes.
+// An earlier picture of this program is recognised by its first text, behind the sizes.
 FileMark picture_mark();
 
-// PNG, 8 bits for each colour, written row by row from the top. Throws `Error` where the file cannot be
+// Writes a PNG, 8 bits for each colour, row by row from the top. Throws `Error` if the file cannot be
 // written.
 class PngWriter {
  public:

@@ -12,16 +12,16 @@
 
 namespace lacuna::io {
 
-// How a report.html begins: an earlier one is recognised by it.
+// A report.html begins with this text, by which a program recognises an earlier one.
 inline constexpr std::string_view kReportMark = "<!doctype html>\n<!-- Lacuna report";
 
 struct WrittenReport {
   std::filesystem::path file;
-  MatchedMarks marks;  // those that it starts with
+  MatchedMarks marks;  // the marks that the page starts with
 };
 
-// report.html in the folder of a run's results, from these. Replaces an earlier report. `marks`: a file of
-// marks that the page starts with. Throws `Error`.
+// Writes report.html into the folder of a run's results, from these results. Replaces an earlier report.
+// `marks` is a file of marks that the page starts with. Throws `Error`.
 LACUNA_API WrittenReport write_report(const std::filesystem::path& folder, Overwrite overwrite,
                                       const std::optional<std::filesystem::path>& marks = {});
 

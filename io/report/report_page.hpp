@@ -9,8 +9,8 @@
 namespace lacuna::io {
 
 // Writes the page of io/report/page with the scene as data. Positions are 21 bits along each axis, of the
-// cube of the scene. About 15 bytes for each point, 11 for each vertex of a loop. The page starts with the
-// marks; `matches` are those with the scene's loops.
+// cube of the scene. A point takes about 15 bytes, a vertex of a loop 11. The page starts with the marks;
+// `matches` are the marks' matches with the scene's loops.
 void write_report(const Scene& scene, OutputFile& out, const MatchedMarks& marks = {});
 
 }  // namespace lacuna::io

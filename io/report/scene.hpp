@@ -28,7 +28,7 @@ struct Scene {
   std::uint64_t strays = 0;         // points of the scan that lie outside of them
   Eigen::Vector3d origin{0, 0, 0};  // least corner of the bounds
   double edge = 1;                  // of the cube from there that holds everything; above 0
-  double rounding = 0;              // bound of what local coordinates (--local-coordinates) are off by
+  double rounding = 0;              // bound on the error of local coordinates (--local-coordinates)
 
   struct Points {
     std::vector<Eigen::Vector3f> positions;
@@ -58,9 +58,9 @@ struct SceneLimits {
 // up to 40 bytes for each position and 150 for each loop of the run.
 Scene read_scene(const std::filesystem::path& folder, const SceneLimits& limits = {});
 
-// The places to stand next of next_stations.geojson in `folder`, as {rank, place, area, share} in its order;
-// null where it is not there. Apart from read_scene(), since `lacuna stations` replaces a damaged file.
-// Throws `Error` where the file is not as that command writes it.
+// Reads the next stations of next_stations.geojson in `folder`, as {rank, place, area, share} in its order;
+// null if the file is not there. It is apart from read_scene(), since `lacuna stations` replaces a damaged
+// file. Throws `Error` if the file is not as that command writes it.
 Json read_next_stations(const std::filesystem::path& folder);
 
 }  // namespace lacuna::io

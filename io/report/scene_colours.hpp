@@ -17,9 +17,9 @@ class ColourColumns {
   void load(const RowBatch& rows);
   void take(std::size_t row);  // of those loaded last
 
-  // One for each row taken; empty where the layout has no colours. Values of 16 bits are scaled where any is
-  // above 255, as some programs write bytes there. Intensities are stretched from their 2nd to their 98th
-  // percentile.
+  // Returns one colour for each row taken; none if the layout has no colours. Values of 16 bits are scaled if
+  // any is above 255, as some programs write bytes there. Intensities are stretched from their 2nd to their
+  // 98th percentile.
   std::vector<Colour> finish() const;
 
  private:

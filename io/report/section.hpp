@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A section of a scene: what lies above a height would hide the rest, as a ceiling does.
+// Cuts a scene at a height: the points above would hide the rest, as a ceiling does.
 #pragma once
 
 #include "io/report/scene.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The annotated scan as rows of bytes: what the input has of each point, then its results.
+// The annotated scan as rows of bytes: the columns of each point in the input, then its results.
 #pragma once
 
 #include "engine/model/detection.hpp"
@@ -26,14 +26,14 @@ struct ResultColumn {
   std::size_t offset;
 };
 
-// scalar_probability, the criteria, scalar_boundary, scalar_coherent and scalar_loop; with config.normals
-// also nx ny nz, unless a file of the scan has normals.
+// Returns scalar_probability, the criteria, scalar_boundary, scalar_coherent and scalar_loop; with
+// config.normals also nx ny nz, unless a file of the scan has normals.
 std::vector<ResultColumn> result_columns(const FileScan& scan, const OutputConfig& config);
 // PLY files have `quality` directly behind scalar_loop, too: the probability for MeshLab.
 inline constexpr std::string_view kQuality = "quality", kBeforeQuality = "scalar_loop";
 bool is_earlier_quality(const RowLayout& layout, std::size_t index);
-// Whether the results replace this property: it has the name of one. Where scalar_loop is one, the `quality`
-// of an earlier run is replaced, too.
+// Whether the results replace this property, because it has the name of a result. If scalar_loop is a result,
+// the `quality` of an earlier run is replaced, too.
 bool is_earlier_result(const RowLayout& layout, std::size_t index, std::span<const ResultColumn> results);
 std::size_t bytes_of(std::span<const ResultColumn> results);  // packed
 
@@ -41,12 +41,12 @@ std::size_t bytes_of(std::span<const ResultColumn> results);  // packed
 void copy_results(std::span<const PointResult> results, std::span<const ResultColumn> columns,
                   std::size_t stride, std::byte* out);
 
-// Rows of files of a scan once more, in order, in the form that a format needs.
+// Reads the rows of a scan's files once more, in order, in the form that a format needs.
 class InputRows {
  public:
   virtual ~InputRows() = default;
-  // The next rows, at most `max_rows`, each at the beginning of `stride` bytes of `block`, which gets the
-  // size of them all. Returns their number; 0 at the end. Throws `Error`.
+  // Reads the next rows, at most `max_rows`, each to the beginning of `stride` bytes of `block`, which is
+  // resized to them all. Returns their number; 0 at the end. Throws `Error`.
   virtual std::size_t next(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) = 0;
 };
 
@@ -55,9 +55,9 @@ struct FileRange {
   std::size_t first, end;
 };
 
-// The union of the files' properties by name, in order of first appearance, packed. A property is double
-// where types differ, and NaN or 0 in the rows of a file that has none. `is_left_out` says which do not
-// count, by the index of a property.
+// Returns the union of the files' properties by name, in order of first appearance, packed. A property is
+// double if types differ. It is NaN or 0 in the rows of a file that has no such property. `is_left_out`
+// marks, by the index of a property, the ones that do not count.
 using LeftOut = std::function<bool(const RowLayout& layout, std::size_t index)>;
 RowLayout join_layouts(std::span<const RowLayout> layouts, const LeftOut& is_left_out);
 
@@ -66,7 +66,8 @@ class JoinedRows final : public InputRows {
  public:
   JoinedRows(const FileScan& scan, RowLayout joined, FileRange files, const LocalOffset& offset);
   std::size_t next(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) override;
-  // Sets the positions of the rows last returned, in the scan: those of FileScan::open.
+  // Returns the positions of the rows last read, in the coordinates of the scan, as FileScan::open reads
+  // them.
   void positions(std::vector<Eigen::Vector3d>& positions) const;
 
  private:
@@ -75,7 +76,7 @@ class JoinedRows final : public InputRows {
   const FileScan& scan_;
   RowLayout joined_;
   std::vector<const Property*> sources_;         // in the reader's layout, one for each column
-  std::vector<std::optional<double>> summands_;  // likewise; none: the column stays as it is
+  std::vector<std::optional<double>> summands_;  // of each column; empty if the column stays as it is
   std::size_t file_, end_;
   std::unique_ptr<ScanReader> reader_;
   RowBatch rows_;

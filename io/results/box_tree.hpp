@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of many boxes a point lies in.
+// Finds the boxes, among many, that a point lies in.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,9 @@
 
 namespace lacuna::io {
 
-// A balanced tree of boxes, halved at the median of their centres. Memory: less than 200 bytes a box. Cost of
-// a point: logarithmic in the boxes where these do not overlap, and linear in those that it lies in.
+// A balanced tree of boxes, halved at the median of their centres. Memory: less than 200 bytes a box. The
+// cost of a point is logarithmic in the number of boxes if they do not overlap. It is linear in the number of
+// boxes that hold the point.
 class BoxTree {
  public:
   explicit BoxTree(std::vector<Eigen::AlignedBox3d> boxes);
@@ -34,7 +35,7 @@ class BoxTree {
   }
 
  private:
-  // A node stands before those below it.
+  // A node comes before the nodes below it.
   struct Node {
     Eigen::AlignedBox3d box;
     std::size_t next = 0;              // behind all nodes below it

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much of a scan is covered, in square cells seen from above.
+// How much of a scan is covered, in square cells viewed from above.
 #pragma once
 
 #include "engine/model/detection.hpp"
@@ -20,14 +20,14 @@ struct CoverageGrid {
   double edge = 0;               // of a cell, in units of the scan
   std::size_t columns = 0, rows = 0;
   std::vector<float> points;  // that take part, copies too
-  std::vector<float> holes;   // share of the cell within holes seen from above, [0, 1]
+  std::vector<float> holes;   // share of the cell within holes in the plan, [0, 1]
 
   std::size_t size() const { return columns * rows; }
 };
 
-// Reads every file once more. Holes on walls cover nothing from above. Where holes overlap, their sum counts,
-// up to 1. Throws `Error` where there would be more cells than the memory limit has space for. Memory: 8
-// bytes a cell. Cost: linear in points, and in the cells that holes cross.
+// Reads every file once more. Holes on walls cover nothing from above. If holes overlap, their sum counts, up
+// to 1. Throws `Error` if there would be more cells than the memory limit has space for. Memory: 8 bytes a
+// cell. Cost: linear in points, and in the cells that holes cross.
 CoverageGrid cover(const Detection& detection, const FileScan& scan, const FilesConfig& config);
 
 // Adds the share of each cell within a closed polygon. Rows are cut into eight strips, and each strip's share

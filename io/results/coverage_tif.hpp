@@ -19,8 +19,8 @@ struct CoverageTask {
 };
 
 // Writes a GeoTIFF with three bands of 32-bit floats for each cell: its points, their spacing, and the share
-// of the cell within holes. The spacing is the root of the cell's area over its points, NaN without any.
-// Returns false where GDAL does not understand the coordinate reference system, and the file has none. Throws
+// of the cell within holes. The spacing is the root of the cell's area over its points, NaN without points.
+// Returns false if GDAL does not understand the coordinate reference system, and the file has none. Throws
 // `Error` with GDAL's text.
 using WriteCoverage = bool(const CoverageTask& task);
 

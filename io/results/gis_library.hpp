@@ -13,13 +13,13 @@ namespace lacuna::io {
 // Throws `Error` if lacuna_gis.so is missing (io/crs/gis_module.hpp). Cheap: loads nothing.
 void check_gis_library();
 
-// Loads the library on first use and writes the loops. The log has a warning where the scan has a coordinate
-// reference system and the file has none. It has one, too, where GIS will read metres as degrees. Throws
+// Loads the library on first use and writes the loops. The log has a warning if the scan has a coordinate
+// reference system and the file has none. Another warning comes if GIS will read metres as degrees. Throws
 // `Error`.
 void write_loops_gis(const ExplainedDetection& detection, const FileScan& scan, const OutputConfig& config,
                      GisFormat format, OutputFile& out);
 
-// Likewise writes coverage.tif (io/results/coverage_tif.hpp); none where no point takes part.
+// Writes coverage.tif in the same way (io/results/coverage_tif.hpp); writes no file if no point takes part.
 void write_coverage(const Detection& detection, const FileScan& scan, const FilesConfig& config,
                     OutputFile& out);
 

@@ -11,13 +11,13 @@ namespace lacuna::io {
 inline constexpr std::string_view kGeoJsonMark =
     "{\n\"type\": \"FeatureCollection\",\n\"name\": \"lacuna_loops\",\n";
 
-// An SQLite file that names the layer and its description in its first pages.
+// The file is an SQLite file that names the layer and its description in its first pages.
 FileMark geopackage_mark();
 
-// The .dbf has the fields of the loops' measures. The mark of the .shp, .shx, .prj and .cpg, too.
+// The .dbf has the fields of the loops' measures. It is the mark of the .shp, .shx, .prj and .cpg, too.
 FileMark shapefile_mark();
 
-// A TIFF that names the software of coverage.tif.
+// The file is a TIFF that names the software of coverage.tif.
 FileMark coverage_mark();
 
 }  // namespace lacuna::io

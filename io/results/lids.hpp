@@ -12,23 +12,23 @@
 
 namespace lacuna::io {
 
-// How lids.obj and lids.csv begin: earlier ones are recognised by it.
+// lids.obj and lids.csv begin with these texts, by which a program recognises earlier ones.
 inline constexpr std::string_view kLidsObjMark = "# lacuna detect, lids\n";
 inline constexpr std::string_view kLidsHeader = "loop,triangles,lid_area,reason";
 
-// lids.obj: of each hole, in order, its object "hole_12" (the id), vertices with all digits and triangles.
-// Comments have the numbers of both and the area. Of a hole without a lid there is one comment, with the
+// lids.obj has for each hole, in order, its object "hole_12" (the id), vertices with all digits and
+// triangles. Comments have the numbers of both and the area. A hole without a lid has one comment, with the
 // reason. Outer curves have no lids. The threads make several lids at once: kLidBytes for each, within a
 // quarter of the memory limit if one fits. Throws `Error`.
 void write_lids_obj(const Detection& detection, OutputFile& out);
 
-// Both are made of the complete lids.obj, which they stream. Throw `Error`.
+// Both files come from the complete lids.obj, which the functions stream. They throw `Error`.
 //
 // lids.ply: element vertex with x y z in the coordinates of loops.ply; element face with list vertex_indices
 // and loop, the id of the hole.
 void write_lids_ply(const std::filesystem::path& lids_obj, const Detection& detection, const FileScan& scan,
                     const OutputConfig& config, OutputFile& out);
-// lids.csv: a line for each hole. lid_area is empty where it has no lid, and reason where it has one.
+// lids.csv: a line for each hole. lid_area is empty if the hole has no lid, and reason if it has one.
 void write_lids_table(const std::filesystem::path& lids_obj, OutputFile& out);
 
 }  // namespace lacuna::io

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coordinates of the PLY and PCD files of a run: those of the scan, or with --local-coordinates floats
-// relative to an offset.
+// Coordinates of the PLY and PCD files of a run: the scan's, or with --local-coordinates floats relative to
+// an offset.
 #pragma once
 
 #include "engine/model/detection.hpp"
@@ -12,14 +12,15 @@
 
 namespace lacuna::io {
 
-// The middle of the bounds of the scan without its strays, in whole units; 0 0 0 without points. It depends
-// on the scan alone. None without --local-coordinates. Floats then keep 2^-24 of the extent around it.
+// Returns the middle of the bounds of the scan without its strays, in whole units; 0 0 0 without points. It
+// depends on the scan alone. Without --local-coordinates there is no offset. With it, floats keep 2^-24 of
+// the extent around the offset.
 LocalOffset local_offset(const Detection& detection, const OutputConfig& config);
 
-// The type of the coordinates of vertices.
+// Returns the type of the coordinates of vertices.
 Scalar coordinate_type(const FileScan& scan, const OutputConfig& config);
 
-// The columns of the scan's files as they are written: with --local-coordinates, x y z are floats.
+// Returns the columns of the scan's files as a run writes them: with --local-coordinates, x y z are floats.
 std::vector<RowLayout> written_layouts(const FileScan& scan, const OutputConfig& config);
 
 }  // namespace lacuna::io

@@ -17,7 +17,7 @@ namespace lacuna::io {
 
 enum class GisFormat : std::uint8_t { kGeoPackage, kGeoJson, kShapefile };
 
-// The layer of each file. An earlier file is recognised by it.
+// The layer of each file, by which a program recognises an earlier file.
 inline constexpr const char* kGisLayer = "lacuna_loops";
 inline constexpr const char* kGisAreas = "lacuna_areas";  // the second one of a GeoPackage, with polygons
 inline constexpr const char* kGisDescription = "loops of lacuna detect";
@@ -33,7 +33,7 @@ struct GisTask {
   std::function<void(std::string_view text)> take;  // of a GeoJSON; may throw
 };
 
-// What became of the coordinate reference system of the scan in a file.
+// The fate of the scan's coordinate reference system in a file.
 enum class GisCrs : std::uint8_t {
   kWritten,
   kNone,           // the scan has none
@@ -41,12 +41,12 @@ enum class GisCrs : std::uint8_t {
   kNotConverted,   // a GeoJSON with the coordinates of the scan, though these are not longitude and latitude
 };
 
-// Writes the loops in order, each a closed line with z. Fields are id, kind, unit and the measures, empty
-// where one is not finite. With polygons, a GeoPackage has these in a layer of their own, and the others have
-// polygons in place of lines. The coordinates are those of the scan, with all digits. Those of a GeoJSON are
-// longitude and latitude of WGS 84 where the system is known, as RFC 7946 demands. There z stays as it is,
-// but for geocentric scans it is the ellipsoidal height. Holds one loop in memory. Equal loops give equal
-// bytes. Throws `Error` with GDAL's text.
+// Writes the loops in order, each a closed line with z. Fields are id, kind, unit and the measures, empty if
+// a measure is not finite. With polygons, a GeoPackage has these in a layer of their own, and the other
+// formats have polygons in place of lines. The coordinates are the scan's, with all digits. The coordinates
+// of a GeoJSON are longitude and latitude of WGS 84 if the system is known, as RFC 7946 demands. There z
+// stays as it is, but for geocentric scans it is the ellipsoidal height. Holds one loop in memory. Equal
+// loops give equal bytes. Throws `Error` with GDAL's text.
 using WriteLoopsGis = GisCrs(const GisTask& task);
 
 // In lacuna_gis.so:

@@ -10,11 +10,11 @@
 
 namespace lacuna::io {
 
-// How it begins: an earlier one is recognised by it.
+// The file begins with this text, by which a program recognises an earlier one.
 inline constexpr std::string_view kObjMark = "# lacuna detect, loops\n";
 
-// For each loop, in order: its measures as comments, its object "hole_0" or "outer_0" (the id), its points
-// with all digits, and one closed polyline. Holds one loop in memory. Throws `Error`.
+// Writes for each loop, in order: its measures as comments, its object "hole_0" or "outer_0" (the id), its
+// points, and one closed polyline. Coordinates have all digits. Holds one loop in memory. Throws `Error`.
 void write_loops_obj(const ExplainedDetection& detection, OutputFile& out);
 
 }  // namespace lacuna::io

@@ -29,25 +29,26 @@ inline constexpr const char* kPointsFolder = "points";  // in the output folder
 // The formats that points are written in.
 enum class FileFormat : std::uint8_t { kPly, kCsv, kLas, kLaz };
 std::string_view extension_of(FileFormat format);  // ".ply" and so on
-// The format of one file for points of all files: CSV if that is stated, or all are text, else PLY.
+// Returns the format of one file for points of all files: CSV if the user states it, or if all files are
+// text, else PLY.
 FileFormat joined_format(const FileScan& scan, const OutputConfig& config);
 
-// "points.ply", "points.csv", or "points/".
+// Returns "points.ply", "points.csv", or "points/".
 std::string points_name(const OutputConfig& config);
 
-// Throws `Error` where the annotated scan of the config cannot be written to `folder`, as far as headers and
-// names show it. Two files of the scan may have the same name, or a format may not hold its results. Cheap:
-// for before the work.
+// Throws `Error` if the annotated scan of the config cannot be written to `folder`, as far as headers and
+// names show it. Two files of the scan may have the same name, or a format may not hold its results. Cheap,
+// for a program to check before the work.
 void check_points(const FileScan& scan, const FilesConfig& config, const std::filesystem::path& folder,
                   Overwrite overwrite);
 
-// Adds the annotated scan to the set, if the config wants it. Drops those of earlier runs. Memory: a batch of
-// one file at a time. Throws `Error`.
+// Adds the annotated scan to the set, if the config wants it. Drops the annotated scans of earlier runs.
+// Memory: a batch of one file at a time. Throws `Error`.
 void write_points(const Detection& detection, const FileScan& scan, const FilesConfig& config,
                   const std::filesystem::path& folder, OutputSet& set);
 
-// What the annotated scan takes of the disk, for so many rows. Text and LAZ are a guess, and not in
-// `certain`. Throws `Error` where the formats cannot hold the results.
+// Returns the disk space of the annotated scan, for so many rows. Text and LAZ are a guess, and not in
+// `certain`. Throws `Error` if the formats cannot hold the results.
 struct PointsBytes {
   std::uint64_t all = 0, certain = 0;
 };

@@ -21,9 +21,9 @@ namespace lacuna::io {
 class PointsWriter {
  public:
   virtual ~PointsWriter() = default;
-  // Whole rows of the form, each with its results behind it. Throws `Error`.
+  // Takes whole rows of the form, each with its results behind it. Throws `Error`.
   virtual void put(std::span<const std::byte> rows) = 0;
-  // Once, after all rows. Throws `Error`.
+  // Ends the file; called once, after all rows. Throws `Error`.
   virtual void finish() {}
 };
 
@@ -37,18 +37,18 @@ struct PointsPlan {
   std::string name;                   // of the file, for errors
 };
 
-// All columns of the input but those that the results replace.
+// Returns all columns of the input except the ones that the results replace.
 class PointsForm {
  public:
   virtual ~PointsForm() = default;
   virtual std::size_t row_bytes() const = 0;  // without results
-  // All rows, from the first one on. Throws `Error`.
+  // Reads all rows, from the first one on. Throws `Error`.
   virtual std::unique_ptr<InputRows> open() const = 0;
   // Begins a file of so many rows. `out` must outlive the writer. Throws `Error`.
   virtual std::unique_ptr<PointsWriter> writer(OutputFile& out, std::uint64_t rows) const = 0;
 };
 
-// Rows of files of any formats, joined by the names of columns. `positions` of its rows can be had.
+// Rows of files of any formats, joined by the names of columns. It offers the `positions` of its rows.
 class JoinedForm : public PointsForm {
  public:
   JoinedForm(const PointsPlan& plan, const std::vector<RowLayout>& layouts);
@@ -57,7 +57,7 @@ class JoinedForm : public PointsForm {
   std::unique_ptr<JoinedRows> open_joined() const;
 
  protected:
-  RowLayout with_results() const;  // the columns of the rows, then those of the results
+  RowLayout with_results() const;  // the columns of the rows, then the columns of the results
   const LocalOffset& offset() const { return offset_; }
 
  private:
@@ -71,8 +71,8 @@ class JoinedForm : public PointsForm {
 // PLY, binary little endian. Properties have the names of the input.
 std::unique_ptr<JoinedForm> ply_form(const PointsPlan& plan);
 
-// A header line and a line for each row, divided by commas. Each number is the shortest text that reads back
-// as the same value of its type; `nan` where there is none.
+// CSV: a header line and a line for each row, divided by commas. Each number is the shortest text that reads
+// back as the same value of its type; a value that is not a number is `nan`.
 std::unique_ptr<JoinedForm> csv_form(const PointsPlan& plan);
 
 // LAS 1.4 and LAZ (io/las/las_writer.hpp) of one LAS or LAZ file without a pose. Results are extra bytes:

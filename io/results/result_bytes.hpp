@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the results of a run take of the disk.
+// The disk space that the results of a run take.
 #pragma once
 
 #include "io/options/options.hpp"
@@ -12,7 +12,7 @@
 namespace lacuna::io {
 
 struct ResultBytes {
-  std::uint64_t points = 0;  // the annotated scan; 0 where it is not wanted
+  std::uint64_t points = 0;  // the annotated scan; 0 if it is not wanted
   std::uint64_t sample = 0;  // sample.ply
   std::uint64_t report = 0;  // report.html without its loops
   std::uint64_t voxels = 0;  // probability.vdb, at most
@@ -23,9 +23,9 @@ struct ResultBytes {
   std::uint64_t all() const { return points + sample + report + voxels + raster; }
 };
 
-// The bytes for a scan with so many rows, of which so many points are evaluated. `bounds` are those of the
-// scan without its strays; where they are not known, the raster is left out. The files of loops and of
-// boundary points, lids and cut-outs are left out: they depend on the holes that are found.
+// Returns the bytes for a scan with so many rows, of which so many points are evaluated. `bounds` are the
+// scan's bounds without strays; if they are not known, the raster is left out. The files of loops and of
+// boundary points, lids and cut-outs are left out, because they depend on the holes that are found.
 ResultBytes result_bytes(const FileScan& scan, const FilesConfig& config, std::uint64_t rows,
                          std::uint64_t points, const Eigen::AlignedBox3d& bounds = {});
 

@@ -3,8 +3,8 @@
 // (engine/store/append_lists.hpp) does not keep the order of what it reads in parts.
 //
 // Each list has a buffer of one block in memory. A full block goes to the one temporary file. It ends with
-// the number of the list's next block, which is reserved then. So in memory a list is its buffer and 56
-// bytes, however long it is.
+// the number of the list's next block, which is reserved at that moment. So in memory a list is its buffer
+// and 56 bytes, however long it is.
 #pragma once
 
 #include "engine/store/store_file.hpp"
@@ -24,7 +24,7 @@ class RowLists {
   // empty. Throws `Error`.
   RowLists(const std::filesystem::path& path, std::size_t lists, std::size_t block);
 
-  // By one thread at a time. Throws `Error`.
+  // One thread at a time may call it. Throws `Error`.
   void append(std::size_t list, std::span<const std::byte> bytes);
   std::uint64_t size(std::size_t list) const { return lists_[list].size; }  // bytes
   // Calls visit with all bytes of the list in order, in pieces. Throws `Error`.
@@ -32,8 +32,8 @@ class RowLists {
 
  private:
   struct List {
-    std::vector<std::byte> buffer;         // what is behind the full blocks
-    std::uint64_t first = 0, current = 0;  // blocks; of an empty list, none
+    std::vector<std::byte> buffer;         // the bytes behind the full blocks
+    std::uint64_t first = 0, current = 0;  // blocks; meaningless in an empty list
     std::uint64_t size = 0;
   };
 

@@ -15,18 +15,19 @@
 
 namespace lacuna::io {
 
-using LocalOffset = std::optional<Eigen::Vector3d>;  // none: the file has the coordinates of the scan
+using LocalOffset = std::optional<Eigen::Vector3d>;  // empty if the file has the coordinates of the scan
 
-// Its component along the coordinate that a column has. None in other columns, and without an offset.
+// Returns its component along a column's coordinate. Returns nothing for other columns, and without an
+// offset.
 std::optional<double> component_of(const LocalOffset& offset, std::string_view column);
 
 inline constexpr std::size_t kOffsetWords = 5;  // of that comment
 
-// The comment without what marks it as one. Reading it gives the same numbers.
+// Returns the comment without the sign that marks it as a comment. Reading it gives the same numbers.
 std::string print_offset(const Eigen::Vector3d& offset);
 
-// Sets `offset` where the words of a comment state one. Throws `Error` with the line where it is not three
-// finite numbers, or the second one.
+// Sets `offset` if the words of a comment state one. Throws `Error` with the line if it is not three finite
+// numbers, or is the second one.
 void read_offset(const InputFile& in, std::span<const std::string_view> comment, LocalOffset& offset);
 
 }  // namespace lacuna::io

@@ -9,8 +9,8 @@
 
 namespace lacuna::io {
 
-// The rows of `reader`, a PLY or PCD file, with the offset added to their positions, which are doubles then.
-// Places of scanners have the offset already. `reader` itself without an offset.
+// Returns the rows of `reader`, a PLY or PCD file, with the offset added to their positions, which become
+// doubles. Places of scanners have the offset already. Returns `reader` itself without an offset.
 std::unique_ptr<ScanReader> with_offset(std::unique_ptr<ScanReader> reader, const LocalOffset& offset);
 
 }  // namespace lacuna::io

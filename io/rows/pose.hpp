@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a scan stands in the registered scan: a rotation, a scale and a translation.
+// The pose of a scan in the registered scan: a rotation, a scale and a translation.
 #pragma once
 
 #include "engine/export.hpp"
@@ -13,9 +13,9 @@ namespace lacuna::io {
 
 using Pose = Eigen::Affine3d;  // of the scan's own coordinates: p -> A p + t
 
-// Numbers divided by blanks or commas. 16 are a 4 x 4 matrix, row by row, and 12 its first three rows. 7 are
-// the translation x y z and the unit quaternion x y z w. Throws `Error` unless the matrix turns, scales
-// evenly and moves, nothing else (to 1 part in 1000).
+// Reads numbers divided by blanks or commas. 16 are a 4 x 4 matrix, row by row, and 12 its first three rows.
+// 7 are the translation x y z and the unit quaternion x y z w. Throws `Error` unless the matrix only turns,
+// scales evenly and moves (to 1 part in 1000).
 LACUNA_API Pose parse_pose(std::string_view numbers);
 
 // Reads the numbers from a text file, over any number of lines. Throws `Error`.

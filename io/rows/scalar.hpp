@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be done with a `Scalar` known only at run time.
+// Functions for a `Scalar` that is known only at run time.
 #pragma once
 
 #include "io/rows/scan_reader.hpp"
@@ -12,7 +12,7 @@
 
 namespace lacuna::io {
 
-// Both spellings of the PLY format: "char" and "int8", ...
+// Accepts both spellings of the PLY format: "char" and "int8", ...
 std::optional<Scalar> scalar_from_name(std::string_view name);
 
 bool is_integer(Scalar type);
@@ -56,22 +56,22 @@ struct Column {
 // Copies `count` values. The types are equal, or `to` is kFloat64, which holds every other exactly.
 void copy_column(ConstColumn from, Column to, std::size_t count);
 
-// The nearest float; infinite where it is too large for one.
+// Returns the nearest float; infinite if the value is too large for one.
 float nearest_float(double value);
 
 // Puts a value to where a kFloat32 or kFloat64 lies.
 void put_floating(std::byte* to, Scalar type, double value);
 
-// The same with `summand` added in double precision, if there is one. `to` is kFloat32 or kFloat64 then.
+// Does the same with `summand` added in double precision, if there is one. Then `to` is kFloat32 or kFloat64.
 void copy_column(ConstColumn from, std::optional<double> summand, Column to, std::size_t count);
 
-// NaN in a column of floats, 0 in one of integers.
+// Puts NaN into a column of floats, 0 into one of integers.
 void fill_missing(Column to, std::size_t count);
 
-// Reverses the bytes of every value: big to little endian and back.
+// Reverses the bytes of every value, from big to little endian and back.
 void swap_bytes(Column column, std::size_t count);
 
-// The properties one after the other without padding.
+// Lays the properties one after the other without padding.
 RowLayout packed_layout(std::span<const std::pair<std::string, Scalar>> properties);
 
 }  // namespace lacuna::io

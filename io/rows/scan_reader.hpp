@@ -46,14 +46,14 @@ struct RowBatch {
   std::vector<std::byte> bytes;  // count * stride
 };
 
-// Where a scanner stood, as a file says.
+// The place of a scanner, as a file states it.
 struct ScannerPose {
   Eigen::Vector3d place;
   Eigen::Vector3d axis{0, 0, 1};        // of unit length: the scanner turns around it
-  std::optional<std::uint32_t> source;  // the value of its rows in the column `scan`; none: all rows
+  std::optional<std::uint32_t> source;  // the value of its rows in the column `scan`; empty: all rows
 };
 
-// What readers and writers of files hold of their rows at a time.
+// The bytes of rows that readers and writers of files hold at a time.
 inline constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
 
 // Reads the points of one file, front to back. Every failure is an `Error` that names the file, the place
@@ -64,29 +64,31 @@ class LACUNA_API ScanReader {
   virtual std::string format() const = 0;       // "text", or "PLY, ascii" and so on
   virtual const RowLayout& layout() const = 0;  // has x, y and z
   virtual std::optional<std::uint64_t> expected_rows() const = 0;
-  // The next rows, at most `max_rows`; false at the end, when the file was found complete.
+  // Reads the next rows, at most `max_rows`; false at the end, after the file proved complete.
   virtual bool next(RowBatch& batch, std::size_t max_rows) = 0;
-  // Slower than a file of plain numbers, so that what is read more than once had better be kept.
+  // Whether the reader is slower than a file of plain numbers, so that a program that reads twice had better
+  // keep the rows.
   virtual bool is_slow() const { return false; }
-  // The coordinate reference system, as well-known text or by a code such as "EPSG:25832"; empty: not known.
+  // Returns the coordinate reference system, as well-known text or a code such as "EPSG:25832"; empty if not
+  // known.
   virtual std::string crs() const { return {}; }
   // Whether positions are longitude and latitude.
   virtual bool is_geographic() const;
-  // The unit of length, as unit_of_metres (io/crs/length_unit.hpp); empty: not known.
+  // Returns the unit of length, as unit_of_metres (io/crs/length_unit.hpp); empty if not known.
   virtual std::string length_unit() const;
-  // The scanners of the rows read so far, and maybe of others.
+  // Returns the scanners of the rows read so far, and maybe of others.
   virtual std::vector<ScannerPose> scanners() const { return {}; }
-  // Positions that stand for a ray without return: 0 0 0, and the scanner's own where the file has it.
+  // Returns positions that mean a ray without return: 0 0 0, and the scanner's own if the file has it.
   virtual std::vector<Eigen::Vector3d> no_return_places() const { return {Eigen::Vector3d::Zero()}; }
 };
 
 struct ReadOptions {
   std::string columns;  // text files: column names, space separated; empty: from the header line
-  // Bytes that a reader may hold of a file whose points cannot be read one by one: LAZ.
+  // The bytes that a reader may hold of a file whose points cannot be read one by one: LAZ.
   std::uint64_t memory = std::uint64_t{64} << 20;
 };
 
-// What a format is recognised by.
+// The data by which a format is recognised.
 struct FileStart {
   std::string_view first_bytes;
   std::uint64_t size = 0;  // of the whole file

@@ -38,7 +38,7 @@ LACUNA_API std::filesystem::path full_name(const std::filesystem::path& file);  
 // The inputs that have these `FileScan::names`. A name as it was given, if it names the same file from here.
 LACUNA_API std::vector<ScanInput> inputs_of(std::span<const std::string> names);
 
-// Sees all rows that are read of a scan, in order.
+// An observer of all rows of a scan that are read, in order.
 class RowObserver {
  public:
   virtual ~RowObserver() = default;
@@ -49,10 +49,10 @@ class RowObserver {
   virtual void end() {}  // every row was there
 };
 
-// Ids count the rows over the files, in order. A batch lies within one file. Where any file has normals, the
-// points of one that has none get NaN. Points that the filters of the config leave out have NaN for a
-// position. Where they leave out all points, the last `next` is an `Error`. A file that changes after the
-// first opening is an `Error` when it is opened again.
+// Ids count the rows over the files, in order. A batch lies within one file. If any file has normals, the
+// points of a file without normals get NaN. Points that the filters of the config leave out have NaN for a
+// position. If they leave out all points, the last `next` is an `Error`. A file that changes after the first
+// opening is an `Error` when it is opened again.
 class LACUNA_API FileScan : public PointSource {
  public:
   // Opens every file once. So a missing or broken file, or one that lacks what a filter needs, is an `Error`
@@ -65,49 +65,50 @@ class LACUNA_API FileScan : public PointSource {
   std::optional<std::uint64_t> expected_points() const override;
   bool has_normals() const override;   // any file has nx ny nz
   bool reads_slowly() const override;  // any file does
-  // Name, size, time and a sample of each file, its pose, and the parameters of input. None where there are
-  // arrays.
+  // Returns name, size, time and a sample of each file, its pose, and the parameters of input. Returns
+  // nothing if there are arrays.
   std::vector<std::string> identity() const override;
-  // Three of each file: its name as given, the absolute one, and its pose or nothing.
+  // Returns three texts for each file: its name as given, the absolute one, and its pose or nothing.
   std::vector<std::string> names() const override;
-  // Rows that were read of each file, and those that the filters left out.
+  // Returns the rows that were read of each file, and the rows that the filters left out.
   std::vector<std::uint64_t> pass_counts() const override;
   void set_pass_counts(std::span<const std::uint64_t> counts) override;
 
   const std::vector<std::filesystem::path>& files() const { return files_; }
   const std::vector<std::optional<Pose>>& poses() const { return poses_; }  // one per file
   const std::vector<RowLayout>& layouts() const { return layouts_; }        // one per file
-  // Rows that each file's header declares; text files declare none.
+  // Returns the rows that each file's header declares; text files declare none.
   const std::vector<std::optional<std::uint64_t>>& expected_rows() const { return expected_rows_; }
-  // The format of each file, as ScanReader::format says.
+  // Returns the format of each file, as ScanReader::format says.
   const std::vector<std::string>& formats() const { return formats_; }
-  // The CRS of each file; empty where it names none, or has a pose.
+  // Returns the CRS of each file; empty if it names none, or has a pose.
   const std::vector<std::string>& crs() const { return crs_; }
-  // The unit of length of each file; empty where it names none.
+  // Returns the unit of length of each file; empty if it names none.
   const std::vector<std::string>& units() const { return units_; }
   // Whether positions of a file are longitude and latitude, as it says.
   bool is_geographic(std::size_t file) const { return is_geographic_[file]; }
-  // What --crs and --unit of the config state; empty: nothing.
+  // Returns the values of --crs and --unit in the config; empty if not stated.
   const StatedCrs& stated_crs() const { return stated_; }
-  // The system that the config states, else the one that all files with a system share; empty: they differ,
-  // or name none.
+  // Returns the system that the config states, else the one that all files with a system share. It is empty
+  // if the systems differ, or if no file names one.
   const std::string& common_crs() const { return common_crs_; }
-  // The unit of length that the config states, else the one that all files with a unit share. It is empty
-  // where these differ, where there is none, or where files have different systems and one has no unit.
+  // Returns the unit of length that the config states, else the one that all files with a unit share. It is
+  // empty if units differ, or there are none. It is empty, too, if files have different systems and one has
+  // no unit.
   const std::string& length_unit() const { return common_unit_; }
-  // The rows of a file: as its header declares, else as many as the last pass has read of it.
+  // Returns the rows of a file: as its header declares, else as many as the last pass has read of it.
   std::uint64_t rows(std::size_t file) const { return expected_rows_[file].value_or(rows_read_[file]); }
   std::uint64_t memory() const { return memory_; }
-  // Rows of a file to be read at a time.
+  // Returns how many rows of a file to read at a time.
   std::size_t batch_rows(std::size_t file) const;
-  // From its first row on, moved by its pose, without filters.
+  // Opens a file at its first row, moved by its pose, without filters.
   std::unique_ptr<ScanReader> open(std::size_t file) const;
   // Counts the points read since the last rewind.
   const FilteredOut& filtered_out() const { return filtered_out_; }
   // Throws `Error` if a file is no longer what it was when it was first opened. Then a later read may not fit
   // an earlier one.
   void check_unchanged() const;
-  void observe(RowObserver* observer) { observer_ = observer; }  // null: nobody
+  void observe(RowObserver* observer) { observer_ = observer; }  // null: no observer
   void read_all(RowObserver& observer);                          // for this observer alone, once
   bool has_scanners() const { return has_scanners_; }            // a file says where one stood
   bool single_precision() const;                                 // x, y and z are 32-bit floats in every file
@@ -121,7 +122,7 @@ class LACUNA_API FileScan : public PointSource {
   std::vector<std::shared_ptr<const ScanArrays>> arrays_;  // one per file; null: it is one
   InputConfig config_;
   std::uint64_t memory_;
-  std::vector<FileState> states_;  // of arrays: nothing
+  std::vector<FileState> states_;  // of each file; empty for arrays
   std::vector<RowLayout> layouts_;
   std::vector<std::string> crs_, units_, formats_;
   std::vector<bool> is_geographic_;
@@ -131,7 +132,7 @@ class LACUNA_API FileScan : public PointSource {
   std::vector<std::optional<std::uint64_t>> expected_rows_;
   std::optional<std::uint64_t> expected_points_;
   std::vector<std::uint64_t> rows_read_;  // of each file, in this pass
-  // where reading stands
+  // where reading goes on
   std::size_t file_ = 0;
   std::uint64_t next_id_ = 0;
   std::unique_ptr<ScanReader> reader_;
@@ -143,7 +144,7 @@ class LACUNA_API FileScan : public PointSource {
   std::vector<Eigen::Vector3d> read_;  // positions before the filters, for the observer
 };
 
-// Throws `Error` where `file`, which is to be replaced or removed, is an input of the scan.
+// Throws `Error` if `file`, which is to be replaced or removed, is an input of the scan.
 void check_not_input(const std::filesystem::path& file, const FileScan& scan);
 
 }  // namespace lacuna::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scan moved to where it stands in the registered scan.
+// A scan moved to its place in the registered scan.
 #pragma once
 
 #include "io/rows/pose.hpp"
@@ -9,8 +9,8 @@
 
 namespace lacuna::io {
 
-// The rows of `reader` with their positions moved by the pose, and their normals turned. These are doubles
-// then; all else stays as it is.
+// Returns the rows of `reader` with their positions moved by the pose, and their normals turned. Positions
+// and normals become doubles; all else stays as it is.
 std::unique_ptr<ScanReader> posed(std::unique_ptr<ScanReader> reader, const Pose& pose);
 
 }  // namespace lacuna::io

@@ -17,8 +17,8 @@
 
 namespace lacuna::io {
 
-// Rows left out, each counted by the first of these filters that refuses it. A row that is not finite is in
-// none of them.
+// Counts the rows left out by the first filter in this order that refuses them. No filter counts a row that
+// is not finite.
 struct FilteredOut {
   std::uint64_t origin = 0;
   std::uint64_t bounds = 0;
@@ -29,20 +29,21 @@ struct FilteredOut {
   std::uint64_t total() const { return origin + bounds + boxes + classes + returns; }
 };
 
-// What the filters found, for the error where they leave no row.
+// Facts about the rows, for the error if the filters leave no row.
 struct BeforeFilters {
   Eigen::AlignedBox3d bounds;               // of all finite rows but those without a return
   std::map<double, std::uint64_t> classes;  // of the rows that reach the filter of classes; few at most
   std::uint64_t kept = 0;                   // finite rows that every filter accepts
 };
 
-// The message of an error: which filter left out how many rows, and what these are.
+// Returns the message of an error: which filter left out how many rows, and what these are.
 std::string describe_no_row_left(const InputConfig& config, const FilteredOut& filtered,
                                  const BeforeFilters& before);
 
 class RowFilter {
  public:
-  // For the rows of one file. Throws `Error` where these have no class or return, and the choice needs it.
+  // Makes the filter for the rows of one file. Throws `Error` if they have no class or return, and the choice
+  // needs it.
   RowFilter(const InputConfig& config, const std::filesystem::path& file, const ScanReader& reader);
 
   // Makes the positions of rows that do not take part NaN, and counts them.

@@ -21,7 +21,7 @@ struct ScanColumn {
   std::ptrdiff_t stride;  // bytes from row to row
 };
 
-// It does not own the columns.
+// The struct does not own the columns.
 struct ScanArrays {
   std::uint64_t rows = 0;
   std::vector<ScanColumn> columns;  // x, y and z among them

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Directions in cells: those of the six faces of a cube, with `edge` times `edge` square cells each.
+// Directions in cells: each of the six faces of a cube has `edge` times `edge` square cells.
 #pragma once
 
 #include <cstddef>

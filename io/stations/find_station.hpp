@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// find_stations: where the scanner of each sweep stood, from its points alone.
+// find_stations: finds the place of the scanner of each sweep from its points alone.
 //
 // Idea: where a scanner's rays pass an edge, the next point lies far behind it or before it. Its ray is one
 // small step of angle away. So the lines through both points of all such jumps pass near the scanner. From
@@ -39,18 +39,18 @@ class Jumps {
 };
 
 struct FoundStation {
-  // Below this share, the points are not those of one sweep in its order. Measured: docs/stations.md.
+  // Below this share, the points are not of one sweep in its order. Measured: docs/stations.md.
   static constexpr double kLeastShare = 0.15;
 
   Eigen::Vector3d place;
-  double share;  // of the jumps whose angle is that of the steps around them
+  double share;  // the share of jumps with the angle of the steps around them
 };
 
-// None where there are fewer than 100 jumps. Cost: linear in their number. The same for the same jumps:
-// places that are tried are drawn with a fixed seed.
+// Returns nothing for fewer than 100 jumps. Cost: linear in their number. The same jumps give the same
+// result: places to try are drawn with a fixed seed.
 std::optional<FoundStation> find_station(std::span<const Jump> jumps);
 
-// The points of a file, or those of it that have one number in the column `scan` or `point_source_id`.
+// The points of a file, or its points with one number in the column `scan` or `point_source_id`.
 struct Sweep {
   std::size_t file;
   std::optional<std::uint32_t> source;
@@ -58,7 +58,7 @@ struct Sweep {
   std::uint64_t points = 0;
 };
 
-// Reads the scan. In the order of files and numbers, at most kMostSweeps of them. Throws `Error`.
+// Reads the scan. Returns sweeps in the order of files and numbers, at most kMostSweeps. Throws `Error`.
 inline constexpr std::size_t kMostSweeps = 1000;
 std::vector<Sweep> read_sweeps(FileScan& scan);
 

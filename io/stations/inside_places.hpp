@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Places that stand for the inside of a hole.
+// Places that represent the inside of a hole.
 #pragma once
 
 #include "engine/model/detection.hpp"
@@ -14,14 +14,14 @@ namespace lacuna::io {
 
 struct InsidePlace {
   Eigen::Vector3d position, normal;  // the normal of length 1, on either side
-  double area;                       // that it stands for
+  double area;                       // that the place represents
 };
 
-// At least 256 places, spread evenly over the triangles of least area (io/lids/triangulate_polygon.hpp)
-// between some 64 points of the loop. The sum of their areas is that of the triangles. None where the loop
-// has no area. Cost: 0.3 ms, and reading the loop.
+// Returns at least 256 places, spread evenly over the triangles of least area
+// (io/lids/triangulate_polygon.hpp) between some 64 points of the loop. The sum of the places' areas is the
+// area of the triangles. Returns none if the loop has no area. Cost: 0.3 ms, and reading the loop.
 std::vector<InsidePlace> inside_places(const Detection& detection, std::size_t loop);
-// This one takes the points of a loop.
+// This overload takes the points of a loop.
 std::vector<InsidePlace> inside_places(std::span<const Eigen::Vector3d> loop);
 
 }  // namespace lacuna::io

@@ -25,15 +25,15 @@ class ListLines {
   // `needed`: what a line must have, for errors. Throws `Error` as InputFile does.
   ListLines(const std::filesystem::path& list, std::string_view needed) : in_(list), needed_(needed) {}
 
-  // The fields of the next line that is neither blank nor a comment nor a header; valid until the next call.
-  // None at the end.
+  // Returns the fields of the next line that is neither blank nor a comment nor a header; valid until the
+  // next call. Returns nothing at the end.
   std::optional<Fields> next();
 
-  // The names in the header, once the first line is read; empty: there is none.
+  // Returns the names in the header, once the first line is read; empty without a header.
   const std::vector<std::string>& header() const { return header_; }
-  // A finite number. Throws `Error` with the line.
+  // Reads a finite number. Throws `Error` with the line.
   double parse(std::string_view field) const;
-  // Three of them.
+  // Reads three finite numbers.
   Eigen::Vector3d parse_place(Fields xyz) const;
 
   // Throws `Error` with the last line, the reason and what is needed; without a reason, this alone.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// next_stations: where to stand next, so that most of what is hidden will be seen.
+// next_stations: chooses the next places of the scanner, which show most of the hidden area.
 //
-// Idea: each place on the floor sees a part of the hidden area. The places that together see most are chosen
-// one after the other, each with the most that those before it do not see. They reach at least 63 % of what
-// as many best places would (1 - 1/e: Nemhauser, Wolsey, Fisher, Mathematical Programming 1978).
+// Idea: from each place on the floor a part of the hidden area is visible. The function chooses places one
+// after the other, each with the most area that is not visible from the places before. They reach at least 63
+// % of the area of as many best places (1 - 1/e: Nemhauser, Wolsey, Fisher, Mathematical Programming 1978).
 #pragma once
 
 #include "io/stations/inside_places.hpp"
@@ -18,7 +18,7 @@
 
 namespace lacuna::io {
 
-// In the folder of results; an earlier one is recognised by how it begins.
+// In the folder of results; a program recognises an earlier one by how it begins.
 inline constexpr const char* kNextStationsFile = "next_stations.geojson";
 inline constexpr std::string_view kNextStationsMark =
     "{\n  \"type\": \"FeatureCollection\",\n  \"name\": \"lacuna_next_stations\"";
@@ -31,12 +31,12 @@ struct SightLimits {
 struct NextStation {
   std::size_t index = 0;  // of the eye
   Eigen::Vector3d eye;
-  double area = 0;  // that it sees, and that none before it does
+  double area = 0;  // that is visible from it, and from none before it
 };
 
-// At most `most` of the eyes, until the next one would see less than a hundredth of all hidden area. Of equal
-// ones the first counts. Cost: a ray for each eye and hidden place, in the arena of the calling thread;
-// greedy choice is linear in them for each station.
+// Returns at most `most` of the eyes. It stops when the next eye would add less than a hundredth of all
+// hidden area. Among equal eyes the first counts. Cost: a ray for each eye and hidden place, in the arena of
+// the calling thread; greedy choice is linear in them for each station.
 std::vector<NextStation> choose_stations(std::span<const InsidePlace> hidden,
                                          std::span<const Eigen::Vector3d> eyes, const Obstacles& obstacles,
                                          const SightLimits& limits, std::size_t most);
@@ -47,8 +47,8 @@ struct FloorLimits {
   double clearance = 0;  // free space around the axis of an eye
 };
 
-// Eyes over the scanned floor: level points that are the lowest near them, with free space above up to the
-// eye. In ascending y, then x. `normals`: one for each point, of any side.
+// Returns eyes over the scanned floor: level points that are the lowest near them, with free space above up
+// to the eye. They are in ascending y, then x. `normals` has one for each point, of any side.
 std::vector<Eigen::Vector3d> eyes_over_floor(std::span<const Eigen::Vector3d> points,
                                              std::span<const Eigen::Vector3f> normals,
                                              const Obstacles& obstacles, const FloorLimits& limits);

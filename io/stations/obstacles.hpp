@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the surface of a scan stands in the way of a ray: voxels with points.
+// Decides whether the surface of a scan blocks a ray, by voxels with points.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ class Obstacles {
   ~Obstacles();
 
   // Whether a voxel with points lies on the line from `eye` to `place`. The voxels around both ends do not
-  // count: those up to two voxels from the place, and one from the eye. Cost: the voxels on the line.
+  // count: up to two voxels from the place, and one from the eye. Cost: the voxels on the line.
   bool block(const Eigen::Vector3d& eye, const Eigen::Vector3d& place) const;
   bool touch(const Eigen::AlignedBox3d& box) const;  // whether a voxel in the box has points
 

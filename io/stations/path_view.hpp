@@ -2,8 +2,8 @@
 // What a moving scanner measured from each place of its path, collected while the scan is read.
 //
 // Idea: the path is cut into sections so short that all rays of a section start at one place. In the axes of
-// the path, the directions in which the scanner measures are the same everywhere. So it has sent a ray from a
-// section to a place if the direction to the place is one of these.
+// the path, the directions in which the scanner measures are the same everywhere. So the scanner has sent a
+// ray from a section to a place if the direction to the place is such a direction.
 #pragma once
 
 #include "engine/store/sorted_runs.hpp"
@@ -28,7 +28,7 @@ struct Aim {
   Eigen::Vector3d eye{0, 0, 0}, direction{0, 0, 1};
   double range = 0;     // of the place
   double measured = 0;  // range of the nearest point that takes part
-  double left_out = 0;  // likewise, of points that a filter leaves out
+  double left_out = 0;  // range of the nearest point that a filter leaves out
 };
 
 class PathView {
@@ -42,17 +42,17 @@ class PathView {
 
   void begin();  // forgets all points
   void add(double time, const Eigen::Vector3d& position, bool is_kept);
-  // Once all points are there. Throws `Error` where none has a time of the path.
+  // Call it once all points are there. Throws `Error` if no point has a time of the path.
   void complete();
 
   StationSummary summary() const;
-  // The share of points with a time of the path. Others have been measured from places that are not known.
+  // Returns the share of points with a time of the path. Other points were measured from unknown places.
   double certainty() const;
   double farthest() const { return farthest_; }
   // Sections from which a part of the box is within range. A section is a hundredth of the mean range long.
   std::vector<std::uint32_t> sections_near(const Eigen::AlignedBox3d& box, double range) const;
-  // One for each group of neighbouring sections from which the scanner may have sent a ray to the place. Of
-  // these it is the one whose nearest ray is least off the place. `sections`: in order.
+  // Returns a ray for each group of neighbouring sections from which the scanner may have sent a ray to the
+  // place. It is the ray of the section whose nearest ray is least off the place. `sections` are in order.
   std::vector<Aim> aims_at(const Eigen::Vector3d& place, std::span<const std::uint32_t> sections) const;
 
   std::uint64_t bytes() const { return entries_.get_deleter().bytes; }  // of a mapped file
@@ -80,15 +80,15 @@ class PathView {
   Trajectory path_;
   std::filesystem::path stated_, folder_;
   std::uint64_t memory_;
-  double finest_, section_;  // lengths of a section: while points come, and of those that are kept
-  double chord_;             // half of that between which the axes are taken
+  double finest_, section_;  // lengths of a section: while points come, and of the kept sections
+  double chord_;             // half of the chord between whose ends the axes are taken
   std::uint32_t last_section_ = UINT32_MAX;  // of a point, with its axes
   Eigen::Matrix3d last_axes_;
   std::optional<Rays> rays_;
   SweptDirections swept_;
   FieldOfView field_{Eigen::Vector3d::UnitZ()};
   std::uint64_t points_ = 0, placed_ = 0;  // with any time, and with one of the path
-  std::uint64_t range_sum_ = 0;            // of these, in finest sections
+  std::uint64_t range_sum_ = 0;            // of the placed points, in finest sections
   double first_time_ = 0, last_time_ = 0;  // of points
   double farthest_ = 0;
   std::vector<std::uint64_t> first_;  // entry of each section, and the number of all

@@ -11,12 +11,12 @@
 namespace lacuna::io {
 
 struct NamedPlace {
-  std::string name;  // empty: none
+  std::string name;  // empty without a name
   Eigen::Vector3d place{0, 0, 0};
 };
 
-// Reads a place from each line, in the order of the file: x y z, or a name without blanks and x y z. Lines
-// are those of io/stations/list_lines.hpp. Throws `Error`, where there is no place, too.
+// Reads a place from each line, in the order of the file: x y z, or a name without blanks and x y z. The
+// rules of lines are in io/stations/list_lines.hpp. Throws `Error`, also if there is no place.
 std::vector<NamedPlace> read_places(const std::filesystem::path& list);
 
 }  // namespace lacuna::io

@@ -22,17 +22,17 @@ class RangeImage {
   static constexpr std::size_t kCells = 6 * kEdge * kEdge;
   static constexpr std::size_t kBytes = kCells * sizeof(float);
 
-  // `folder`: for the file; empty: it is in memory. Throws `Error`.
+  // `folder` holds the file; if it is empty, the image is in memory. Throws `Error`.
   explicit RangeImage(const std::filesystem::path& folder);
 
-  // Keeps the smaller range, and returns the one before; 0: there was none. The direction need not have
+  // Keeps the smaller range, and returns the range before; 0 if there was none. The direction need not have
   // length 1, but must not be 0.
   double put(const Eigen::Vector3d& direction, double range);
-  // Empty cells at most so many cells from one with a range get that of the nearest, within their face. Of
-  // equally near ones, the first in the order of cells counts.
+  // An empty cell at most so many cells from one with a range gets the range of the nearest, within its face.
+  // Among equally near cells, the first in the order of cells counts.
   void fill(std::size_t distance);
 
-  // The range in this direction; 0: nothing came back.
+  // Returns the range in this direction; 0 if nothing came back.
   float at(const Eigen::Vector3d& direction) const { return cells()[cell_of(direction, kEdge)]; }
   std::span<const float> cells() const { return {cells_.get(), kCells}; }
   // Its pages leave memory, and come back when they are used.
@@ -45,7 +45,7 @@ class RangeImage {
   std::unique_ptr<float[], Unmap> cells_;
 };
 
-// How many cells have a range: of the image, and of ever coarser ones, each with half the edge.
+// Returns how many cells have a range: of the image, and of ever coarser ones, each with half the edge.
 inline constexpr std::size_t kCoarserImages = 7;
 std::array<std::size_t, kCoarserImages> count_filled(const RangeImage& image);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each station measured in each direction, collected while the scan is read for the run.
+// The ranges that each station measured in each direction, collected while the run reads the scan.
 #pragma once
 
 #include "engine/run/parallel.hpp"
@@ -24,12 +24,12 @@ namespace lacuna::io {
 struct StationView {
   Station station;
   std::uint64_t points = 0;     // finite ones, with those that a filter leaves out
-  std::uint64_t conflicts = 0;  // at ranges that differ by a tenth from those in their directions
+  std::uint64_t conflicts = 0;  // at ranges that differ by a tenth from others in their directions
   double farthest = 0;          // range of a point
   double step = 0;              // mean angle between rays, radians
   FieldOfView field{station.axis};
   RangeImage ranges;                   // of points that take part
-  std::optional<RangeImage> left_out;  // of points that a filter leaves out; none: there are none
+  std::optional<RangeImage> left_out;  // of points that a filter leaves out; empty if there are none
 
   // A single sweep has one range in most directions. The share of points for which this holds; below
   // `kLeastCertain` the station did not measure them.
@@ -43,7 +43,7 @@ StationSummary summary_of(const StationView& view);
 // with a viewpoint, PLY with a camera, and files with a pose. Each image is a file of 25 MiB in the folder.
 class StationViews final : public RowObserver {
  public:
-  // `stated`: that file; empty: none. `folder` is empty where files are in memory. Throws `Error`.
+  // `stated` is that file; it may be empty. `folder` is empty if files are in memory. Throws `Error`.
   StationViews(const FileScan& scan, const std::filesystem::path& stated, std::filesystem::path folder);
 
   void begin() override;
@@ -51,15 +51,15 @@ class StationViews final : public RowObserver {
             std::span<const Eigen::Vector3d> read, std::span<const Eigen::Vector3d> kept) override;
   void end() override;
 
-  // In the order of the file, or of the scans. Stations without points are left out. Reads the scan where no
-  // pass over it has ended yet. To be called once.
+  // Completes the views, in the order of the file, or of the scans. Stations without points are left out.
+  // Reads the scan if no pass over it has ended yet. Call it once.
   std::span<const StationView> complete(FileScan& scan, const TaskArena& arena);
   std::span<const StationView> views() const { return views_; }  // once complete
-  const PathView* path() const { return path_.get(); }           // null: no scanner moves
+  const PathView* path() const { return path_.get(); }           // null if no scanner moves
   // Notes that so many places of images were touched. Their pages leave memory where they may be more than
   // the scan's reader may hold.
   void note_touched(std::uint64_t places) const;
-  std::vector<StationSummary> summaries() const;  // that of a path alone, or of the views
+  std::vector<StationSummary> summaries() const;  // of a path alone, or of the views
 
  private:
   StationView* find(std::size_t file, std::uint64_t source);
@@ -81,8 +81,8 @@ class StationViews final : public RowObserver {
   std::size_t scanners_known_ = 0;  // of that file
 };
 
-// Watches the scan, if a station can be known: the config states a file, or a scan names a scanner. Valid as
-// long as the scan. Throws `Error`.
+// Observes the scan if a station can be known: the config states a file, or a scan names a scanner. The
+// result is valid as long as the scan. Throws `Error`.
 std::unique_ptr<StationViews> watch_stations(FileScan& scan, const OutputConfig& config,
                                              const std::filesystem::path& folder);
 

@@ -22,11 +22,11 @@ class Trajectory {
   double first_time() const { return times_.front(); }
   double last_time() const { return times_.back(); }
   double length() const { return lengths_.back(); }  // with the ways between parts
-  // How far along the path the scanner was; none where the path has no part at this time.
+  // Returns how far along the path the scanner was; nothing if the path has no part at this time.
   std::optional<double> length_at(double time) const;
   Eigen::Vector3d place_at(double length) const;
-  // Axes at a place of the path: forward, to the left and upwards; rows of a rotation. Forward is the
-  // direction between the places of its part that are `reach` before it and after it.
+  // Returns the axes at a place of the path: forward, to the left and upwards; they are rows of a rotation.
+  // Forward is the direction between the places of its part that are `reach` before it and after it.
   Eigen::Matrix3d axes_at(double length, double reach) const;
 
  private:
@@ -36,9 +36,9 @@ class Trajectory {
   std::vector<std::size_t> first_of_parts_;  // and the number of places
 };
 
-// A file whose first line names its columns: `time` or `gps_time`, x, y and z, and others between them. Lines
-// are those of io/stations/list_lines.hpp, in any order. None where it names no time: the file lists
-// stations. Throws `Error`.
+// Reads a file whose first line names its columns: `time` or `gps_time`, x, y and z, and others between them.
+// The rules of lines, which are in any order, are in io/stations/list_lines.hpp. Returns nothing if the file
+// names no time: then it lists stations. Throws `Error`.
 std::optional<Trajectory> read_trajectory(const std::filesystem::path& file);
 bool is_time(std::string_view column);
 
@@ -48,7 +48,7 @@ class SweptDirections {
  public:
   SweptDirections();
   void add(const Eigen::Vector3d& direction);  // not 0
-  // Those in cells of 1.8 degrees with more than a fiftieth of the directions of the fullest one.
+  // Keeps the cells of 1.8 degrees with more than a fiftieth of the directions of the fullest one.
   void finish();
   bool contains(const Eigen::Vector3d& direction) const;  // once finished
 

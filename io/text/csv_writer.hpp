@@ -18,8 +18,8 @@ class CsvWriter {
   // could be a number or a comment is put in quotes. A second equal name gets a number.
   CsvWriter(OutputFile& out, RowLayout layout);
 
-  // Rows of the layout, one after the other. Each number is the shortest text that reads back as the same
-  // value of its type; `nan` without a sign. Several threads format; the bytes do not depend on them.
+  // Writes rows of the layout, one after the other. Each number is the shortest text that reads back as the
+  // same value of its type; `nan` has no sign. Several threads format; the bytes do not depend on them.
   void put_rows(std::span<const std::byte> rows);
 
  private:

@@ -9,7 +9,7 @@
 
 namespace lacuna::io {
 
-// Two bare counts, then three numbers.
+// Whether the file begins with two bare counts, then three numbers.
 bool looks_like_ptx(const FileStart& start);
 
 // Blocks come one after the other. A block has the columns and rows of the grid, the place and axes of the

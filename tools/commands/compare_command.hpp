@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `lacuna compare`: which holes of two results are closed, new, changed or the same.
+// `lacuna compare`: finds which holes of two results are closed, new, changed or the same.
 #pragma once
 
 #include "tools/matching/compare_loops.hpp"
@@ -14,23 +14,23 @@
 
 namespace lacuna::tools {
 
-// What is compared of a result.
+// The parts of a result that are compared.
 struct ComparedResult {
   std::vector<matching::ComparedLoop> loops;
   double spacing = 0;  // median distance of neighbours
   double extent = 0;
   std::string unit;
 };
-// From an output folder of lacuna detect. Throws `Error`.
+// Reads an output folder of lacuna detect. Throws `Error`.
 ComparedResult read_result(const std::filesystem::path& folder);
 
 struct Comparison {
-  // `tolerance`: how far apart the curves of one hole may be; 0: twice the larger spacing.
+  // `tolerance` is how far apart the curves of one hole may be; 0 means twice the larger spacing.
   Comparison(ComparedResult before, ComparedResult after, double tolerance = 0);
 
-  // "2 closed, 1 new, 0 changed, 14 same; curves of one hole are at most 2 cm apart"
+  // Returns "2 closed, 1 new, 0 changed, 14 same; curves of one hole are at most 2 cm apart".
   std::string print_counts() const;
-  std::string print_table() const;  // of all but the same; empty without any
+  std::string print_table() const;  // of all but the same holes; empty without any
   nlohmann::ordered_json json() const;
 
   ComparedResult before, after;

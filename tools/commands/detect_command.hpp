@@ -16,11 +16,11 @@
 
 namespace lacuna::tools {
 
-// What the commands have in common that run the engine.
+// The options that all commands share that run the engine.
 struct RunArguments {
   explicit RunArguments(const Command& command);
 
-  // The parameters over those in `base`. Sets up the log, and warns of what has no effect.
+  // Returns the parameters over the ones in `base`. Sets up the log, and warns of parameters without effect.
   io::FilesConfig start(io::FilesConfig base = {}) const;
 
   std::unique_ptr<Progress> show_progress(const Config& config) const;
@@ -30,7 +30,7 @@ struct RunArguments {
   ParameterOptions parameters;
 };
 
-// Those that also write results.
+// The options of commands that also write results.
 struct ResultArguments : RunArguments {
   explicit ResultArguments(const Command& command);
 
@@ -41,14 +41,14 @@ struct ResultArguments : RunArguments {
 // The parameters of a run that a workspace keeps.
 io::FilesConfig config_of(const StoredRun& run, const std::filesystem::path& workspace);
 
-// The files of a run as one scan. Warns of what is odd, and refuses degrees. Throws `Error`.
+// Opens the files of a run as one scan. Warns of oddities, and refuses degrees. Throws `Error`.
 std::unique_ptr<io::FileScan> open_inputs(const std::vector<io::ScanInput>& inputs,
                                           const io::FilesConfig& config);
 
-// What a command does besides, with the workspace that this run alone uses.
+// The other work of a command, with the workspace that this run alone uses.
 struct WorkspaceSteps {
   std::function<void()> begin;       // before the run
-  std::function<std::string()> end;  // once the results are complete; returns what the summary says of it
+  std::function<std::string()> end;  // once the results are complete; returns a text for the summary
 };
 
 // Finds the holes and writes the results; returns their summary.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person reads after a run.
+// The summary that a person reads after a run.
 #pragma once
 
 #include "engine/run/disk_space.hpp"
@@ -16,16 +16,16 @@ struct RunTimes {
   double total_seconds = 0;
 };
 
-// What was found, the largest holes by area, outer curves as sums; then counts, and time per phase. `unit` is
-// the unit of the scan's coordinates, such as "m"; empty: not known.
+// Returns the findings, the largest holes by area, outer curves as sums; then counts, and time per phase.
+// `unit` is the unit of the scan's coordinates, such as "m"; empty if not known.
 std::string print_summary(const io::ExplainedDetection& detection, const io::FileScan& scan, const RunTimes& times,
                           std::string_view unit = "");
 
-// What "long" means in a scan of this extent: the power of ten nearest to a twentieth of it; 0 without an
-// extent.
+// Returns the length that is "long" in a scan of this extent: the power of ten nearest to a twentieth of it.
+// Returns 0 without an extent.
 double length_bound(double extent);
 
-// Points that do not take part, by reason: "; 12 not finite, dropped; 3 outside of the bounds".
+// Returns points that do not take part, by reason: "; 12 not finite, dropped; 3 outside of the bounds".
 std::string print_left_out(const Counts& counts, const io::FilteredOut& filtered);
 
 }  // namespace lacuna::tools

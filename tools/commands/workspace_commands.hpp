@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lacuna status and lacuna clean: what a workspace has, and its end.
+// lacuna status and lacuna clean: the content of a workspace, and its removal.
 #pragma once
 
 #include "engine/workspace/workspace_state.hpp"
@@ -8,7 +8,7 @@
 
 namespace lacuna::tools {
 
-// "level 0: 12 of 20 tiles evaluated; level 1: ..."
+// Returns "level 0: 12 of 20 tiles evaluated; level 1: ...".
 std::string print_state(const WorkspaceState& state);
 
 }  // namespace lacuna::tools

@@ -20,7 +20,7 @@ class Option;
 
 namespace lacuna::tools {
 
-// What the user has given is not possible. The program adds to the message how to get help.
+// The user has given options that are not possible. The program adds to the message how to get help.
 class WrongOption : public UsageError {
  public:
   explicit WrongOption(const std::string& reason) : UsageError(reason) {}
@@ -37,7 +37,7 @@ class Option {
   const Option& help(const std::string& text) const;     // in place of the help given before
   const Option& section(const std::string& name) const;  // of --help-all
   const Option& show_default() const;                    // the variable's value at this moment
-  // As the config file has it. An empty one is not shown.
+  // The default as the config file has it. An empty one is not shown.
   const Option& show_default(const std::string& text) const;
   const Option& excludes(const Option& other) const;
   const Option& once() const;                   // a second time is an error
@@ -45,7 +45,7 @@ class Option {
   const Option& in_groups_of(int count) const;  // several values at a time; may be given again
   const Option& rare() const;                   // only --help-all shows it
 
-  // What values must be. An error says it.
+  // These restrict the values. An error names the restriction.
   const Option& whole_number() const;  // CLI11 alone makes a number near 2^64 of -1
   const Option& whole_number(std::size_t least, std::size_t most) const;
   const Option& real_number() const;
@@ -77,7 +77,7 @@ class Command {
 
   Option option(const std::string& name) const;  // one that was added before
 
-  // One of the commands that were added to this one must follow it.
+  // The command needs one of the commands that were added to it.
   void needs_command() const;
 
   // The command does this. It may throw.
@@ -90,14 +90,14 @@ class Command {
 // A whole program with its commands.
 class CommandLine {
  public:
-  // `version`: what --version prints.
+  // `version` is the text that --version prints.
   CommandLine(const std::string& name, const std::string& help, const std::string& version);
   ~CommandLine();
 
   Command program() const;
 
   // Runs the command that the arguments name, or prints help. `help COMMAND` is the same as `COMMAND --help`.
-  // Throws `UsageError` where they are not possible, and what the command throws.
+  // Throws `UsageError` if the arguments are not possible, and any error that the command throws.
   void run(std::vector<std::string> arguments);
 
   // Whether the command that `run` began has an option of this name.

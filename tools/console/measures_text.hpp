@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counts, lengths, areas, places and tables as a person reads them. `unit` is the unit of the scan's
-// coordinates, such as "m"; empty: not known.
+// coordinates, such as "m"; empty if not known.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,15 @@ namespace lacuna::tools {
 
 std::string print_count(std::uint64_t count);  // "1,234,567"
 
-// Three digits, without an exponent from 0.001 to a million: "0.0123 m", "2.28 m", "1,234 m".
+// Prints three digits, without an exponent from 0.001 to a million: "0.0123 m", "2.28 m", "1,234 m".
 std::string print_length(double length, std::string_view unit);
 std::string print_area(double area, std::string_view unit);  // "3.97 m²"
 std::string print_share(double share);                       // "100 %" for 1
 
 std::string print_power(double power_of_ten, std::string_view unit);  // "0.1 m", "1 m", "1,000 m"
 
-// x y z, to a hundredth of the power of ten below `extent`, the size of the scan. So all places of one scan
-// have equally many decimals.
+// Prints x y z, to a hundredth of the power of ten below `extent`, the size of the scan. So all places of one
+// scan have equally many decimals.
 std::string print_place(const Eigen::Vector3d& place, double extent);
 
 // Prints rows of equally many cells; there is at least one row. Each column is as wide as its widest cell.

@@ -20,12 +20,12 @@ struct ExpectedStage {
 // The stages of a run in their order, as the config determines them.
 std::vector<ExpectedStage> expected_stages(const Config& config);
 
-// Follows a run by typical times of its stages. No clock of its own: `seconds` are those since the run began.
+// Follows a run by typical times of its stages. The class has no clock: `seconds` count from the run's begin.
 class OverallProgress {
  public:
   struct State {
     double share = 0;                    // from 0 to 1, never less than before
-    std::optional<double> seconds_left;  // 0 or more; none at the very beginning
+    std::optional<double> seconds_left;  // 0 or more; empty at the very beginning
   };
 
   explicit OverallProgress(std::vector<ExpectedStage> stages) : ahead_(std::move(stages)) {}
@@ -35,7 +35,8 @@ class OverallProgress {
   void begin(std::string_view stage, double seconds);
   void end();
 
-  // `done` of `total` of the current stage; a total of 0 is not known: then its time counts.
+  // Takes `done` of `total` of the current stage. If the total is 0, it is not known, and the stage's time
+  // counts.
   State at(double seconds, std::uint64_t done, std::uint64_t total);
 
  private:
@@ -43,7 +44,7 @@ class OverallProgress {
 
   std::vector<ExpectedStage> ahead_;
   double behind_ = 0;   // weight of the stages that have ended
-  double current_ = 0;  // weight of the current one; 0: none
+  double current_ = 0;  // weight of the current one; 0 before the first
   double begin_ = 0;    // of the current one
   double shown_ = 0;    // the largest share so far
 };

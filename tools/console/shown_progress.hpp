@@ -21,10 +21,10 @@ enum class ProgressStyle {
   kNone,
 };
 
-// A bar where stderr is a terminal, else plain lines.
+// Chooses a bar if stderr is a terminal, else plain lines.
 ProgressStyle default_progress_style();
 
-// One at a time. May be advanced from any thread.
+// Only one may exist at a time. Any thread may advance it.
 std::unique_ptr<Progress> make_progress(ProgressStyle style, std::vector<ExpectedStage> stages);
 
 struct ProgressState {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the program shows on stderr while it works: progress, the log, errors. All of it passes through one
+// The output of the program on stderr while it works: progress, the log, errors. All of it passes through one
 // place, so that a log line never tears the progress bar.
 #pragma once
 
@@ -19,7 +19,7 @@ void print_error(std::string_view reason);  // "PROGRAM: error: ..."
 void print_line(std::string_view line);     // above the bar
 void show_bar(std::string bar);             // in place of the one before
 void clear_progress();
-// The last that the program prints, if stderr takes it at once: nothing gets to the console afterwards.
+// The last line that the program prints, if stderr takes it at once: nothing gets to the console afterwards.
 void print_last_line(std::string_view line);
 void clear_progress_now();  // does not wait: leaves it where stderr takes nothing at the moment
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Names and messages come from files of others. A control character among them could move the cursor, change
-// the title or send keys: none reaches the terminal.
+// the title or send keys. So no control character reaches the terminal.
 #pragma once
 
 #include <cstdio>

@@ -34,9 +34,9 @@ struct LoopChange {
   std::optional<std::size_t> before, after;
 };
 
-// Each loop of both results is in at least one change. Those with an `after` come first, in its order, then
-// the closed ones. `tolerance`: so far apart two curves of one hole may be, as a length. The rule of a match
-// is that of `match_loops`. Loops of a hole that was parted, or of holes that were joined, are changed.
+// Each loop of both results is in at least one change. Changes with an `after` come first, in its order, then
+// the closed ones. `tolerance` is the length up to which two curves of one hole may be apart. `match_loops`
+// has the rule of a match. Loops of a hole that was parted, or of holes that were joined, are changed.
 std::vector<LoopChange> compare_loops(std::span<const ComparedLoop> before,
                                       std::span<const ComparedLoop> after, double tolerance);
 

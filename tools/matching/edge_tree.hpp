@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which line segments are near a point.
+// Finds the line segments near a point.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace lacuna::matching {
 
-// Between two places; a point is a segment from itself to itself.
+// A segment is between two places; a point is a segment from itself to itself.
 struct Segment {
   Eigen::Vector3d a, b;
   std::size_t owner = 0;  // what it is part of
@@ -17,15 +17,15 @@ struct Segment {
 
 double distance_to(const Segment& segment, const Eigen::Vector3d& point);
 
-// A tree of boxes over segments of any length, halved at the median of their middles. Built in n log n; a
-// look costs log n where few segments are near.
+// A tree of boxes over segments of any length, halved at the median of their middles. Building it costs n log
+// n; a query costs log n if few segments are near.
 class EdgeTree {
  public:
   // Segments with an end that is not finite are near nothing.
   explicit EdgeTree(std::vector<Segment> segments);
 
-  // The owners of the segments at most `radius` from the point, each once, ascending. None of a point that is
-  // not finite.
+  // Returns the owners of the segments at most `radius` from the point, each once, ascending. Returns none
+  // for a point that is not finite.
   void owners_within(const Eigen::Vector3d& point, double radius, std::vector<std::size_t>& owners) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which true loops were found, and which loops are false.
+// Decides which true loops were found, and which loops are false.
 #pragma once
 
 #include "tools/matching/true_loops.hpp"
@@ -12,8 +12,9 @@
 
 namespace lacuna::matching {
 
-// A loop lies on a true loop if `share` of its points are within the tolerance of an edge of that. It covers
-// it if `share` of its vertices are within the tolerance of an edge of the loop. It matches if both hold.
+// A loop lies on a true loop if `share` of its points are within the tolerance of an edge of the true loop.
+// It covers the true loop if `share` of the true loop's vertices are within the tolerance of an edge of the
+// loop. It matches if both hold.
 //
 // A loop that matches none may lie on all true loops that count together. Then `share` of its points are
 // within the tolerance of an edge of any. Such a loop is `joined` if it covers one of them, or lies on no
@@ -32,14 +33,15 @@ enum class EdgeDecision {
   kParted,     // matches none, but is a part of one that counts
   kStep,       // along a step of density; match_loops does not know it
   kUnsampled,  // around a place of the surface without points; match_loops does not know it
-  kFalse,      // none of these
+  kFalse,      // nothing of the above
 };
 
 struct LoopMatch {
   EdgeDecision verdict = EdgeDecision::kFalse;
   // The best of the true loops that it matches: counting before short, then by the smaller share, then by
   // both, then the first. For a joined loop it is the one of which it covers most, for a parted one the one
-  // on which most of it lies. For a false loop it is the best of all that are near. None: it is near none.
+  // on which most of it lies. For a false loop it is the best of all that are near. Empty if no true loop is
+  // near.
   std::optional<std::size_t> true_loop;
   double on_any = 0;                   // share of its points on the true loops that count
   double on = 0;                       // share of its points on that true loop
@@ -50,14 +52,14 @@ struct LoopMatch {
 
 struct TrueMatch {
   bool counts = true;
-  std::optional<std::size_t> found_by;  // the first loop that matches; none: missed
+  std::optional<std::size_t> found_by;  // the first loop that matches; empty if missed
 };
 
 struct LoopScores {
   std::size_t true_loops = 0, found = 0, missed = 0;  // of those that count
   std::size_t short_loops = 0;                        // true ones that do not
   std::size_t loops = 0, false_loops = 0, repeated = 0, joined = 0, parted = 0, steps = 0, unsampled = 0;
-  std::optional<double> recall;  // found of the true ones; none: there are none
+  std::optional<double> recall;  // share of the true ones that are found; empty without true ones
   std::optional<double>
       precision;  // neither false, joined nor parted of the loops but steps; none: there are none
 };
@@ -68,17 +70,17 @@ struct LoopAccuracy {
   LoopScores scores;
 };
 
-// Ids are places in `positions`. Loops that are all near one another cost the product of their numbers; else
-// n log n.
+// Ids are places in `positions`. Cost: n log n, but the product of the numbers of loops if all loops are near
+// one another.
 LoopAccuracy match_loops(std::span<const io::LoopIds> loops, std::span<const TrueLoop> truth,
                          std::span<const Eigen::Vector3d> positions, const MatchRule& rule);
 
 LoopScores score_loops(std::span<const LoopMatch> loops, std::span<const TrueMatch> true_loops);
 
-// Decides on false loops once more. One becomes `verdict` if `share` of its points are `at(loop, point)`,
-// both counted from 0. It becomes joined if `share` of them are there or near a true loop that counts. `at`
-// is called for false loops alone. The share of the former goes into that member of its match. Cost: n log n,
-// and that of `at`.
+// Decides on false loops once more. A loop becomes `verdict` if `share` of its points are `at(loop, point)`,
+// both counted from 0. It becomes joined if `share` of them are there or near a true loop that counts. The
+// function calls `at` for false loops alone. The share of points at `at` goes into that member of the loop's
+// match. Cost: n log n, and the calls of `at`.
 void decide_false_loops(std::span<const io::LoopIds> loops, std::span<const TrueLoop> truth,
                         std::span<const Eigen::Vector3d> positions, const MatchRule& rule,
                         EdgeDecision verdict, std::optional<double> LoopMatch::*share,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is true of a scan: the loops of its holes and outer edges.
+// The truth about a scan: the loops of its holes and outer edges.
 #pragma once
 
 #include "engine/model/loop.hpp"
@@ -17,23 +17,23 @@
 
 namespace lacuna::matching {
 
-// A place may have several points; ids here are those of the points that stand for a place (see stand_ins).
+// A place may have several points; ids here are the ids of the points that stand for a place (see stand_ins).
 struct TrueLoop {
   std::vector<std::uint64_t> vertices;              // ascending, each once
   std::vector<std::array<std::uint64_t, 2>> edges;  // in no particular order
-  std::string name;                                 // what the truth calls it; empty: nothing
+  std::string name;                                 // its name in the truth; empty if it has none
   std::optional<LoopKind> kind;                     // of loops as text; of a mesh's boundary not known
 };
 
-// For each point the lowest id among the points at exactly its coordinates (-0 is 0); a point that is not
-// finite stands for itself.
+// Returns for each point the lowest id among the points at exactly its coordinates (-0 is 0). A point that is
+// not finite gets its own id.
 std::vector<std::uint64_t> stand_ins(std::span<const Eigen::Vector3d> positions);
 
-// The closed polygons through `ids`, in their order.
+// Returns the closed polygons through `ids`, in their order.
 std::vector<TrueLoop> loops_through(std::span<const io::LoopIds> ids,
                                     std::span<const std::uint64_t> stand_ins);
 
-// All edges of the loops; their owners are places in `truth`.
+// Holds all edges of the loops; their owners are places in `truth`.
 EdgeTree tree_of_truth(std::span<const TrueLoop> truth, std::span<const Eigen::Vector3d> positions);
 
 }  // namespace lacuna::matching

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many points of a file are of each class and kind of return.
+// Counts the points of a file by class and kind of return.
 #pragma once
 
 #include "io/rows/scan_reader.hpp"
@@ -13,7 +13,7 @@ namespace lacuna::tools {
 
 struct AttributeCounts {
   std::uint64_t rows = 0;
-  std::map<int, std::uint64_t> classes;  // empty: the file has no property classification
+  std::map<int, std::uint64_t> classes;  // empty if the file has no property classification
   bool has_returns = false;
   std::uint64_t only = 0, first = 0, later = 0;  // of pulses with one return, and of those with several
 };
@@ -21,10 +21,10 @@ struct AttributeCounts {
 // Reads the file to its end, `rows_at_a_time`. Throws `Error`.
 AttributeCounts count_attributes(io::ScanReader& reader, std::size_t rows_at_a_time);
 
-// "2 ground 83,412 · 5 high vegetation 20,110", by class; names of ASPRS LAS 1.4 R15, table 17.
+// Returns "2 ground 83,412 · 5 high vegetation 20,110", by class; names of ASPRS LAS 1.4 R15, table 17.
 std::string print_classes(const AttributeCounts& counts);
 
-// "70,123 only, 20,000 first of several, 19,877 later"
+// Returns "70,123 only, 20,000 first of several, 19,877 later".
 std::string print_returns(const AttributeCounts& counts);
 
 }  // namespace lacuna::tools

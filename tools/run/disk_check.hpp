@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether the disks hold what a run writes, before it runs.
+// Checks before a run whether the disks hold its files.
 #pragma once
 
 #include "io/options/options.hpp"
@@ -17,10 +17,10 @@ namespace lacuna::tools {
 using FindDisk = std::function<std::optional<Disk>(const std::filesystem::path& folder)>;
 
 // Knows the headers of the scan and the options. Returns one line for each disk that is probably too small
-// for the workspace, the results, or both. Throws `Error` for one that clearly is. It has less than half of
-// what the table names, or less than an annotated scan of known size. Where points may be left out by a
-// filter or a resolution, only the annotated scan is certain. Throws `Error`, too, where memory can never
-// suffice. Both folders exist.
+// for the workspace, the results, or both. Throws `Error` for a disk that clearly is too small. Such a disk
+// has less than half of the table's sum, or less than an annotated scan of known size. If a filter or a
+// resolution may leave points out, only the annotated scan is certain. Throws `Error`, too, if memory can
+// never suffice. Both folders exist.
 std::vector<std::string> check_disks(const io::FileScan& scan, const io::FilesConfig& config,
                                      const std::filesystem::path& workspace, const std::filesystem::path& out,
                                      const FindDisk& find_disk = disk_of);

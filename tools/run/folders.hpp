@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The folders that the user names: made if missing, and locked.
+// The folders that the user names. The program makes missing ones, and locks them.
 #pragma once
 
 #include "engine/config/config.hpp"
@@ -9,8 +9,8 @@
 
 namespace lacuna::tools {
 
-// A folder that exists afterwards, with its parents. Those that it made and that are still empty at the end
-// are removed, so that a failed run leaves nothing behind.
+// A folder that exists afterwards, with its parents. At the end it removes the folders that it made and that
+// are still empty, so that a failed run leaves nothing behind.
 class MadeFolder {
  public:
   // Throws `Error` if the path is no folder, cannot be made or cannot be written to.
@@ -19,7 +19,7 @@ class MadeFolder {
   MadeFolder(const MadeFolder&) = delete;
   MadeFolder& operator=(const MadeFolder&) = delete;
 
-  // As named, but of a/../b only b: no `a` is made on the way.
+  // Returns the folder as named, but of a/../b only b, so that no `a` is made on the way.
   const std::filesystem::path& path() const { return folder_; }
 
   void remove_empty() const;  // the folders that it made, innermost first, up to one that holds something
@@ -29,16 +29,17 @@ class MadeFolder {
   std::vector<std::filesystem::path> made_;  // innermost first
 };
 
-// For temporary files of commands without a folder of results: as the config says, else the system's.
+// Returns the folder for temporary files of commands without a folder of results: the config's, else the
+// system's.
 std::filesystem::path scratch_folder(const RunConfig& run);
 
 // For the thread that handles signals: removes the folders of all living MadeFolders that are empty. No
 // folder can be made afterwards: a thread that tries stops there, as the process is about to end.
 void remove_made_folders();
 
-// Keeps other runs from writing to an existing folder, as long as it lives. The lock goes with the process,
-// however that ends. Throws `Error` if another run has it, or if it cannot be had. A file system that knows
-// no locks is a warning.
+// Keeps other runs from writing to an existing folder, as long as the lock lives. The lock goes with the
+// process, however that ends. Throws `Error` if another run has the lock, or if it cannot be had. On a file
+// system that knows no locks, the log has a warning.
 class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& folder);

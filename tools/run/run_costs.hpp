@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run takes of the disk and of time, from its points and its options alone.
+// Disk space and time of a run, from its points and its options alone.
 #pragma once
 
 #include "engine/config/config.hpp"
@@ -14,8 +14,8 @@ struct RunCosts {
   double seconds = 0;      // on a machine that does nothing else
 };
 
-// `rows`: of the input. `points`: those that take part; fewer than the rows where a scan is thinned or
-// filtered. Each is a number of points times the rates of the table in run_costs.cpp.
+// `rows` are the input's. `points` take part; they are fewer than the rows if a scan is thinned or filtered.
+// Each cost is a number of points times the rates of the table in run_costs.cpp.
 RunCosts run_costs(const io::FileScan& scan, const Config& config, std::uint64_t rows, std::uint64_t points);
 
 }  // namespace lacuna::tools

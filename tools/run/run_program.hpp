@@ -8,9 +8,9 @@ namespace lacuna::tools {
 
 class CommandLine;
 
-// Runs the command that the arguments name. `name`: of the program, before each line on stderr.
-// Returns the exit code. 0: done; 1: failed, one line on stderr; 2: wrong usage, one line on stderr. A signal
-// n ends the process with the exit code 128 + n.
+// Runs the command that the arguments name. `name` is the program's, before each line on stderr. Returns the
+// exit code. 0: done; 1: failed, one line on stderr; 2: wrong usage, one line on stderr. A signal n ends the
+// process with the exit code 128 + n.
 int run_program(const std::string& name, CommandLine& line, int argc, char** argv);
 
 }  // namespace lacuna::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ctrl-C and kill: the program ends at once, but not before what it keeps on disk meanwhile is gone.
+// Ctrl-C and kill: the program ends at once, after it has removed its temporary files from the disk.
 #pragma once
 
 #include <filesystem>
@@ -19,12 +19,12 @@ void handle_signals();
 // was".
 void watch_results(const std::filesystem::path& folder, const std::filesystem::path& report);
 
-// What is done is kept in this folder, and the line about a signal says so.
+// This folder keeps finished work, and the line about a signal says so.
 void watch_workspace(const std::filesystem::path& folder);
 
-// The results have replaced what was in the folder of watch_results.
+// The results have replaced the files in the folder of watch_results.
 void note_complete_results();
-// For the line of an error that comes later: "; the results in DIR are complete"; empty before.
+// Returns a text for the line of a later error: "; the results in DIR are complete"; empty before.
 std::string complete_results();
 
 // Does not return if a signal is ending the program: what fails meanwhile fails because of it.
