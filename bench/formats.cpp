@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fast each format is read from the page cache, as the engine reads it: positions, in batches. Counters:
-// points and bytes of the file per second. `lacuna_formats write FOLDER POINTS` writes one file in each
-// format instead, for whole runs.
+// Measures how fast each format is read from the page cache, as the engine reads it: positions, in batches.
+// Counters are points and bytes of the file per second. `lacuna_formats write FOLDER POINTS` writes one file
+// in each format instead, for whole runs.
 #include "bench/sample.hpp"
 #include "bench/scan_files.hpp"
 #include "engine/store/temporary_folder.hpp"
@@ -67,7 +67,7 @@ void register_formats() {
   }
 }
 
-// A format's name, as part of a file name: "LAZ 1.4, format 7" is laz-1.4-format-7.
+// Returns a format's name as part of a file name: "LAZ 1.4, format 7" becomes laz-1.4-format-7.
 std::string file_name(const SampleFormat& format) {
   std::string name;
   for (const char c : std::string_view(format.name)) {

@@ -20,7 +20,7 @@ constexpr double kJitter = 0.25;         // of the spacing
 constexpr std::uint32_t kHoleCell = 64;  // nodes
 constexpr double kLeastHole = 4, kMostHole = 12;
 
-// One hole somewhere in each cell of nodes, wholly inside it.
+// Places one hole somewhere in each cell of nodes, wholly inside it.
 bool in_hole(std::uint32_t row, std::uint32_t column) {
   const synth::Random random(kSeed, 1);
   const std::uint64_t cell = std::uint64_t{row / kHoleCell} << 32 | column / kHoleCell;

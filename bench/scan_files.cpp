@@ -111,7 +111,7 @@ void write_obj(const PointBatch& sample, const std::filesystem::path& file) {
   write_file(file, text_rows(sample, "v ", "\n"));
 }
 
-// Triangles of each point, the next and the one after it; the reader takes each corner once a triangle.
+// Each point has a triangle with the next two points; the reader takes each corner once a triangle.
 void write_stl(const PointBatch& sample, const std::filesystem::path& file) {
   const std::size_t triangles = sample.size() / 3;
   std::string bytes(80, ' ');
@@ -164,7 +164,7 @@ void write_e57(const PointBatch& sample, const std::filesystem::path& file) {
 
 // ---- LAS and LAZ
 
-// Steps of a fiftieth of the typical distance between points, as 1 mm is of 5 cm.
+// Steps are a fiftieth of the typical distance between points, as 1 mm is of 5 cm.
 double las_scale(const PointBatch& sample) {
   Eigen::AlignedBox3d box;
   for (const Vector3d& p : sample.positions) box.extend(p);

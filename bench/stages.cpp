@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each stage costs per point, alone, on one thread, on one tile of 65,536 points: 15 neighbours, every
-// other parameter at its default. Counter `per_point` is the time per point of the tile, comparable between
-// stages and with a whole run. Counters of other names are per thing that the stage goes through.
+// Measures the cost of each stage per point, alone, on one thread, on one tile of 65,536 points. There are 15
+// neighbours, and every other parameter is at its default. Counter `per_point` is the time per point of the
+// tile, comparable between stages and with a whole run. Counters of other names are per item that the stage
+// goes through.
 #include "bench/sample.hpp"
 #include "bench/synth/ply_output.hpp"
 #include "bench/synth/random.hpp"
@@ -157,7 +158,7 @@ std::vector<Loop> loops() {
 
 // ---- from the input to the tile
 
-// A file of 16 samples, so that opening it does not count.
+// A file of 16 samples, so that the time to open it does not count.
 class SampleFile {
  public:
   SampleFile()
@@ -200,8 +201,8 @@ void read_ply(benchmark::State& state) {
 }
 BENCHMARK(read_ply);
 
-// 16 tiles' points, in batches of one: the first batch chooses the cell size, which costs more than counting
-// it.
+// Counts the points of 16 tiles, in batches of one tile. The first batch chooses the cell size, which costs
+// more than counting it.
 void survey(benchmark::State& state, SampleOrder order) {
   const PointBatch scan = sample_surface(16 * kPoints, order);
   std::vector<PointBatch> batches;
@@ -348,7 +349,7 @@ struct NoisySample {
   Neighbourhoods rows;
   std::vector<Evaluation> evaluations;
   std::vector<LocalIndex> seeds;
-  std::vector<std::uint8_t> is_border;  // none
+  std::vector<std::uint8_t> is_border;  // no point is on a border
 };
 
 void find_stars(benchmark::State& state, double noise) {

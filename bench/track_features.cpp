@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the confidence of every loop is computed from, at every level of one scan, with default parameters. Of
-// two files for bench/accuracy/calibrate.py, one has the loops as `lacuna-bench evaluate` reads them. The
-// other has their numbers, in the same order.
+// Writes the values from which the confidence of every loop is computed, at every level of one scan, with
+// default parameters. It writes two files for bench/accuracy/calibrate.py. One has the loops as `lacuna-bench
+// evaluate` reads them. The other has their numbers, in the same order.
 #include "engine/boundary/tangential/tangential_boundary.hpp"
 #include "engine/config/config.hpp"
 #include "engine/pipeline_steps.hpp"
@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As engine/pipeline.cpp finds them, from fine to coarse.
+// Returns the levels as engine/pipeline.cpp finds them, from fine to coarse.
 std::vector<LevelLoops> find_all_loops(PointSource& scan, Job& job) {
   std::optional<Level> level = first_level(scan, {}, job);
   std::vector<LevelLoops> levels;

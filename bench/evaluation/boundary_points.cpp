@@ -29,7 +29,7 @@ EdgeTree tree_of_points(const Ids& ids, Positions positions) {
   return EdgeTree(std::move(points));
 }
 
-// How many of `ids` are within the radius of what is in the tree.
+// Returns how many of `ids` are within the radius of the segments in the tree.
 std::size_t count_near(const Ids& ids, const EdgeTree& tree, Positions positions, double radius) {
   std::size_t near = 0;
   std::vector<std::size_t> found;

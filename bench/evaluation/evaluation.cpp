@@ -101,7 +101,7 @@ void check_ids(const fs::path& file, std::span<const std::uint64_t> ids, const T
   }
 }
 
-// Distinct finite ones; of a mesh, those in its faces.
+// Returns distinct finite points; for a mesh, the points in its faces.
 std::vector<Eigen::Vector3d> points_of(const Truth& truth, const std::vector<bool>& takes_part) {
   std::vector<Eigen::Vector3d> points;
   for (std::size_t id = 0; id < truth.positions.size(); ++id) {
@@ -137,10 +137,10 @@ void take_loops(std::vector<NamedLoopIds> named, Truth& truth) {
   }
 }
 
-// False loops around unsampled places of the surface become unsampled. Those along true loops as well become
-// joined.
+// False loops around unsampled places of the surface become unsampled. If they run along true loops as well,
+// they become joined.
 void mark_unsampled(const Result& result, const Truth& truth, const MatchRule& rule, LoopAccuracy& accuracy) {
-  std::vector<LoopIds> loops = result.loops;  // those that are not false: without points
+  std::vector<LoopIds> loops = result.loops;  // empty unless the loop is false
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (accuracy.loops[i].verdict != EdgeDecision::kFalse) loops[i].clear();
   }

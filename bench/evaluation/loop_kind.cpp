@@ -8,7 +8,7 @@ using namespace io;
 
 namespace {
 
-constexpr std::size_t kNeighbours = 15;  // as `detect` takes them
+constexpr std::size_t kNeighbours = 15;  // as in `detect`
 
 Eigen::Vector3d towards_surface(const Eigen::Vector3d& place, std::span<const Eigen::Vector3d> points,
                                 const PointTree& tree) {

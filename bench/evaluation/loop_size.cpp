@@ -20,8 +20,8 @@ Eigen::Vector3d mean_of(std::span<const std::uint64_t> ids, std::span<const Eige
 
 LoopSize size_of(const TrueLoop& loop, std::span<const Eigen::Vector3d> positions) {
   LoopSize size;
-  Loop along;  // both ends of each edge: edges that follow each other are near each other, which diameter
-               // likes
+  Loop along;  // both ends of each edge: edges that follow each other are near each other, and diameter is
+               // then fast
   for (const auto& [a, b] : loop.edges) {
     size.perimeter += (positions[a] - positions[b]).norm();
     along.push_back({.position = positions[a]});

@@ -45,13 +45,13 @@ std::vector<HalfEdge> edges_on_one_triangle(std::span<const Triangle> triangles,
   return once;
 }
 
-// Twice the area, along the normal.
+// Returns twice the area, along the normal.
 Eigen::Vector3d normal_of(const HalfEdge& edge, Positions positions) {
   const Eigen::Vector3d& p = positions[edge.from];
   return (positions[edge.to] - p).cross(positions[edge.apex] - p);
 }
 
-// The turn about the axis, counterclockwise from its tip: above 0, up to a whole one.
+// Returns the turn about the axis, counterclockwise from its tip: above 0, up to a whole one.
 double turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Eigen::Vector3d& axis) {
   const Eigen::Vector3d y = axis.cross(from), x = y.cross(axis);
   const double angle = std::atan2(to.dot(y) * axis.norm(), to.dot(x));
@@ -104,7 +104,7 @@ class BoundaryCurves {
     return positions_[edges_[edge].end_beside(vertex)] - positions_[vertex];
   }
 
-  // Where the curve goes on from the vertex that it reached on `last`; none: it ends.
+  // Returns where the curve goes on from the vertex that it reached on `last`; empty if it ends.
   std::optional<std::size_t> edge_after(std::size_t last, std::uint64_t vertex) const {
     std::vector<std::size_t> next = unused_at(vertex);
     const bool leaving = !leaves(last, vertex);
@@ -123,7 +123,7 @@ class BoundaryCurves {
                              [&](std::size_t a, std::size_t b) { return turn(a) < turn(b); });
   }
 
-  // A curve until it closes or ends, and every part of it that closes before.
+  // Follows a curve until it closes or ends, and makes a loop of every part that closes before.
   void walk(std::uint64_t start) {
     const std::vector<std::size_t> first = unused_at(start);
     const auto leaving =

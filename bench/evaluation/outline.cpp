@@ -26,7 +26,7 @@ Outline::Outline(std::span<const Eigen::Vector3d> polygon) {
     highest_ = std::max(highest_, corners_[i].y());
     climb += std::abs(corners_[i].y() - project(polygon[(i + 1) % n]).y());
   }
-  // As many strips as there are edges, unless a polygon that goes up and down would be in too many.
+  // There are as many strips as edges, unless a polygon that goes up and down would be in too many strips.
   height_ = std::max(highest_ - lowest_, climb / 4) / static_cast<double>(n);
   if (!(height_ > 0)) return;
   strips_.resize(strip_of(highest_) + 1);

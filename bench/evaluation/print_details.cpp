@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All that `lacuna-bench evaluate` knows, as tables.
+// All scores of `lacuna-bench evaluate`, as tables.
 #include "bench/evaluation/decision_names.hpp"
 #include "bench/evaluation/print.hpp"
 #include "tools/console/measures_text.hpp"

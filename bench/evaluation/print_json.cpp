@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `lacuna-bench evaluate --json` prints.
+// The output of `lacuna-bench evaluate --json`.
 #include "bench/evaluation/decision_names.hpp"
 #include "bench/evaluation/loop_size.hpp"
 #include "bench/evaluation/print.hpp"

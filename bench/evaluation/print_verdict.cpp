@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first that `lacuna-bench evaluate` prints.
+// The first lines of the output of `lacuna-bench evaluate`.
 #include "bench/evaluation/loop_size.hpp"
 #include "bench/evaluation/print.hpp"
 #include "engine/model/loop.hpp"
@@ -111,7 +111,7 @@ std::vector<std::string> row_of(const std::string& what, const LoopSize& size, s
           verdict};
 }
 
-// Large ones first; of those beyond the table, the number and how many of them are missed.
+// Prints large loops first. For loops beyond the table, it prints their number and how many are missed.
 std::string print_true_loops(const EvaluationText& text, std::vector<std::size_t> loops, const char* title,
                              double extent) {
   const Truth& truth = text.truth;
@@ -168,7 +168,7 @@ const char* describe(EdgeDecision verdict) {
   }
 }
 
-// Loops that match no true loop: the large ones first.
+// Prints loops that match no true loop, the large ones first.
 std::string print_others(const EvaluationText& text, double extent) {
   const std::vector<LoopMatch>& matches = text.evaluation.loops.loops;
   std::vector<std::size_t> loops;

@@ -10,7 +10,7 @@ namespace lacuna::evaluation {
 namespace {
 
 constexpr std::size_t kNeighbours = 4;
-constexpr std::size_t kMostTaken = 1 << 17;  // more hardly move a median, and each takes microseconds
+constexpr std::size_t kMostTaken = 1 << 17;  // more points hardly move a median, and each takes microseconds
 
 }  // namespace
 

@@ -54,7 +54,7 @@ struct EmptyPlace {
   double radius;
 };
 
-// Those of at least the least radius, within `reach` of a loop's point, and perhaps others.
+// Returns the places of at least the least radius, within `reach` of a loop's point, and perhaps others.
 std::vector<EmptyPlace> empty_places(const Surface& surface, const PointTree& scan, double spacing,
                                      const PointTree& near, double reach) {
   std::vector<EmptyPlace> places;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boundary points as Open3D finds them, by its tensor interface on the CPU. Normals come from the nearest
+// Finds boundary points with Open3D, by its tensor interface on the CPU. Normals come from the nearest
 // neighbours. ComputeBoundaryPoints then takes a radius, and uses the nearest neighbours within it. The
-// radius is the median distance of the last of those neighbours, so that half of the points have them all.
-// Finding it is not timed.
+// radius is the median distance of the last neighbour, so that half of the points have all of their
+// neighbours. Finding the radius is not timed.
 #include "bench/peers/peer.hpp"
 #include "bench/peers/read_ply.hpp"
 

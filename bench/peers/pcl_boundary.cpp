@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boundary points as the Point Cloud Library finds them: normals on all threads, then BoundaryEstimation,
-// which knows one thread only. One tree serves both. PCL counts a point among its own neighbours.
+// Finds boundary points with the Point Cloud Library: normals on all threads, then BoundaryEstimation, which
+// runs on one thread only. One tree serves both. PCL counts a point among its own neighbours.
 #include "bench/peers/pcl_steps.hpp"
 #include "bench/peers/peer.hpp"
 

@@ -17,7 +17,7 @@ struct Arguments {
   int neighbours = 15;
 };
 
-// Returns the seconds since the last call, or since the object was made.
+// Measures the seconds since the last call, or since the object was made.
 class Clock {
  public:
   double lap() {

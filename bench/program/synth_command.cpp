@@ -21,7 +21,7 @@ namespace {
 
 using namespace synth;
 
-// A value by its name.
+// Returns a value by its name.
 template <class T>
 struct Choice {
   std::string_view name;
@@ -68,7 +68,7 @@ struct Arguments {
   }
 };
 
-// What both kinds of scan have.
+// The options that both kinds of scan have.
 template <class Options>
 void add_common(const Command& app, Arguments<Options>& arguments) {
   Options& options = arguments.options;

@@ -46,7 +46,7 @@ bool is_near_water(const Terrain& ground, double x, double y, double reach) {
   return ground.is_water(x, y);
 }
 
-// On three plots of four, away from water: most with a pitched roof.
+// Builds houses on three plots of four, away from water. Most have a pitched roof.
 void add_houses(Scene& scene, const Terrain& ground, std::uint64_t seed) {
   const Random random(seed, kHouses);
   std::uint64_t draw = 0;

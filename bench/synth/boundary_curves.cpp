@@ -31,7 +31,7 @@ double length_of(const Curve& piece) {
   return length;
 }
 
-// The curves of all patches, one after the other.
+// Holds the curves of all patches, one after the other.
 struct PatchCurves {
   std::vector<Curve> curves;
   std::vector<std::size_t> patches;  // of each curve
@@ -48,7 +48,7 @@ PatchCurves trace(const std::vector<Lattice>& lattices, const Visibility& visibi
   return all;
 }
 
-// Whether the surface goes on, on another patch, at each place of each curve, in order.
+// Returns whether the surface goes on, on another patch, at each place of each curve, in order.
 std::vector<bool> junctions(const PatchCurves& all, const std::vector<Lattice>& lattices,
                             const Visibility& visibility) {
   const Junctions patches(lattices, visibility);
@@ -59,7 +59,7 @@ std::vector<bool> junctions(const PatchCurves& all, const std::vector<Lattice>& 
   return joined;
 }
 
-// What is left of a curve without its junctions: itself, or pieces with ends.
+// Cuts out the parts of a curve outside of its junctions: the curve itself, or pieces with ends.
 void cut(const Curve& curve, const std::vector<bool>& joined, std::size_t offset, std::vector<Curve>& closed,
          std::vector<Curve>& pieces) {
   const auto begin = joined.begin() + static_cast<std::ptrdiff_t>(offset);
@@ -89,7 +89,7 @@ const CurvePlace& end_of(const std::vector<Curve>& pieces, std::size_t end) {
 
 constexpr auto kNone = std::numeric_limits<std::size_t>::max();
 
-// The end that each end is joined to, if any.
+// Returns the end that each end is joined to, if any.
 std::vector<std::size_t> partners(const std::vector<Curve>& pieces) {
   std::vector<double> lengths;
   for (const Curve& piece : pieces) lengths.push_back(length_of(piece));
@@ -112,7 +112,7 @@ std::vector<std::size_t> partners(const std::vector<Curve>& pieces) {
   return partner;
 }
 
-// The first end of a row of joined pieces: the one without a partner, or this one of a ring.
+// Returns the first end of a sequence of joined pieces: the one without a partner, or this one in a ring.
 std::size_t start_of(std::size_t end, const std::vector<std::size_t>& partner) {
   for (std::size_t at = end; partner[at] != kNone;) {
     at = partner[at] ^ 1;

@@ -20,7 +20,7 @@ Lattice sampled_by(const Lattice& lattice, std::size_t station, std::size_t stat
   return own;
 }
 
-// The pieces of a closed curve in which this holds.
+// Returns the pieces of a closed curve in which this holds.
 template <typename Holds>
 void cut(const Curve& curve, const Holds& holds, std::vector<Curve>& pieces) {
   std::vector<bool> kept;

@@ -74,8 +74,7 @@ HoleField::HoleField(const SurfaceGrid& grid, const SurfaceOptions& options) : g
   }
 }
 
-// A hole is far from the edges of its cell, so it does not matter which of two cells a place between them
-// has.
+// A hole is far from the edges of its cell. So either of two cells may have a place between them.
 bool HoleField::takes(double row, double column) const {
   const std::uint32_t down = static_cast<std::uint32_t>(std::max(row, 0.0)) / cell_rows_;
   const auto from_left = static_cast<std::uint32_t>(std::max(column, 0.0));
@@ -97,7 +96,7 @@ Outline HoleField::outline(std::size_t hole) const {
           }};
 }
 
-// From a node of the loop along its boundary edges, never back, until it is reached again.
+// Walks from a node of the loop along its boundary edges, never back, until it reaches the node again.
 NumberLoop HoleField::trace(const Ellipse& hole) const {
   struct Step {
     int row, column;

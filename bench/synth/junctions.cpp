@@ -10,7 +10,7 @@ namespace lacuna::synth {
 
 namespace {
 
-constexpr double kAbove = 5e-4;     // metres: what touches the surface there does not hide the place
+constexpr double kAbove = 5e-4;     // metres: a surface that touches there does not hide the place
 constexpr double kTouching = 1e-3;  // metres
 constexpr double kTouchingSteps =
     1.0 / 64;                // and steps of the lattice, since places on curves are that precise
@@ -26,7 +26,8 @@ double distance(const Patch& patch, double u, double v, Vec3 place) {
   return std::sqrt(dot(arm, arm));
 }
 
-// The nearest place of the patch, by compass search: it needs no derivatives, which a disc's corners lack.
+// Finds the nearest place of the patch by compass search. It needs no derivatives, which a disc's corners
+// lack.
 Foot foot_on(const Patch& patch, Vec3 place) {
   constexpr double kSmallest = 1e-5;  // of the patch
   Foot best{0.5, 0.5, distance(patch, 0.5, 0.5, place)};

@@ -49,7 +49,7 @@ class Tracer {
  private:
   bool is_sampled(Node node) const { return lattice_.is_sampled(node.column, node.row); }
 
-  // Where only opposite corners are sampled, they belong together.
+  // If only opposite corners are sampled, they belong together.
   void cross_square(Node low) {
     const Node right{low.column + 1, low.row}, up{low.column, low.row + 1}, far{low.column + 1, low.row + 1};
     const bool a = is_sampled(low), b = is_sampled(right), c = is_sampled(far), d = is_sampled(up);

@@ -12,7 +12,7 @@ namespace {
 constexpr double kInset = 1e-4;  // metres
 constexpr Vec3 kUp{0, 0, 1};
 
-// From [0, 1] to the inside of [-half, half].
+// Maps [0, 1] to the inside of [-half, half].
 double across(double share, double half) {
   return (2 * share - 1) * (half - kInset);
 }
@@ -45,7 +45,7 @@ void add_patches(const Box& box, std::uint32_t shape, std::vector<Patch>& patche
   }
 }
 
-// The faces of a cube, blown up.
+// Adds the faces of a cube that is blown up to a sphere.
 void add_patches(const Ball& ball, std::uint32_t shape, std::vector<Patch>& patches) {
   constexpr Vec3 kAxes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const double size = 0.25 * kTwoPi * ball.radius;
@@ -84,8 +84,8 @@ void add_patches(const Column& column, std::uint32_t shape, std::vector<Patch>& 
                      }});
 }
 
-// A part of a cylinder's inside or outside, `turns` of it from `first` on. `side` and `up` are at right
-// angles to its axis and to each other.
+// A part of a cylinder's inside or outside, `turns` of it from `first` on. `side` and `up` are at
+// right angles to its axis and to each other.
 struct Arc {
   Vec3 start, along;
   double length, radius;

@@ -49,7 +49,7 @@ class Permutation {
   std::array<std::uint64_t, 6> keys_{};
 };
 
-// Returns the order in which points are written.
+// The order in which points are written.
 enum class Order { kScanline, kRandom };
 
 }  // namespace lacuna::synth

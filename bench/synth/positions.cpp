@@ -9,7 +9,7 @@ namespace lacuna::synth {
 
 namespace {
 
-// One point near each node that no hole takes. The number of a point is that of its node.
+// There is one point near each node that no hole takes. A point has the number of its node.
 class JitteredPositions : public Positions {
  public:
   JitteredPositions(const SurfaceGrid& grid, const HoleField& holes, const SurfaceOptions& options)

@@ -39,7 +39,7 @@ void for_each_node(const Lattice& lattice, const Use& use) {
       use(column, row, lattice.node(column, row));
 }
 
-// Does the node have a neighbour of which this does not hold, or none?
+// Whether the node has a neighbour that fails the test, or lacks one.
 template <typename Holds>
 bool is_border(const Lattice& lattice, std::int32_t column, std::int32_t row, const Holds& holds) {
   return std::any_of(kBeside.begin(), kBeside.end(), [&](const auto& beside) {
@@ -54,7 +54,7 @@ struct SampledBorder {
   std::vector<SurfacePlace> places;
 };
 
-// The side of a two-sided patch is that of the first station that samples it.
+// Returns the side of a two-sided patch on which the first station that samples it lies.
 SurfacePlace with_side(SurfacePlace place, const Visibility& visibility) {
   if (!place.two_sided) return place;
   if (const std::optional<Vec3> normal = visibility.facing(place)) {
@@ -81,7 +81,7 @@ bool on_one_side(const SurfacePlace& a, const SurfacePlace& b) {
   return a.two_sided || b.two_sided || dot(a.normal, b.normal) > kFarSide;
 }
 
-// The smallest radius of the spheres around each node that is not sampled; 0 at the cores of holes.
+// Returns the smallest radius of the spheres around each node that is not sampled; 0 at the cores of holes.
 std::vector<std::vector<float>> radii_around(const std::vector<Lattice>& lattices, SampledBorder border) {
   const std::vector<SurfacePlace> places = std::move(border.places);
   const SphereIndex index(std::move(border.spheres));
@@ -101,7 +101,7 @@ std::vector<std::vector<float>> radii_around(const std::vector<Lattice>& lattice
   return radii;
 }
 
-// Around the outermost nodes of the cores, the parts of holes that the cores do not reach.
+// Adds the parts of holes that the cores do not reach, around the outermost nodes of the cores.
 SphereIndex rounds_of(const std::vector<Lattice>& lattices, const std::vector<std::vector<float>>& radii) {
   std::vector<Sphere> rounds;
   for (std::size_t i = 0; i < lattices.size(); ++i) {

@@ -55,7 +55,7 @@ void append_place(std::string& line, Vec3 place, const ScanOptions& options) {
   }
 }
 
-// As `--stations` of lacuna detect reads it.
+// Writes places as `--stations` of lacuna detect reads them.
 void write_stations(const Scanner& scanner, const ScanOptions& options, OutputFile& file) {
   file.write(kStationsMark);
   for (std::size_t i = 0; i < scanner.stations().size(); ++i) {

@@ -37,8 +37,9 @@ void for_each_side(const Curve& curve, const Use& use) {
   }
 }
 
-// The causes of a fifth of the curve or more, most first; edges only if there is no other. Things of one name
-// are named once. Empty if a fifth of the curve runs through gaps that are too narrow for a hole.
+// Returns the causes of a fifth of the curve or more, the largest share first; edges only if there is no
+// other cause. Things of one name are named once. Empty if a fifth of the curve runs through gaps that are
+// too narrow for a hole.
 std::string name_of(const Curve& curve, const Scene& scene) {
   std::map<std::string, double> edges, others;
   double whole = 0, caused = 0;
@@ -87,7 +88,7 @@ ScanTruth::ScanTruth(const Scanner& scanner, std::uint64_t points) : index_({}) 
   index_ = SphereIndex(std::move(spheres));
 }
 
-// One sphere per place. Places are a step apart at most, but for long ways. A step is not closed.
+// There is one sphere per place. Places are a step apart at most, but for long ways. A step is not closed.
 void ScanTruth::add(const Curve& curve, double least_step, std::string name, std::vector<Sphere>& spheres) {
   const std::size_t begin = places_.size();
   const auto add_place = [&](Vec3 position, const CurvePlace& near) {
@@ -120,7 +121,7 @@ void ScanTruth::note(const Echo& echo, std::uint64_t ray, std::uint64_t id) {
   });
 }
 
-// The points nearest to the places of a row, those in turn that differ; none where points are rare.
+// Returns the points nearest to the places in turn, without repetition; none if points are rare.
 std::vector<std::uint64_t> ScanTruth::ids_along(const Row& row) const {
   std::vector<std::uint64_t> ids;
   std::size_t present = 0;

@@ -27,7 +27,7 @@ constexpr double kLeafReflectance = 0.2;
 
 enum Stream : std::uint64_t { kPlaces = 16, kAims, kRanges, kStrays, kProbes, kRegistrations, kCrowns };
 
-// Spread over the floor by the plane's golden ratio (R2 sequence, Roberts 2018), clear of all things.
+// Spreads places over the floor by the plane's golden ratio (R2 sequence, Roberts 2018), clear of all things.
 std::vector<Vec3> place_stations(const Scene& scene, const ScanOptions& options) {
   const Random random(options.seed, kPlaces);
   const Vec3 low = scene.stand_low;
@@ -45,7 +45,7 @@ std::vector<Vec3> place_stations(const Scene& scene, const ScanOptions& options)
   return stations;
 }
 
-// The middles of lanes at equal distances over the ground where stations can stand.
+// Returns the middles of lanes at equal distances over the ground where stations may be.
 std::vector<Vec3> place_lanes(const Scene& scene, const ScanOptions& options) {
   const double distance = (scene.stand_high.y - scene.stand_low.y) / options.stations;
   std::vector<Vec3> middles;
@@ -56,7 +56,7 @@ std::vector<Vec3> place_lanes(const Scene& scene, const ScanOptions& options) {
   return middles;
 }
 
-// The middles of strips at equal distances, as high as their swaths need to overlap.
+// Returns the middles of strips at equal distances, as high as their swaths need to overlap.
 std::vector<Vec3> place_strips(const Scene& scene, const ScanOptions& options) {
   const Random random(options.seed, kPlaces);
   const double distance = (scene.stand_high.y - scene.stand_low.y) / options.stations;
@@ -95,7 +95,7 @@ Scanner::Scanner(const ScanOptions& options, Scene scene)
   lay_rays();
 }
 
-// The first station is where the others are registered to.
+// The other stations are registered to the first one.
 void Scanner::misplace_stations() {
   const Random random(options_.seed, kRegistrations);
   misplaced_.push_back({{0, 0, 0}, 0, 1});
@@ -151,7 +151,7 @@ Beam Scanner::beam(const Ray& ray) const {
                             sin_elevation * sweep.axis};
 }
 
-// Where leaves stop the ray, in each crown after a uniformly random way; `range` where none does.
+// Returns where leaves stop the ray, in each crown after a uniformly random way; `range` if none does.
 double Scanner::range_in_leaves(const Beam& beam, double range, std::uint64_t index) const {
   double nearest = range;
   for (std::size_t crown = 0; crown < scene_.foliage.size(); ++crown) {
@@ -164,7 +164,7 @@ double Scanner::range_in_leaves(const Beam& beam, double range, std::uint64_t in
   return nearest;
 }
 
-// What comes back from the `index`-th ray.
+// Returns the echo of the `index`-th ray.
 std::optional<Echo> Scanner::measure(const Ray& ray, std::uint64_t index) const {
   const Beam beam = this->beam(ray);
   Hit hit = cast(scene_, beam);
@@ -197,7 +197,7 @@ std::uint64_t Scanner::rays() const {
   return last.first_ray + last.scanlines * last.per_scanline;
 }
 
-// So many, in equal steps, that about `options.points` return.
+// Chooses the number of equal steps so that about `options.points` rays return.
 void Scanner::lay_rays() {
   constexpr std::uint64_t kProbesPerSweep = 20'000;
   const Random random(options_.seed, kProbes);

@@ -30,7 +30,7 @@ bool holds(const Opening& opening, double u, double v) {
 struct Cut {
   double enter = 0, leave, cosine = 0;
 
-  // `depth` is that of the origin, `step` what it grows by per metre.
+  // `depth` is the depth of the origin, `step` its growth per metre.
   void half_space(double depth, double step) {
     if (step == 0) {
       if (depth > 0) leave = -1;
@@ -46,7 +46,7 @@ struct Cut {
   }
 };
 
-// Both crossings with a cylinder around an axis through `start`; none: from > to.
+// Both crossings with a cylinder around an axis through `start`; from > to if there are none.
 struct Crossings {
   double from, to;
   double root;  // cosine of the angle of incidence times the radius

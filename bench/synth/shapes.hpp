@@ -140,7 +140,7 @@ struct Foliage {
   double depth;
 };
 
-// Returns the part of a beam inside the leaves. If there is none, `from` is no less than `to`.
+// The part of a beam inside the leaves. If there is none, `from` is no less than `to`.
 struct Way {
   double from, to;
 };

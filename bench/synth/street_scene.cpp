@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kLength = 50, kWidth = 16, kPavement = 3.2, kKerb = 0.14;
 
-// A row of fronts along x, each with its own height, rows of windows, and a door.
+// Builds a line of fronts along x, each with its own height, windows in lines, and a door.
 void add_fronts(Scene& scene, double y, int turn) {
   for (int i = 0; i < 4; ++i) {
     const int kind = (i + turn) % 3;

@@ -44,7 +44,7 @@ void check(const SurfaceOptions& o) {
     require(std::fabs(offset) <= 1e12, "--translate: must be within 1e12 units of the scan");
 }
 
-// Floats have 24 bits: where neighbours would fall together, the user means doubles.
+// Floats have 24 bits. If neighbours would fall together, the user means doubles.
 void check_precision(const SurfaceGrid& grid, const SurfaceOptions& options) {
   if (options.coordinates == Coordinates::kDouble) return;
   double reach = options.spacing * std::max(grid.rows, grid.columns);
@@ -54,7 +54,7 @@ void check_precision(const SurfaceGrid& grid, const SurfaceOptions& options) {
               " at coordinates of " + std::to_string(reach) + "; add --double");
 }
 
-// Places on the surface, with noise along its normal.
+// Computes places on the surface, with noise along its normal.
 class PointMaker {
  public:
   PointMaker(const SurfaceGrid& grid, const SurfaceOptions& options)

@@ -15,7 +15,7 @@ constexpr double kMinSide = 8;
 constexpr double kMaxSide = 0x1p31;
 constexpr std::uint32_t kCubeFaces = 6;
 
-// Columns per row of the grid, for squares of about one spacing.
+// Returns the columns per row of the grid, for squares of about one spacing.
 double aspect(SurfaceKind kind) {
   switch (kind) {
     case SurfaceKind::kCylinder:
@@ -40,7 +40,7 @@ std::uint32_t exact_root(std::uint32_t square) {
   return root;
 }
 
-// The multiple of `stride` nearest to `length`.
+// Returns the multiple of `stride` nearest to `length`.
 std::uint32_t whole_strides(double length, std::uint32_t stride) {
   return stride * static_cast<std::uint32_t>(std::floor(length / stride + 0.5));
 }

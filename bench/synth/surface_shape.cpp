@@ -11,8 +11,8 @@ namespace lacuna::synth {
 
 namespace {
 
-// Monotone, 0 to 0 and 1 to 1. Its slope changes by the factor `stretch`, steadily from end to end, or, on a
-// closed direction, once up and down.
+// A monotone map from 0 to 0 and 1 to 1. Its slope changes by the factor `stretch`, steadily from end to end.
+// On a closed direction it changes once up and down.
 double warp(double t, double stretch, bool closed) {
   if (stretch == 1) return t;
   const double swing = (stretch - 1) / (stretch + 1);
@@ -44,7 +44,7 @@ SurfacePoint on_torus(double u, double v, double width, double height) {
   return {{ring * cos_u, ring * sin_u, minor * sin_v}, {cos_v * cos_u, cos_v * sin_u, sin_v}};
 }
 
-// Stereographic, so that squares stay squares: a square sheet that covers 53 degrees to each side of the
+// A stereographic map, so that squares stay squares. The square sheet covers 53 degrees to each side of the
 // pole.
 SurfacePoint on_sphere_cap(double u, double v, double width, double height) {
   const double radius = 0.5 * width;
@@ -56,7 +56,7 @@ SurfacePoint on_sphere_cap(double u, double v, double width, double height) {
   return {radius * normal, normal};
 }
 
-// The directions of a face of a cube: outwards, and those of u and v.
+// The directions of a face of a cube: outwards, and along u and v.
 struct Face {
   Vec3 out, across, down;
 };
@@ -72,7 +72,7 @@ SurfacePoint on_cube(const Face& face, double u, double v, double edge) {
   return {0.5 * edge * (face.out + (2 * u - 1) * face.across + (2 * v - 1) * face.down), face.out};
 }
 
-// Equal steps of u and v are equal angles seen from the middle. The sphere has the area of the cube.
+// Equal steps of u and v are equal angles at the middle. The sphere has the area of the cube.
 SurfacePoint on_sphere(const Face& face, double u, double v, double edge) {
   const double radius = edge * std::sqrt(3 / kTwoPi);
   const auto [sin_u, cos_u] = sin_cos((2 * u - 1) / 8);

@@ -12,7 +12,7 @@ constexpr double kSpringing = 6, kAisleHeight = 5;
 constexpr double kArch = 3.2, kArchHeight = 4.4, kPitch = 4.8;
 constexpr double kLip = 8e-4;  // of a front before the inside of its arch, so that rounding finds no gap
 
-// Five arches through a wall along x, from the aisle's side at `aisle` to the nave's at `nave`.
+// Builds five arches through a wall along x, from the aisle's side at `aisle` to the nave's at `nave`.
 void add_arcade(Scene& scene, double aisle, double nave) {
   constexpr double kRadius = 0.5 * kArch, kFoot = kArchHeight - kRadius;
   const double low = std::min(aisle, nave);

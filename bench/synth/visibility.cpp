@@ -112,7 +112,7 @@ double Visibility::density(const SurfacePlace& place, std::uint32_t number) cons
   const double incidence = std::max(std::fabs(dot(arm, place.normal)) / range, kLeastIncidence);
   const double share =
       scene.foliage.empty() ? 1 : share_through_leaves(scene, {eye, (1 / range) * arm}, range);
-  // Steps between rays: around the axis in turns, or along the strip in its lengths; and of the elevation.
+  // The steps between rays are in turns around the axis, or in lengths of the strip. Elevation has its own.
   const double around = 1 / static_cast<double>(sweep.scanlines);
   const double along = (scanner_.highest() - scanner_.lowest()) / static_cast<double>(sweep.per_scanline);
   if (scanner_.moves()) {

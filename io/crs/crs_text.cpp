@@ -36,7 +36,7 @@ std::string_view keyword_of(std::string_view node) {
   return node.substr(0, static_cast<std::size_t>(end - node.begin()));
 }
 
-// The first `KEYWORD[...]` of these, wherever it is. Names in quotes are none.
+// Returns the first `KEYWORD[...]` with one of the keywords, wherever it is. Names in quotes do not count.
 std::string_view find_node(std::string_view text, std::span<const std::string_view> keywords) {
   std::size_t begin = text.npos, word = 0;
   int depth = 0, depth_of_node = 0;

@@ -14,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The folder of the program, or of the library that holds this code, such as a module of Python.
+// Returns the folder of the program, or of the library that holds this code, such as a module of Python.
 fs::path own_folder() {
   Dl_info self{};
   const bool is_known = ::dladdr(reinterpret_cast<const void*>(&own_folder), &self) != 0;
   const fs::path file = is_known ? self.dli_fname : "";
   std::error_code error;
-  // A program's name may be anything; that of a library may end with its version.
+  // A program's name may be anything; a library's name may end with its version.
   const bool is_library = file.is_absolute() && file.filename().string().find(".so") != std::string::npos;
   return (is_library ? file : fs::read_symlink("/proc/self/exe", error)).parent_path();
 }

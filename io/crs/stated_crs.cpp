@@ -30,7 +30,7 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin));
 }
 
-// As messages name it: of well-known text the beginning, in one line.
+// Returns the name for messages: for well-known text the beginning, in one line.
 std::string shown(const std::string& given) {
   constexpr std::size_t kMost = 60;
   const std::string text = trimmed(given);
@@ -39,7 +39,7 @@ std::string shown(const std::string& given) {
   return end < text.size() ? text.substr(0, end) + "..." : text;
 }
 
-// The text of a .prj or .wkt file, where the given text names a file.
+// Returns the text of a .prj or .wkt file if the given text names a file.
 std::string text_of(const std::string& given) {
   constexpr std::size_t kMostBytes = std::size_t{1} << 20;
   std::error_code error;
@@ -49,7 +49,7 @@ std::string text_of(const std::string& given) {
   return trimmed(in.peek(kMostBytes));
 }
 
-// "EPSG:25832", "ESRI:102100", or a horizontal and a vertical one, "EPSG:25832+7837".
+// Whether the text is "EPSG:25832", "ESRI:102100", or a horizontal and a vertical one, "EPSG:25832+7837".
 bool is_code(std::string_view text) {
   const std::size_t colon = text.find(':');
   return colon != text.npos && colon > 0 && colon + 1 < text.size() &&
@@ -64,7 +64,7 @@ bool is_code(std::string_view text) {
               "that has one of them");
 }
 
-// The system as well-known text.
+// Returns the system as well-known text.
 std::string look_up(const std::string& given, const std::string& text) {
   if (!is_code(text) && horizontal_system(text).empty())
     refuse_crs(given, "is no coordinate reference system");

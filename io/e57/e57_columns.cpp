@@ -69,7 +69,7 @@ std::string snake_case(std::string_view name) {
   return result;
 }
 
-// The smallest for `minimum` and all that can be added to it in `bits`.
+// Returns the smallest type for `minimum` and all that can be added to it in `bits`.
 Scalar integer_type(std::int64_t minimum, unsigned bits) {
   if (bits > 32 || minimum < std::numeric_limits<std::int32_t>::min() ||
       minimum > std::numeric_limits<std::uint32_t>::max())
@@ -106,7 +106,7 @@ std::vector<FieldColumn> field_columns(const E57Scan& scan) {
     if (const std::size_t axis = rank_in(position); axis < 3) {
       columns.push_back({.name = kPositionNames[axis], .type = Scalar::kFloat64});
     } else if (normal != nullptr && rank_in(*normal) < 3) {
-      // They are turned, so integers would not do.
+      // Normals are turned, so integers would not do.
       const bool is_single = field.type == E57Field::Type::kFloat32;
       columns.push_back(
           {.name = kNormalNames[rank_in(*normal)], .type = is_single ? Scalar::kFloat32 : Scalar::kFloat64});

@@ -9,7 +9,7 @@
 namespace lacuna::io {
 namespace {
 
-// The first page has the header whole. 1 MiB is a thousand times what is written.
+// The first page holds the whole header. 1 MiB is a thousand times the size that programs write.
 constexpr std::uint64_t kLeastPage = 64, kLargestPage = std::uint64_t{1} << 20;
 constexpr std::uint64_t kLongestXml = std::uint64_t{16} << 20;
 
@@ -19,7 +19,7 @@ using Bytes = std::array<std::byte, 48>;
 constexpr std::size_t kMajor = 8, kMinor = 12, kFileLength = 16, kXmlOffset = 24, kXmlLength = 32,
                       kPageSize = 40;
 
-// By the bytes as they are in the file, since the size of a page is among them.
+// Reads the bytes as they are in the file, since the size of a page is among them.
 std::size_t read_page_bytes(const std::filesystem::path& file) {
   InputFile in(file, 4096);
   const std::uint64_t size = in.remaining();

@@ -70,7 +70,7 @@ class E57Reader final : public ScanReader {
   }
 
  private:
-  // To a scan with points left; false at the end.
+  // Moves to a scan with points left; false at the end.
   bool begin_scan() {
     while (!points_ || points_->left() == 0) {
       if (next_scan_ == header_.scans.size()) return false;

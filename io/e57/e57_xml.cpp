@@ -42,7 +42,7 @@ std::string text_of(pugi::xml_node node) {
   return text;
 }
 
-// An attribute as a number; `missing` where there is none.
+// Returns an attribute as a number; `missing` if there is none.
 template <class T>
 T number(const Xml& xml, pugi::xml_node node, const char* name, std::optional<T> missing) {
   const pugi::xml_attribute attribute = node.attribute(name);
@@ -56,7 +56,7 @@ T number(const Xml& xml, pugi::xml_node node, const char* name, std::optional<T>
   return value;
 }
 
-// The number that an element holds, 0 if it is empty.
+// Returns the number that an element holds, 0 if it is empty.
 double element_value(const Xml& xml, pugi::xml_node node) {
   const std::string_view type = node.attribute("type").value();
   const std::string text = text_of(node);
@@ -145,7 +145,7 @@ Pose read_pose(const Xml& xml, pugi::xml_node node) {
 // Scans with a section in common, and columns of one value, take no bytes for each value.
 constexpr std::uint64_t kMostValuesInAByte = 64;
 
-// Adds the values of a scan to those of the scans before.
+// Adds the values of a scan to the values of the scans before.
 void count_values(const Xml& xml, pugi::xml_node points, const E57Scan& scan, std::uint64_t& values) {
   values += scan.records * scan.fields.size();  // below 2^63: of at most 2^15 fields and 8 records in a byte
   if (values / kMostValuesInAByte <= xml.pages.size()) return;
@@ -154,7 +154,7 @@ void count_values(const Xml& xml, pugi::xml_node points, const E57Scan& scan, st
                        std::to_string(kMostValuesInAByte) + " in a byte are read");
 }
 
-// `values`: of the scans before, and then of this one, too.
+// `values` counts the scans before, and then this one, too.
 E57Scan read_scan(const Xml& xml, pugi::xml_node node, std::uint64_t& values) {
   E57Scan scan;
   const pugi::xml_node points = node.child("points");

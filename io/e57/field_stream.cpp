@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kPadding = 8;
 
-// `bits` from 1 to 64, from any bit on. Loads up to 9 bytes.
+// Returns `bits` bits, 1 to 64, from any bit on. Loads up to 9 bytes.
 std::uint64_t bits_at(const std::byte* bytes, std::uint64_t first, unsigned bits) {
   const std::byte* const at = bytes + first / 8;
   const unsigned shift = first % 8;
@@ -21,7 +21,7 @@ std::uint64_t bits_at(const std::byte* bytes, std::uint64_t first, unsigned bits
   return value & ~std::uint64_t{0} >> (64 - bits);
 }
 
-// A value for each of `count` rows, by its rank.
+// Stores a value for each of `count` rows, by its rank.
 template <class ValueOf>
 void fill(Column to, std::size_t count, const ValueOf& value_of) {
   with_type(to.type, [&](auto zero) {

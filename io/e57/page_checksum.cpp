@@ -32,8 +32,8 @@ constexpr std::array<Table, kTogether> kTables = [] {
 
 }  // namespace
 
-// Eight bytes at once: Kounavis, Berry, A systematic approach to building high performance software-based CRC
-// generators, ISCC 2005.
+// Processes eight bytes at once: Kounavis, Berry, A systematic approach to building high performance
+// software-based CRC generators, ISCC 2005.
 std::uint32_t page_checksum(std::span<const std::byte> data) {
   std::uint32_t checksum = ~std::uint32_t{0};
   for (; data.size() >= kTogether; data = data.subspan(kTogether)) {

@@ -21,7 +21,7 @@ std::int64_t nanoseconds(const timespec& time) {
   return time.tv_sec * std::int64_t{1'000'000'000} + time.tv_nsec;
 }
 
-// None where the file cannot be looked up; errno says why.
+// Returns nothing if the system cannot give the file's state; errno says why.
 std::optional<FileState> look_up(const std::filesystem::path& file) {
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) return std::nullopt;
@@ -32,7 +32,7 @@ std::optional<FileState> look_up(const std::filesystem::path& file) {
                    .ctime = nanoseconds(status.st_ctim)};
 }
 
-// Empty: nothing differs.
+// Returns an empty text if nothing differs.
 std::string difference(const FileState& before, const std::optional<FileState>& now) {
   if (!now) return std::string("it cannot be found any more: ") + std::strerror(errno);
   if (now->device != before.device || now->inode != before.inode) return "another file has taken its place";

@@ -21,7 +21,7 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
-// Up to `count` bytes, fewer only at the end of the file.
+// Reads up to `count` bytes, fewer only at the end of the file.
 std::size_t read_fully(const InputFile& in, int descriptor, char* to, std::size_t count) {
   std::size_t done = 0;
   while (done < count) {

@@ -11,7 +11,7 @@ namespace lacuna::io {
 
 namespace {
 
-// Has the decimal point, whatever the host has set.
+// This locale has the decimal point, whatever the host has set.
 locale_t plain_locale() {
   static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", nullptr);
   return plain;

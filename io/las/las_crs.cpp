@@ -26,7 +26,7 @@ void LasCrs::take(std::uint16_t record, std::span<const std::byte> data) {
   well_known_text_.assign(first, std::find(first, first + data.size(), '\0'));
 }
 
-// Four numbers of 16 bits for each key: the key, where its value is (0: here), a count, the value.
+// A key has four numbers of 16 bits: the key, where its value is (0: here), a count, the value.
 void LasCrs::take_keys(std::span<const std::byte> data) {
   constexpr std::size_t kEntry = 8;
   for (data = data.subspan(std::min(kEntry, data.size())); data.size() >= kEntry;
@@ -50,7 +50,7 @@ bool LasCrs::is_projected() const {
 
 std::string LasCrs::text() const {
   if (!well_known_text_.empty()) return well_known_text_;
-  // The geographic system below a projected one is not that of the positions.
+  // Positions are not in the geographic system below a projected one.
   const std::uint16_t horizontal = is_projected() ? projected_ : geographic_;
   if (horizontal == 0) return "";
   const std::string code = "EPSG:" + std::to_string(horizontal);

@@ -24,7 +24,7 @@ T value_at(std::span<const std::byte> bytes, std::size_t offset) {
   return load<T>(&bytes[offset]);
 }
 
-// Up to the first zero.
+// Returns the text up to the first zero.
 std::string text_at(std::span<const std::byte> bytes, std::size_t offset, std::size_t length) {
   const auto* const first = reinterpret_cast<const char*>(&bytes[offset]);
   return {first, std::find(first, first + length, '\0')};
@@ -53,7 +53,7 @@ bool is_extra_bytes(std::string_view user, std::uint16_t number) {
   return user == "LASF_Spec" && number == 4;
 }
 
-// A variable length record. Those of other users and numbers are passed over.
+// Reads a variable length record. Records of other users and numbers are passed over.
 void read_record(InputFile& in, LasHeader& header) {
   std::array<std::byte, kRecordHeader> head;
   const std::uint64_t place = in.position();
@@ -101,7 +101,7 @@ void read_extended_records(const std::filesystem::path& file, std::uint64_t plac
   }
 }
 
-// Waveforms within the file: LAS 1.3 has their record behind the points, and no count of such records.
+// Finds waveforms within the file: LAS 1.3 has their record behind the points, and no count of such records.
 void find_waveforms(const std::filesystem::path& file, std::uint64_t place, LasHeader& header) {
   constexpr std::uint16_t kIsInside = 2;
   if ((value_at<std::uint16_t>(header.bytes, 6) & kIsInside) == 0 || place == 0) return;

@@ -54,8 +54,8 @@ class ChunkInFile final : public laz::ChunkBytes {
   std::size_t piece_;
 };
 
-// Chunks are decoded whole, several at a time, while they fit into the memory. Else they are decoded one after
-// the other, in the blocks that the caller wants.
+// Chunks are decoded whole, several at a time, while they fit into the memory. Else they are decoded one
+// after the other, in the blocks that the caller wants.
 class CompressedPoints final : public LasPoints {
  public:
   CompressedPoints(const InputFile& in, const LasHeader& header, std::uint64_t memory)
@@ -91,7 +91,7 @@ class CompressedPoints final : public LasPoints {
     std::uint64_t left;  // points
   };
 
-  // Says where, if the data are corrupt.
+  // Adds the place if the data are corrupt.
   template <class Work>
   void locating(std::uint64_t byte, Work&& work) const {
     try {
@@ -132,8 +132,8 @@ class CompressedPoints final : public LasPoints {
     return laz::read_chunk_table(layout_, table, points_at_ + 8, table_at, points);
   }
 
-  // Where the chunk table begins: named before the first chunk, or by a writer that could not go back at the
-  // end.
+  // Returns where the chunk table begins. The offset is before the first chunk. A writer that could not go
+  // back puts it at the end of the file.
   std::uint64_t find_table(std::uint64_t end) const {
     constexpr std::uint64_t kOffset = sizeof(std::int64_t);
     if (end < points_at_ + 2 * kOffset) throw laz::Corrupt("the file ends before the compressed points");
@@ -172,7 +172,7 @@ class CompressedPoints final : public LasPoints {
     return chunk.bytes + chunk.points * layout_.record_bytes() + laz::decoder_bytes(layout_);
   }
 
-  // Where the next chunks are decoded: in memory, or block by block.
+  // Decodes the next chunks, in memory or block by block.
   void decode_next() {
     if (next_chunk_ == chunks_.size())
       in_.fail_at_byte(file_bytes(in_), "the chunks hold fewer points than the header declares");
@@ -184,7 +184,7 @@ class CompressedPoints final : public LasPoints {
     }
   }
 
-  // A few for each thread, so that none waits long for the others.
+  // Returns a few chunks for each thread, so that no thread idles long for the others.
   std::span<const laz::Chunk> next_chunks() {
     constexpr std::size_t kForEachThread = 4;
     constexpr std::uint64_t kEnough = std::uint64_t{32} << 20;  // bytes in memory
@@ -206,7 +206,7 @@ class CompressedPoints final : public LasPoints {
       places.push_back(places.back() + static_cast<std::size_t>(chunk.points) * layout_.record_bytes());
     decoded_.resize(places.back());
     taken_ = 0;
-    // The first error by position, whichever thread comes by first.
+    // The first error by position counts, whichever thread comes by first.
     std::vector<std::exception_ptr> errors(chunks.size());
     for_each_here(chunks.size(), [&](std::size_t i) {
       try {

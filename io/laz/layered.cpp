@@ -12,7 +12,7 @@
 namespace lacuna::io::laz {
 namespace {
 
-// RGB14, and RGBNIR14 where `has_nir` (LAZ, "RGB14", "RGBNIR14").
+// Decodes RGB14, and RGBNIR14 if `has_nir` (LAZ, "RGB14", "RGBNIR14").
 class ColourDecoder {
  public:
   ColourDecoder(bool has_nir, ChannelRule rule, unsigned channel, const std::byte* first, Layers& layers)
@@ -34,7 +34,7 @@ class ColourDecoder {
   ColourChannels channels_;
 };
 
-// BYTE14: a layer for each byte, of differences to that of the last point (LAZ, "BYTE14").
+// BYTE14: a layer for each byte, of differences to the same byte of the last point (LAZ, "BYTE14").
 class BytesDecoder {
  public:
   BytesDecoder(ChannelRule rule, unsigned channel, std::span<const std::byte> first, Layers& layers)

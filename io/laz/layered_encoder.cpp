@@ -12,7 +12,7 @@
 namespace lacuna::io::laz {
 namespace {
 
-// RGB14, and RGBNIR14 where `has_nir` (LAZ, "RGB14", "RGBNIR14").
+// Encodes RGB14, and RGBNIR14 if `has_nir` (LAZ, "RGB14", "RGBNIR14").
 class ColourEncoder {
  public:
   ColourEncoder(bool has_nir, ChannelRule rule, unsigned channel, const std::byte* first)
@@ -38,7 +38,7 @@ class ColourEncoder {
   ColourChannels channels_;
 };
 
-// BYTE14: a layer for each byte, of differences to that of the last point (LAZ, "BYTE14").
+// BYTE14: a layer for each byte, of differences to the same byte of the last point (LAZ, "BYTE14").
 class BytesEncoder {
  public:
   BytesEncoder(ChannelRule rule, unsigned channel, std::span<const std::byte> first)

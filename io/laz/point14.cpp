@@ -30,7 +30,7 @@ void Point14Decoder::decode(std::byte* item) {
   point14::write_fields(channel.last, channel_, item);
 }
 
-// What changed, by the models of the last point's channel; goes over to the channel of this point.
+// Decodes what changed, by the models of the last point's channel; goes over to this point's channel.
 unsigned Point14Decoder::decode_changes() {
   point14::Channel& before = *channels_[channel_];
   const unsigned changed = returns_xy_->symbol(before.changed[before.change_context()]);

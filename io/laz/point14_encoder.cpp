@@ -21,7 +21,7 @@ void Point14Encoder::encode(const std::byte* item) {
   channel.last = now;
 }
 
-// What changed, by the models of the last point's channel; goes over to the channel of this point.
+// Encodes what changed, by the models of the last point's channel; goes over to this point's channel.
 unsigned Point14Encoder::encode_changes(const point14::Fields& now, unsigned channel) {
   point14::Channel& before = *channels_[channel_];
   changed_channel_ = channel != channel_;

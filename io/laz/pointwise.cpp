@@ -46,7 +46,7 @@ class Rgb12 {
   RgbModels models_;
 };
 
-// BYTE, version 2 (LAZ, "BYTE"): the difference of each byte to that of the last point.
+// BYTE, version 2 (LAZ, "BYTE"): the difference of each byte to the same byte of the last point.
 class ExtraBytes {
  public:
   ExtraBytes(const std::byte* first, std::size_t count) : last_(first, first + count), models_(count) {}
@@ -69,7 +69,7 @@ class ExtraBytes {
   std::vector<SymbolModel<256>> models_;
 };
 
-// The items of a record; those that the layout does not have are null. The order is that of parse_layout().
+// The items of a record; items that the layout does not have are null. The order is as in parse_layout().
 template <class P, class G, class C, class E>
 struct Items {
   std::unique_ptr<P> point;

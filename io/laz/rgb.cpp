@@ -20,7 +20,7 @@ int high(std::uint16_t value) {
 
 Rgb RgbModels::decode(ArithmeticDecoder& decoder, const Rgb& last) {
   const unsigned changed = decoder.symbol(changed_);
-  // A byte; `change` is how far those of the channels before changed.
+  // Codes a byte; `change` is how far the bytes of the channels before changed.
   const auto byte = [&](unsigned index, int last_byte, int change) {
     if (!(changed & 1u << index)) return last_byte;
     const int predicted = std::clamp(last_byte + change, 0, 255);

@@ -70,7 +70,7 @@ Rows loop_rows(const LidMesh& mesh) {
   return rows_of(std::span(mesh.vertices).first(mesh.loop_points));
 }
 
-// None where the matrix is not positive definite, or a number is not finite.
+// Returns nothing if the matrix is not positive definite, or a number is not finite.
 std::optional<Rows> solve(const Matrix& matrix, const Rows& right) {
   const Eigen::SimplicialLDLT<Matrix> factor(matrix);
   if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0)) return std::nullopt;
@@ -94,7 +94,7 @@ Eigen::Vector3d unit_or_zero(const Eigen::Vector3d& vector) {
   return length > 0 && std::isfinite(length) ? Eigen::Vector3d(vector / length) : Eigen::Vector3d(0, 0, 0);
 }
 
-// At each point of the loop, the side of the surface from which the loop runs anticlockwise.
+// Returns at each point of the loop the side of the surface from which the loop runs anticlockwise.
 std::vector<Eigen::Vector3d> surface_normals(const LidMesh& mesh, std::span<const Eigen::Vector3d> surface) {
   const std::size_t n = mesh.loop_points;
   constexpr std::size_t kReach = 4;  // points on each side of one
@@ -111,7 +111,7 @@ std::vector<Eigen::Vector3d> surface_normals(const LidMesh& mesh, std::span<cons
   return normals;
 }
 
-// The unit vector out of the lid, perpendicular to each edge of the loop.
+// Returns the unit vector out of the lid, perpendicular to each edge of the loop.
 std::vector<Eigen::Vector3d> ends_of_lid(const LidMesh& mesh) {
   const std::size_t n = mesh.loop_points;
   std::vector<Eigen::Vector3d> out(n, Eigen::Vector3d(0, 0, 0));
@@ -126,7 +126,7 @@ std::vector<Eigen::Vector3d> ends_of_lid(const LidMesh& mesh) {
   return out;
 }
 
-// The flux of each vertex of the loop.
+// Returns the flux of each vertex of the loop.
 Rows flux(const LidMesh& mesh, std::span<const Eigen::Vector3d> surface) {
   const std::size_t n = mesh.loop_points;
   const std::vector<Eigen::Vector3d> normals = surface_normals(mesh, surface), ends = ends_of_lid(mesh);

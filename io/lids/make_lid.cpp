@@ -59,7 +59,7 @@ Normalised normalised(const Loop& loop) {
   return made;
 }
 
-// Back in the place and the order of the loop, whose points keep all digits.
+// Moves vertices back to the place and the order of the loop, whose points keep all digits.
 Lid placed(LidMesh mesh, const Normalised& normalised, const Loop& loop) {
   const std::size_t n = loop.size();
   Lid lid{.mesh = std::move(mesh), .area = 0, .left_out = {}};

@@ -26,8 +26,8 @@ double mean_spacing(const std::vector<double>& spacing, const LidTriangle& trian
   return (spacing[triangle[0]] + spacing[triangle[1]] + spacing[triangle[2]]) / 3;
 }
 
-// What makes the number of vertices fit: 1 where it does already. An equilateral lattice of edge s has a
-// vertex for each s^2 sqrt(3) / 2.
+// Returns the factor that makes the number of vertices fit: 1 if it fits already. An equilateral lattice of
+// edge s has a vertex for each s^2 sqrt(3) / 2.
 double coarsening(const LidMesh& mesh, const std::vector<double>& spacing) {
   double vertices = 0;
   for (const LidTriangle& triangle : mesh.triangles) {
@@ -37,7 +37,7 @@ double coarsening(const LidMesh& mesh, const std::vector<double>& spacing) {
   return std::max(1.0, std::sqrt(vertices / kMostInnerVertices));
 }
 
-// Liepa's condition, with his factor sqrt(2).
+// Decides by Liepa's condition, with his factor sqrt(2).
 bool is_too_large(const LidMesh& mesh, const std::vector<double>& spacing, const LidTriangle& triangle,
                   const Eigen::Vector3d& centroid, double at_centroid) {
   for (const std::uint32_t corner : triangle) {

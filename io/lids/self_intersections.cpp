@@ -74,7 +74,8 @@ Triangle2 without_axis(const Triangle3& triangle, Eigen::Index axis) {
   return flat;
 }
 
-// Signed distances of the corners of `b` from the plane of `a`, times its doubled area; 0 within rounding.
+// Returns signed distances of the corners of `b` from the plane of `a`, times its doubled area; 0 within
+// rounding.
 std::array<double, 3> sides(const Triangle3& a, const Triangle3& b) {
   const Eigen::Vector3d normal = (a[1] - a[0]).cross(a[2] - a[0]);
   std::array<double, 3> sides;

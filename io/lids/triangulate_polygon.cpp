@@ -19,7 +19,7 @@ double area_of(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::
   return (b - a).cross(c - a).norm() / 2;
 }
 
-// The apex of the best triangle on each diagonal, as indices into the polygon.
+// Finds the apex of the best triangle on each diagonal, as indices into the polygon.
 class LeastArea {
  public:
   LeastArea(Points points, const Polygon& polygon)
@@ -66,7 +66,7 @@ class LeastArea {
   std::vector<std::uint16_t> apex_;
 };
 
-// The polygon with kMostAtOnce of its vertices, as indices into it: those that turn most.
+// Returns the polygon with kMostAtOnce of its vertices, the ones that turn most, as indices into it.
 // Visvalingam, Whyatt, *Line generalisation by repeated elimination of points*, Cartographic Journal 1993.
 std::vector<std::size_t> simplify(Points points, const Polygon& polygon) {
   const std::size_t n = polygon.size();
@@ -101,7 +101,7 @@ std::vector<std::size_t> simplify(Points points, const Polygon& polygon) {
   return kept;
 }
 
-// The vertices of the polygon from one to another, the last one left out.
+// Appends the vertices of the polygon from one to another, the last one left out.
 void append_part(Polygon& part, const Polygon& polygon, std::size_t from, std::size_t to) {
   for (std::size_t i = from; i != to; i = (i + 1) % polygon.size()) part.push_back(polygon[i]);
 }

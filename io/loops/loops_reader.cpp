@@ -60,7 +60,7 @@ std::vector<NamedLoopIds> read_ply_loops(const std::filesystem::path& file) {
   return loops;
 }
 
-// The rest of a comment's line, its words divided by one blank.
+// Returns the remainder of a comment's line, its words divided by one blank.
 std::string read_comment(InputFile& in, std::string_view first) {
   std::string text(first);
   while (const auto word = in.next_word()) {
@@ -70,7 +70,7 @@ std::string read_comment(InputFile& in, std::string_view first) {
   return text;
 }
 
-// "# window" is "window"; the mark of the file is no name, and a step of density is none.
+// Returns "window" for "# window". The mark of the file is no name, and a step of density is none.
 std::string name_in(std::string comment) {
   if (comment.starts_with(kLoopsTextMark) || comment.starts_with(std::string(kStepMark) + " ")) return {};
   comment.erase(0, comment.find_first_not_of("# "));

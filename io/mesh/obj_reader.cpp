@@ -34,7 +34,7 @@ bool goes_on(std::string_view line) {
   return line.ends_with('\\') && line.find('#') == std::string_view::npos;
 }
 
-// Lines joined where a backslash says so.
+// Joins lines where a backslash says so.
 class ObjLines {
  public:
   explicit ObjLines(const std::filesystem::path& file) : in_(file) {}
@@ -57,7 +57,7 @@ class ObjLines {
     return joined_;
   }
 
-  // The words behind the keyword of the next line that has this one; none at the end of the file.
+  // Returns the words behind the keyword of the next line that has this one; nothing at the end of the file.
   std::optional<LineWords> next(std::string_view keyword) {
     while (const auto line = next()) {
       LineWords words(in_, without_comment(*line));
@@ -74,7 +74,7 @@ class ObjLines {
   std::string joined_;
 };
 
-// What a pass over the file finds.
+// The facts that a pass over the file finds.
 struct ObjContent {
   std::uint64_t vertices = 0;
   std::uint64_t normals = 0;

@@ -108,7 +108,7 @@ class OffReader final : public ScanReader {
   bool has_normals() const { return kind_.find('N') != std::string::npos; }
   bool has_colours() const { return kind_.find('C') != std::string::npos; }
 
-  // Least: a digit and a blank for each value, but the last line may have no end.
+  // The least size is a digit and a blank for each value, but the last line may have no end.
   void require_size() const {
     std::uint64_t least = 6;
     if (has_normals()) least += 6;

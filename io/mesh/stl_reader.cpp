@@ -18,7 +18,7 @@ constexpr std::size_t kTriangleBytes = 50;  // a normal, three vertices, two byt
 constexpr std::size_t kNormalBytes = 12;
 constexpr std::size_t kVertexBytes = 12;
 
-// As a binary file has it; none if there is no whole header.
+// Returns the number as a binary file has it; nothing if there is no whole header.
 std::optional<std::uint64_t> count_triangles(const FileStart& start) {
   if (start.first_bytes.size() < kHeaderBytes) return std::nullopt;
   std::uint64_t count = 0;
@@ -33,7 +33,7 @@ bool is_binary(const FileStart& start) {
   return triangles && start.size == kHeaderBytes + kTriangleBytes * *triangles;
 }
 
-// The keyword of a line, in lower case as most writers have it.
+// Returns the keyword of a line, in lower case as most writers have it.
 std::string first_word(LineWords& words) {
   std::string_view word;
   words.next(word);

@@ -13,11 +13,11 @@ constexpr std::size_t kLongest = 264;
 constexpr std::size_t kBufferBytes = std::size_t{32} << 10;  // unpacked, and as large again for the file
 constexpr std::size_t kChunkBytes = 4096;
 
-// What one step says.
+// The content of one step.
 struct Step {
   std::size_t packed;    // its own bytes
   std::size_t length;    // bytes that it writes
-  std::size_t distance;  // back to those that it repeats; 0: it has them itself
+  std::size_t distance;  // back to the bytes that it repeats; 0: the step itself has the bytes
 };
 
 unsigned byte_at(std::string_view bytes, std::size_t place) {

@@ -36,7 +36,7 @@ std::string name_of(const PcdField& field) {
   return property_name(field.name);
 }
 
-// One field of `count` rows, from rows as they are in the file to rows of properties.
+// Copies one field of `count` rows, from rows as they are in the file to rows of properties.
 void convert(const PcdField& field, ConstColumn from, std::byte* to, std::size_t to_stride,
              std::size_t count) {
   if (is_packed_colour(field)) {

@@ -13,7 +13,7 @@
 namespace lacuna::io {
 namespace {
 
-// More than any real header has, little enough to give up on a file that is none.
+// The limit is more than any real header has, and little enough to give up on a file without one.
 constexpr std::uint64_t kLongestHeader = 1 << 20;
 
 // What has been read so far.
@@ -67,7 +67,7 @@ void parse_data(Parser& parser, LineWords& words) {
   parser.fail("unknown encoding " + in_quotes(name) + "; allowed are ascii, binary and binary_compressed");
 }
 
-// False at the end of the header.
+// Returns false at the end of the header.
 bool parse_line(Parser& parser, std::string_view line) {
   LineWords words(parser.in, line);
   std::string_view keyword;

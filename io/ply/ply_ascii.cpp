@@ -32,7 +32,7 @@ std::string not_a_value(const PlyProperty& property, std::string_view word) {
   return in_quotes(word) + " for property " + in_quotes(property.name) + " is not " + describe_number<T>();
 }
 
-// The number before the values of a list.
+// Returns the number before the values of a list.
 std::uint32_t parse_count(const InputFile& in, std::uint64_t line, const PlyProperty& property,
                           std::string_view word) {
   std::uint32_t count = 0;
@@ -40,7 +40,7 @@ std::uint32_t parse_count(const InputFile& in, std::uint64_t line, const PlyProp
   return count;
 }
 
-// The values of one row, taken off its line.
+// Takes the values of one row off its line.
 struct RowParser {
   const InputFile& in;
   const PlyElement& element;
@@ -81,8 +81,9 @@ std::int64_t parse_integer(const InputFile& in, const PlyProperty& property, std
   });
 }
 
-// Passes over rows and hands on one list of each, an index into the properties; beyond them: none. By words,
-// since a list (of a triangle strip, say) may be longer than any buffer.
+// Passes over rows and hands on one list of each. `list` is an index into the properties; an index beyond
+// them hands on no list. The function reads by words, since a list (of a triangle strip, say) may be longer
+// than any buffer.
 template <class Visit>
 void pass_rows(InputFile& in, const PlyElement& element, std::uint64_t count, std::size_t list,
                const Visit& visit) {

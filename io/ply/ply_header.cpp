@@ -15,7 +15,7 @@
 namespace lacuna::io {
 namespace {
 
-// More than any real header has, little enough to give up on a file that is none.
+// The limit is more than any real header has, and little enough to give up on a file without one.
 constexpr std::uint64_t kLongestHeader = 1 << 20;
 
 constexpr const char* kTypes =
@@ -91,7 +91,7 @@ void parse_property(Parser& parser, Words words) {
   element.properties.push_back(std::move(property));
 }
 
-// A file is opened several times in a run: once is enough.
+// A run opens a file several times, but one warning is enough.
 void warn_once(const InputFile& in, const std::string& reason) {
   static std::mutex mutex;
   static std::set<std::string> given;
@@ -112,7 +112,7 @@ void set_known_names(PlyHeader& header) {
   }
 }
 
-// False at the end of the header.
+// Returns false at the end of the header.
 bool parse_line(Parser& parser, Words words) {
   if (words.empty() || words[0] == "obj_info") return true;
   if (words[0] == "comment") {

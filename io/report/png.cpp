@@ -13,7 +13,8 @@
 namespace lacuna::io {
 namespace {
 
-// No exception may pass through libpng, which is C: that of the file is kept, and thrown again behind it.
+// No exception may pass through libpng, which is C. The code keeps the file's exception, and throws it again
+// behind libpng.
 struct Sink {
   OutputFile& out;
   std::exception_ptr failure;

@@ -37,7 +37,7 @@ class Canvas {
   // Whether anything between these heights may be on the canvas.
   bool reaches(float top, float bottom) const { return bottom >= float(first_) && top <= float(end_); }
 
-  // At (x, y) in parts from the top left corner. What is nearer already stays.
+  // Draws at (x, y) in parts from the top left corner. A nearer part stays.
   void disc(float x, float y, float radius, float depth, const Eigen::Vector3f& colour) {
     if (!reaches(y - radius, y + radius)) return;
     const int top = std::max(first_, static_cast<int>(std::ceil(y - radius)));
@@ -77,7 +77,7 @@ class Canvas {
   std::vector<float> depths_;
 };
 
-// From the scan to the canvas: x and y in parts, z the depth in units of the scan.
+// Maps the scan to the canvas: x and y in parts, z the depth in units of the scan.
 class Projection {
  public:
   Projection(const View& view, PictureSize size)
@@ -152,7 +152,7 @@ View looking_from(const Eigen::Vector3f& towards, const Eigen::Vector3f& above) 
   return view;
 }
 
-// Half of the height that holds these positions, but for outliers.
+// Chooses half of the height that holds these positions, but for outliers.
 void fit(const std::vector<Eigen::Vector3f>& positions, float aspect, View& view) {
   if (positions.empty()) return;
   const auto range = [&](const Eigen::Vector3f& axis) {
@@ -184,7 +184,7 @@ View view_of_loop(const Scene& scene, std::string_view name, float aspect) {
   const LoopMeasures& measures = scene.loops.measures[loop];
   Eigen::Vector3f normal = measures.normal.cast<float>();
   if (!(normal.norm() > 0.5f)) normal = {0, 0, 1};
-  // Mostly from above; a loop in a wall is seen upright.
+  // The view is mostly from above; a loop in a wall is drawn upright.
   if (normal.z() < -0.01f) normal = -normal;
   View view =
       looking_from(normal, std::abs(normal.z()) > 0.9f ? Eigen::Vector3f(0, 1, 0) : Eigen::Vector3f(0, 0, 1));

@@ -30,7 +30,7 @@ std::uint64_t packed(const Eigen::Vector3f& position, double edge) {
   return bits;
 }
 
-// Octahedral: a unit vector in two bytes (Meyer, Suessmuth, Sussner, Stamminger, Greiner, 2010).
+// Octahedral coding: a unit vector in two bytes (Meyer, Suessmuth, Sussner, Stamminger, Greiner, 2010).
 std::array<std::int8_t, 2> octahedral(const Eigen::Vector3f& normal) {
   const float sum = normal.cwiseAbs().sum();
   if (!(sum > 0)) return {0, 0};
@@ -47,7 +47,7 @@ std::uint8_t byte_of(float probability) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(probability, 0.0f, 1.0f) * 255));
 }
 
-// An element of the page with the bytes of all items.
+// Writes an element of the page with the bytes of all items.
 template <class Items, class Encode>
 void write_bytes(std::string_view id, const Items& items, Encode&& encode, OutputFile& out) {
   out.write("<script type=\"application/base64\" id=\"" + std::string(id) + "\">");
@@ -60,7 +60,7 @@ void write_bytes(std::string_view id, const Items& items, Encode&& encode, Outpu
   out.write("</script>\n");
 }
 
-// Keys of the run that the user has changed.
+// Returns the keys of the run that the user has changed.
 Json changed_parameters(const Json& parameters) {
   const Json defaults = parameter_values(FilesConfig{}, [](std::string_view) { return true; });
   Json changed = Json::array();
@@ -111,7 +111,7 @@ double rounded(double value) {
   return std::isfinite(value) ? reread(value, std::chars_format::general, 6) : value;
 }
 
-// Decimals of places, down to a thousandth of the distance of neighbours.
+// Returns the decimals of places, down to a thousandth of the distance of neighbours.
 int place_decimals(const Json& holes) {
   const double distance = holes.at("median_distance").get<double>();
   return distance > 0 ? static_cast<int>(std::clamp(std::ceil(3 - std::log10(distance)), 0.0, 300.0)) : 17;
@@ -179,7 +179,7 @@ Json report_of(const Scene& scene, const MatchedMarks& marks) {
           {"marks", marks_json(marks, scene.loops)}};
 }
 
-// No text of it ends the element that it stands in.
+// The text never ends the element that it is in.
 std::string without_tags(std::string text) {
   std::string escaped;
   for (const char c : text) escaped += c == '<' ? std::string("\\u003c") : std::string(1, c);

@@ -113,7 +113,8 @@ bool is_stray(const Scene& scene, const Eigen::Vector3d& position) {
   return !Eigen::AlignedBox3d(scene.bounds.min() - margin, scene.bounds.max() + margin).contains(position);
 }
 
-// Relative to the scene's origin. What rounding has put outside of the bounds lies on them.
+// Returns the position relative to the scene's origin. A position that rounding has put outside of the bounds
+// lies on them.
 Eigen::Vector3f place_in(const Scene& scene, const Eigen::Vector3d& position) {
   Eigen::Vector3d inside = position;
   if (scene.rounding > 0) inside = position.cwiseMax(scene.bounds.min()).cwiseMin(scene.bounds.max());
@@ -151,7 +152,7 @@ void read_points(const fs::path& file, std::size_t most, Scene& scene) {
   scene.points.colours = colours.finish();
 }
 
-// Whether each loop is shown: those with the largest perimeters, until a limit.
+// Returns whether each loop is shown: the loops with the largest perimeters, until a limit.
 std::vector<bool> choose_loops(const std::vector<ExplainedLoop>& loops, const SceneLimits& limits) {
   std::vector<std::size_t> order(loops.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -216,8 +217,9 @@ void read_loops(const fs::path& file, const SceneLimits& limits, Scene& scene) {
   loops.measures.resize(kept);
 }
 
-// From the number of cells that points lie in, where these have about eight each. Cells halve from the cube
-// of the scene on: where two neighbours on the Z curve part, the highest bit in which they differ says.
+// Estimates the spacing from the number of cells that points lie in, if a cell has about eight points. Cells
+// halve from the cube of the scene on. Two neighbours on the Z curve part at the highest bit in which they
+// differ.
 float typical_spacing(const Scene& scene) {
   constexpr int kLevels = 21, kPlaceBits = 62;
   const ZCurve curve({Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(scene.edge)});

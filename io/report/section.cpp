@@ -10,7 +10,7 @@
 namespace lacuna::io {
 namespace {
 
-// Keeps the values of these rows, in order.
+// Keeps the values of the given rows, in order.
 template <class Value>
 void keep(std::vector<Value>& values, const std::vector<std::size_t>& rows) {
   if (values.empty()) return;

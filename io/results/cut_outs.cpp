@@ -54,7 +54,7 @@ std::optional<CutOutName> parse_name(const std::string& name) {
   return std::nullopt;
 }
 
-// visit(name, parsed) for what has the name of a cut-out.
+// Calls visit(name, parsed) for each file with the name of a cut-out.
 template <class Visit>
 void for_each_name(const fs::path& folder, const Visit& visit) {
   for (const std::string& name : names_in(folder / kCutOutsFolder)) {

@@ -9,7 +9,7 @@
 namespace lacuna::io {
 namespace {
 
-// Empty where it is not finite.
+// Writes an empty field if the value is not finite.
 void append(std::string& line, double value) {
   line += ',';
   if (std::isfinite(value)) append_shortest(line, value);

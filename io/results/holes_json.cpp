@@ -11,7 +11,7 @@
 namespace lacuna::io {
 namespace {
 
-// Its 4 x 4 matrix, row by row.
+// Returns the pose's 4 x 4 matrix, row by row.
 Json rows_of(const Pose& pose) {
   Json rows = Json::array();
   for (int row = 0; row < 4; ++row) {
@@ -68,7 +68,7 @@ Json levels_json(const std::vector<LevelSummary>& levels) {
   return list;
 }
 
-// null where it is not known.
+// Returns null if the value is not known.
 Json cause_json(const LoopCause& cause) {
   if (cause.name().empty()) return {};
   Json json = {{"main", cause.name()}, {"shares", Json::object()}, {"hidden_by", Json()}};
@@ -106,7 +106,7 @@ Json head(const ExplainedDetection& detection, const FileScan& scan, const Files
   return json;
 }
 
-// `"key":[...]` of a list that may be larger than memory: `put(element)` writes an element.
+// Writes `"key":[...]` of a list that may be larger than memory: `put(element)` writes an element.
 void write_list(std::string_view key, OutputFile& out,
                 const std::function<void(const std::function<void(const Json&)>& put)>& for_each) {
   out.write(",\"" + std::string(key) + "\":[");
@@ -118,7 +118,7 @@ void write_list(std::string_view key, OutputFile& out,
   out.write("]");
 }
 
-// Point by point: a loop may be larger than memory.
+// Writes point by point, since a loop may be larger than memory.
 void write_loop(std::size_t id, const ExplainedDetection& detection, bool with_coordinates, OutputFile& out) {
   const ExplainedLoop measures = detection.loop(id);
   const Json head = {{"id", id},

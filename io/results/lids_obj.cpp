@@ -17,7 +17,7 @@ Lid lid_of(const Detection& detection, std::size_t id, const Loop& loop) {
   return reason.empty() ? make_lid(loop) : Lid{.mesh = {}, .area = 0, .left_out = reason};
 }
 
-// A loop that is too long may be larger than memory: none of it is read.
+// A loop that is too long may be larger than memory, so no point of it is read.
 Loop read_fitting(const Detection& detection, std::size_t id) {
   return left_out(detection.loops[id].points).empty() ? detection.read_loop(id).points : Loop();
 }

@@ -76,7 +76,7 @@ class LoopsWriter {
   }
 
  private:
-  // A failure that GDAL reports without saying so in its answer is one, too.
+  // A failure that GDAL reports without an error in its answer is one, too.
   void require(bool is_well) const {
     if (is_well && failures_.first().empty()) return;
     const std::string& reason = failures_.first();
@@ -99,7 +99,7 @@ class LoopsWriter {
     return has_crs_ ? GisCrs::kWritten : GisCrs::kNotUnderstood;
   }
 
-  // To longitude and latitude, where GDAL has a way that holds for all loops.
+  // Converts to longitude and latitude, if GDAL has a way that holds for all loops.
   bool convert() {
     conversion_ = conversion_to_degrees(crs_);
     if (!converts_all()) conversion_.reset();
@@ -205,7 +205,7 @@ class LoopsWriter {
     return polygon;
   }
 
-  // A closed line; null where a point of it cannot be converted.
+  // Returns a closed line; null if a point of it cannot be converted.
   std::unique_ptr<OGRLineString> line_of(const ReportedLoop& loop) const {
     auto line = std::make_unique<OGRLineString>();
     const auto count = static_cast<int>(loop.points.size());  // loops.ply allows no more
@@ -240,7 +240,7 @@ extern "C" GisCrs lacuna_write_loops_gis(const GisTask& task) {
   try {
     result = writer.write();
   } catch (const Error&) {
-    sink.check();  // GDAL's failure may be that of the sink
+    sink.check();  // GDAL's failure may be the sink's
     throw;
   }
   sink.check();

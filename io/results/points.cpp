@@ -69,7 +69,7 @@ std::string subfolder_of(const OutputConfig& config) {
   return is_in_folder(config) ? kPointsFolder : "";
 }
 
-// Throws `Error` where two would have the same name.
+// Throws `Error` if two files would have the same name.
 std::vector<PointsFile> points_files(const FileScan& scan, const OutputConfig& config) {
   if (!is_in_folder(config))
     return {{points_name(config), joined_format(scan, config), {0, scan.files().size()}}};
@@ -99,7 +99,7 @@ bool has_own_quality(const RowLayout& layout) {
   return false;
 }
 
-// With the quality of MeshLab in PLY, unless the input has its own.
+// The results include the quality of MeshLab in PLY, unless the input has its own.
 std::vector<ResultColumn> results_of(const FileScan& scan, const OutputConfig& config,
                                      const PointsFile& file) {
   std::vector<ResultColumn> results = result_columns(scan, config);

@@ -23,7 +23,7 @@ struct Kept {
   std::size_t at, bytes;
 };
 
-// What of a LAS file goes over: all but the results of an earlier run.
+// The parts of a LAS file that go over: all but the results of an earlier run.
 struct LasInput {
   LasHeader header;
   std::vector<LasExtraBytes> extra;
@@ -49,7 +49,7 @@ LasInput examine(const std::filesystem::path& file) {
   return input;
 }
 
-// The points of the file as records of what is kept.
+// Reads the points of the file as records of the parts that are kept.
 class LasRows final : public InputRows {
  public:
   LasRows(const FileScan& scan, std::size_t file, const std::vector<Kept>& kept)

@@ -24,7 +24,7 @@ std::optional<std::array<std::uint8_t, kHead>> read_head(const fs::path& file) {
   return head;
 }
 
-// As the head says; none where there is no head.
+// Returns the size as the head says; nothing if there is no head.
 std::optional<std::uint64_t> full_size(const fs::path& file, bool is_table) {
   const auto head = read_head(file);
   if (!head) return std::nullopt;

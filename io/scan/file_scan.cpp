@@ -15,7 +15,7 @@
 namespace lacuna::io {
 namespace {
 
-// The first of those that are not empty, where the others are the same. Empty where two differ.
+// Returns the first text that is not empty, if the others are the same. Empty if two differ.
 template <class Same>
 std::string common(const std::vector<std::string>& names, const Same& is_same) {
   std::string first;

@@ -105,7 +105,7 @@ void RowFilter::apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions
   }
 }
 
-// The count of the first filter that refuses the row; null: none does.
+// Returns the count of the first filter that refuses the row; null if none does.
 std::uint64_t* RowFilter::refusing(std::size_t row, const Eigen::Vector3d& position, FilteredOut& filtered,
                                    BeforeFilters& before) const {
   constexpr std::size_t kMostClasses = 256;

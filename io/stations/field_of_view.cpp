@@ -11,7 +11,7 @@ namespace lacuna::io {
 FieldOfView::FieldOfView(const Eigen::Vector3d& axis)
     : axis_(axis), right_(axis.unitOrthogonal()), forward_(axis.cross(right_)) {}
 
-// From the sums of components: no arc tangent, which differs between machines.
+// Uses the sums of components. An arc tangent differs between machines.
 std::size_t FieldOfView::bin_of(const Eigen::Vector3d& direction) const {
   const double x = direction.dot(right_), y = direction.dot(forward_);
   const double sum = std::fabs(x) + std::fabs(y);

@@ -22,14 +22,14 @@ constexpr std::size_t kLeast = 100;  // jumps
 constexpr std::size_t kDrawn = 1000, kCompared = 512;
 constexpr double kSame = 0.5;  // relative difference of equal steps
 
-// Sine of the angle between two points, as seen from a place; 0 where the place is one of them.
+// Returns the sine of the angle between two points at a place; 0 if the place is one of them.
 double step_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& eye) {
   const Eigen::Vector3d to_a = a - eye, to_b = b - eye;
   const double lengths = to_a.norm() * to_b.norm();
   return lengths > 0 ? to_a.cross(to_b).norm() / lengths : 0;
 }
 
-// How much the steps before, across and after the jump differ: 0 to 1.
+// Returns how much the steps before, across and after the jump differ: 0 to 1.
 double difference(const Jump& jump, const Eigen::Vector3d& eye) {
   const auto [least, most] =
       std::minmax({step_between(jump[0], jump[1], eye), step_between(jump[1], jump[2], eye),
@@ -43,7 +43,7 @@ double mean_difference(std::span<const Jump> jumps, const Eigen::Vector3d& eye) 
   return sum / static_cast<double>(jumps.size());
 }
 
-// The middle between two lines, where they are nearest; none where they are nearly parallel.
+// Returns the middle between two lines, where they are nearest; nothing if they are nearly parallel.
 std::optional<Eigen::Vector3d> meeting_of(const Jump& a, const Jump& b) {
   const Eigen::Vector3d u = (a[2] - a[1]).normalized(), v = (b[2] - b[1]).normalized(), arm = b[1] - a[1];
   const double cosine = u.dot(v), square = 1 - cosine * cosine;
@@ -53,7 +53,7 @@ std::optional<Eigen::Vector3d> meeting_of(const Jump& a, const Jump& b) {
   return 0.5 * (a[1] + s * u + b[1] + t * v);
 }
 
-// Steps along the axes, ever shorter, as long as they make the difference smaller.
+// Takes steps along the axes, ever shorter, as long as they make the difference smaller.
 Eigen::Vector3d refine(std::span<const Jump> jumps, Eigen::Vector3d eye, double step) {
   double least = mean_difference(jumps, eye);
   for (const double shortest = step / 4096; step > shortest;) {

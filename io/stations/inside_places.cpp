@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint64_t kMostCorners = 64;  // of a loop that is triangulated
 constexpr double kPlaces = 256;             // of a hole, at least
 
-// Spread evenly over the triangles, by the sequence R2 (Roberts, 2018).
+// Spreads places evenly over the triangles, by the sequence R2 (Roberts, 2018).
 std::vector<InsidePlace> places_inside(const LidMesh& mesh) {
   const double spacing = area(mesh) / kPlaces;
   std::vector<InsidePlace> places;

@@ -27,7 +27,7 @@ bool sees(const Eigen::Vector3d& eye, const InsidePlace& place, const Obstacles&
 
 using Cell = std::pair<std::int64_t, std::int64_t>;  // y and x
 
-// The lowest level point of each square of the grid.
+// Returns the lowest level point of each square of the grid.
 std::map<Cell, Eigen::Vector3d> lowest_points(std::span<const Eigen::Vector3d> points,
                                               std::span<const Eigen::Vector3f> normals, double grid) {
   std::map<Cell, Eigen::Vector3d> lowest;

@@ -99,7 +99,7 @@ void PathView::complete() {
   }
 }
 
-// The nearest range of each cell.
+// Returns the nearest range of each cell.
 void PathView::store(Rays& rays) {
   const auto for_each_nearest = [&](auto&& visit) {
     std::pair<std::uint32_t, std::uint32_t> last(UINT32_MAX, 0);
@@ -173,8 +173,8 @@ std::vector<Aim> PathView::aims_at(const Eigen::Vector3d& place,
   return aims;
 }
 
-// That of the nearest cell with one, within kGap; of equally near ones, of the first. `off`: the square of
-// its distance, if that is less.
+// Returns the range of the nearest cell with one, within kGap. Among equally near cells, the first counts.
+// `off` becomes the square of the cell's distance, if that is less.
 double PathView::range_near(std::uint32_t section, std::size_t cell, bool is_left_out,
                             std::ptrdiff_t& off) const {
   constexpr auto kRow = static_cast<std::ptrdiff_t>(kEdge);

@@ -26,7 +26,7 @@ double RangeImage::put(const Eigen::Vector3d& direction, double range) {
   return before;
 }
 
-// Two passes over the offsets to the nearest cell (Danielsson, *Euclidean distance mapping*, 1980).
+// Makes two passes over the offsets to the nearest cell (Danielsson, *Euclidean distance mapping*, 1980).
 void RangeImage::fill(std::size_t distance) {
   struct Offset {
     std::int16_t row, column;

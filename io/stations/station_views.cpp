@@ -41,7 +41,7 @@ void fill_between_rays(StationView& view) {
   if (view.left_out) view.left_out->fill(std::size_t{1} << coarser);
 }
 
-// By every fourth cell of each row and column: 0.4 degrees are enough.
+// Every fourth cell of each row and column counts: 0.4 degrees are enough.
 void find_field(StationView& view) {
   constexpr std::size_t kEdge = RangeImage::kEdge, kStep = 4;
   const std::span<const float> ranges = view.ranges.cells();

@@ -17,12 +17,12 @@ constexpr std::size_t kSweptEdge = 64;  // cells of 1.8 degrees
 constexpr double kPause = 10;           // median intervals
 constexpr double kLeastShare = 0.02;  // of the largest count of a cell: others are of turns and rough ground
 
-// How many of the keys, in order, are `key` or less.
+// Returns how many of the keys, in order, are `key` or less.
 std::size_t count_up_to(const std::vector<double>& keys, double key) {
   return static_cast<std::size_t>(std::upper_bound(keys.begin(), keys.end(), key) - keys.begin());
 }
 
-// The value at `key`, between those of i - 1 and i.
+// Interpolates the value at `key`, between the values of i - 1 and i.
 template <class Value>
 Value between(const std::vector<double>& keys, const std::vector<Value>& values, std::size_t i, double key) {
   const double share = (key - keys[i - 1]) / (keys[i] - keys[i - 1]);

@@ -29,7 +29,7 @@ bool is_plain(const std::string& name) {
   return !name.empty() && is_letter(name.front()) && !is_number;
 }
 
-// Text that stays one cell, in UTF-8, and that no program takes for a formula.
+// Returns text that stays one cell, in UTF-8, and that no program takes for a formula.
 std::string safe_name(std::string_view name) {
   constexpr std::string_view kFormulas = "=+-@";
   std::string safe;

@@ -20,7 +20,7 @@ namespace {
 
 using Values = std::array<double, 8>;
 
-// Numbers of a line divided by blanks; none where one is not a number or there are too many.
+// Reads numbers of a line divided by blanks; none if one is not a number or there are too many.
 std::optional<std::size_t> parse_line(std::string_view line, Values& values) {
   std::size_t count = 0;
   for (std::string_view field; next_field(line, ' ', field); ++count) {
@@ -109,7 +109,7 @@ class PtxReader final : public ScanReader {
     return true;
   }
 
-  // Without blank lines.
+  // Reads the next line that is not blank.
   std::optional<std::string_view> next_full_line() {
     while (const auto line = in_.next_line()) {
       if (line->find_first_not_of(" \t\r") != line->npos) return line;
@@ -136,7 +136,7 @@ class PtxReader final : public ScanReader {
       in_.fail_at_line(in_.line(), "a pose needs " + std::to_string(count) + " numbers here");
   }
 
-  // The number of its values, 4 or 7.
+  // Returns the number of its values, 4 or 7.
   std::size_t read_ray() {
     const std::optional<std::size_t> count = parse_line(next_line(), line_);
     if (count != 4 && count != 7)
@@ -168,7 +168,7 @@ class PtxReader final : public ScanReader {
   Pose pose_;
   std::uint64_t left_ = 0;             // rays of the block not yet read
   std::uint32_t scan_ = 0;             // blocks begun
-  std::vector<ScannerPose> scanners_;  // of these
+  std::vector<ScannerPose> scanners_;  // of the blocks begun
   std::size_t values_ = 4;             // of each ray
   Values line_{};                      // the last one read
   bool is_pending_ = false;            // it is a ray that is not yet in a batch

@@ -22,7 +22,7 @@ using Fields = std::vector<std::string_view>;
 
 Fields split(std::string_view line, char separator);
 
-// Commas divide values, unless a blank is left within one of these: then they are decimal commas.
+// Commas divide values, unless a blank is left within a value. Then the commas are decimal commas.
 char find_separator(std::string_view line) {
   if (line.find(';') != std::string_view::npos) return ';';
   if (line.find(',') == std::string_view::npos) return ' ';
@@ -54,7 +54,7 @@ bool is_comment(std::string_view line) {
   return line.starts_with('#') || line.starts_with("//");
 }
 
-// A number, or meant to be one.
+// Whether the text is a number, or meant to be one.
 bool is_numeric(std::string_view field) {
   double value;
   return parse_number(field, value) || field.find_first_of("0123456789+-.") == 0;
@@ -80,7 +80,8 @@ std::vector<std::string> default_names(std::size_t count) {
   return names;
 }
 
-// PTS: the number of points on a line of its own, then rows of these. Empty: it has other rows.
+// PTS files have the number of points on a line of its own, then as many rows. Returns nothing for other
+// rows.
 std::vector<std::string> pts_names(std::size_t count) {
   if (count == 4) return {"x", "y", "z", "intensity"};
   if (count == 6) return {"x", "y", "z", "red", "green", "blue"};
@@ -132,11 +133,11 @@ bool counts_rows(const Fields& first, std::string_view others, char separator) {
   return rows >= kFewRows;
 }
 
-// What stands before the rows.
+// The lines before the rows.
 struct Preamble {
   std::string comment;                 // the last, without its sign
   std::optional<std::uint64_t> count;  // on a line of its own
-  std::string first;                   // the first line that is neither; empty: there is none
+  std::string first;                   // the first line that is neither; empty without such a line
 };
 
 // In a file whose lines end with a carriage return alone, all is one line.
@@ -269,8 +270,8 @@ class TextReader final : public ScanReader {
     layout_ = packed_layout(columns);
   }
 
-  // In a file of counted rows: a bare count behind the rows of a block. Exports of several stations have
-  // these.
+  // Reads, in a file of counted rows, a bare count behind the rows of a block. Exports of several stations
+  // have such counts.
   bool begins_block(std::string_view line) {
     std::uint64_t count = 0;
     if (rows_ != block_rows_ || !parse_number(without_end(line), count)) return false;
