@@ -54,7 +54,7 @@ void check_precision(const SurfaceGrid& grid, const SurfaceOptions& options) {
               " at coordinates of " + std::to_string(reach) + "; add --double");
 }
 
-// Computes places on the surface, with noise along its normal.
+// Makes places on the surface, with noise along its normal.
 class PointMaker {
  public:
   PointMaker(const SurfaceGrid& grid, const SurfaceOptions& options)

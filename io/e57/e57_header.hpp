@@ -46,7 +46,7 @@ struct E57Header {
 // Memory: up to 17 times the XML section, which may have up to 16 MiB and be no larger than the file.
 E57Header read_e57_header(const std::filesystem::path& file);
 
-// Returns the scans and coordinate metadata of an XML section of `bytes` logical bytes at the position of
+// Reads the scans and coordinate metadata of an XML section of `bytes` logical bytes at the position of
 // `pages`.
 void read_e57_xml(PagedFile& pages, std::size_t bytes, E57Header& header);
 

@@ -29,7 +29,7 @@ class E57Points {
   // Returns how many points can be taken, at least 1 and at most `most`, while points are left. Reads packets
   // for them. Throws `Error` if packets are damaged or end too early.
   std::size_t ready(std::size_t most);
-  // Returns the values of a field for the next `count` points, which are ready. Call it once for each field,
+  // Copies the values of a field for the next `count` points, which are ready. Call it once for each field,
   // then `pass`.
   void take(std::size_t field, std::size_t count, Column to, std::int64_t added) {
     streams_[field].take(count, to, added);

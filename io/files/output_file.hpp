@@ -12,7 +12,7 @@
 
 namespace lacuna::io {
 
-// Names the writer of the bytes: this class, or a library that makes the file, or makes none.
+// The writer of the bytes: this class, or a library that makes the file, or makes none.
 enum class Writer { kThis, kLibrary };
 
 class OutputFile {

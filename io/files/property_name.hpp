@@ -14,7 +14,7 @@ std::string known_name(std::string_view given);
 // Returns the name as it can be written in a PLY header: blanks and control characters become '_'.
 std::string property_name(std::string_view given);
 
-// Returns the names of the properties that make the colour of a point.
+// The names of the properties that make the colour of a point.
 inline constexpr const char* kColourNames[] = {"red", "green", "blue", "intensity"};
 
 // Returns one spelling for "return_number", PDAL's "ReturnNumber" and CloudCompare's "scalar_Return_Number".

@@ -19,7 +19,7 @@ double area_of(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::
   return (b - a).cross(c - a).norm() / 2;
 }
 
-// Finds the apex of the best triangle on each diagonal, as indices into the polygon.
+// The apex of the best triangle on each diagonal, as indices into the polygon.
 class LeastArea {
  public:
   LeastArea(Points points, const Polygon& polygon)

@@ -180,7 +180,7 @@ bool looks_like_stl(const FileStart& start) {
   for (std::size_t i = 0; i < kSolid.size(); ++i) {
     if (i == rest.size() || (rest[i] | 0x20) != kSolid[i]) return false;
   }
-  // A table may have a column of this name, but then numbers follow; a binary file of the wrong size has
+  // A table may have a column of this name, but then numbers follow. A binary file of the wrong size has
   // zeros.
   if (rest.find('\0') != std::string_view::npos) return true;
   rest.remove_prefix(std::min(rest.find('\n'), rest.size()));

@@ -18,10 +18,10 @@ struct CoverageTask {
   std::filesystem::path place;  // where it is made
 };
 
-// Writes a GeoTIFF with three bands of 32-bit floats for each cell: its points, their spacing, and the share
-// of the cell within holes. The spacing is the root of the cell's area over its points, NaN without points.
-// Returns false if GDAL does not understand the coordinate reference system, and the file has none. Throws
-// `Error` with GDAL's text.
+// A function that writes a GeoTIFF with three bands of 32-bit floats. They have for each cell its points,
+// their spacing, and the share of the cell within holes. The spacing is the root of the cell's area over its
+// points, NaN without points. Returns false if GDAL does not understand the coordinate reference system, and
+// the file has none. Throws `Error` with GDAL's text.
 using WriteCoverage = bool(const CoverageTask& task);
 
 inline constexpr const char* kWriteCoverage = "lacuna_write_coverage";

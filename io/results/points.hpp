@@ -47,7 +47,7 @@ void check_points(const FileScan& scan, const FilesConfig& config, const std::fi
 void write_points(const Detection& detection, const FileScan& scan, const FilesConfig& config,
                   const std::filesystem::path& folder, OutputSet& set);
 
-// Returns the disk space of the annotated scan, for so many rows. Text and LAZ are a guess, and not in
+// The disk space of the annotated scan, for so many rows. Text and LAZ are a guess, and not in
 // `certain`. Throws `Error` if the formats cannot hold the results.
 struct PointsBytes {
   std::uint64_t all = 0, certain = 0;

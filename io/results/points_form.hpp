@@ -37,7 +37,7 @@ struct PointsPlan {
   std::string name;                   // of the file, for errors
 };
 
-// Returns all columns of the input except the ones that the results replace.
+// A form of rows: all columns of the input except the ones that the results replace.
 class PointsForm {
  public:
   virtual ~PointsForm() = default;

@@ -17,8 +17,8 @@
 
 namespace lacuna::io {
 
-// Counts the rows left out by the first filter in this order that refuses them. No filter counts a row that
-// is not finite.
+// Numbers of rows left out, each counted by the first of these filters that refuses it. No filter counts a
+// row that is not finite.
 struct FilteredOut {
   std::uint64_t origin = 0;
   std::uint64_t bounds = 0;

@@ -99,7 +99,7 @@ void PathView::complete() {
   }
 }
 
-// Returns the nearest range of each cell.
+// Keeps the nearest range of each cell.
 void PathView::store(Rays& rays) {
   const auto for_each_nearest = [&](auto&& visit) {
     std::pair<std::uint32_t, std::uint32_t> last(UINT32_MAX, 0);

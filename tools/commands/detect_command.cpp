@@ -67,7 +67,7 @@ struct UsedWorkspace {
   FolderLock alone;
 };
 
-// None where the name is empty.
+// Returns nothing if the name is empty.
 std::unique_ptr<UsedWorkspace> use_workspace(const std::string& name, const fs::path& out) {
   if (name.empty()) return nullptr;
   std::error_code error;
@@ -84,7 +84,7 @@ fs::path scratch_parent(const RunConfig& run, const fs::path& out) {
   return run.workspace.empty() ? out : fs::path(run.workspace);
 }
 
-// Empty where every program reads what was written.
+// Returns an empty text if every program reads the file.
 std::string readers_note(const FileScan& scan, const OutputConfig& config) {
   if (scan.single_precision() || config.local_coordinates) return "";
   return "note: PCL takes the 64-bit coordinates of PLY files for 0 0 0; --local-coordinates helps, or "

@@ -51,7 +51,7 @@ std::string with_decimals(double value, int decimals) {
   return out.str();
 }
 
-// Not in a field of a list: what ends a field or a line, or begins a comment.
+// These characters may not be in a field of a list: they end a field or a line, or begin a comment.
 bool divides(char c) {
   return kFieldDivisors.find(c) != kFieldDivisors.npos || c == '\n' || c == '#';
 }
@@ -61,7 +61,7 @@ std::string without_divisors(std::string name) {
   return name;
 }
 
-// The last part alone, where no other file has it.
+// Returns the last part of the file's name alone, if no other file has it.
 std::string name_in_list(std::size_t file, const FileScan& scan) {
   const fs::path last = scan.files()[file].filename();
   const auto same = std::count_if(scan.files().begin(), scan.files().end(),
@@ -69,7 +69,7 @@ std::string name_in_list(std::size_t file, const FileScan& scan) {
   return same == 1 ? last.string() : scan.files()[file].string();
 }
 
-// Its subject: the file, and the number.
+// Returns the subject of the sweep: the file, and the number.
 std::string subject_of(const Sweep& sweep, const FileScan& scan) {
   const std::string number = sweep.source ? " " + std::to_string(*sweep.source) : "";
   return scan.files()[sweep.file].string() + number;
@@ -87,7 +87,7 @@ Listed listed(const Sweep& sweep, const FoundStation& found, const FileScan& sca
   return station;
 }
 
-// Shares of points that can have been seen from the stations, by their lines.
+// Finds shares of points that can have been measured from the stations, by their lines.
 void find_certainties(std::vector<Listed>& stations, FileScan& scan, const RunConfig& run) {
   const MadeFolder parent(scratch_folder(run));
   const TemporaryFolder folder(parent.path(), "lacuna-");

@@ -64,12 +64,12 @@ struct RunInfo {
   Inspection inspection;
   RunCosts costs;
   std::string points_file;
-  std::optional<std::uint64_t> points_bytes;  // with --points; none: they cannot be written
+  std::optional<std::uint64_t> points_bytes;  // with --points; empty: they cannot be written
   ResultBytes results;
   std::vector<StationSummary> stations;
 };
 
-// Without a pass over the file, where its head has all.
+// Avoids a pass over the file if its head has all numbers.
 AttributeCounts counts_of_file(ScanReader& reader, std::size_t rows_at_a_time) {
   const RowLayout& layout = reader.layout();
   const bool has_attributes =

@@ -33,9 +33,9 @@ namespace fs = std::filesystem;
 
 struct StationsArguments {
   fs::path folder;
-  std::optional<fs::path> places;  // a file with places of the scanner; none: over the floor
+  std::optional<fs::path> places;  // a file with places of the scanner; empty: over the floor
   std::size_t count = 5;
-  double height = 0, range = 0, incidence = 10, grid = 0;  // lengths of 0: chosen
+  double height = 0, range = 0, incidence = 10, grid = 0;  // lengths of 0 are chosen automatically
   bool overwrite = false;
 };
 
@@ -47,7 +47,8 @@ struct HiddenScan {
   double area = 0;
 };
 
-// What another station can see counts: shares that are hidden or out of view. Without causes, all of it.
+// Returns the share that another station can measure: what is hidden or out of view. Without causes, it is
+// the whole hole.
 double share_to_see(const LoopCause& cause) {
   return cause.main() ? cause.share(Cause::kHidden) + cause.share(Cause::kOutOfView) : 1;
 }
@@ -76,7 +77,7 @@ HiddenScan hidden_in(const Scene& scene) {
   return found;
 }
 
-// Every so many places stand for the others, so that rays take seconds.
+// One of so many places represents the others, so that rays take seconds.
 void thin(std::vector<InsidePlace>& places) {
   constexpr std::size_t kMost = 6000;
   const std::size_t step = (places.size() + kMost - 1) / kMost;
@@ -102,7 +103,7 @@ std::vector<Eigen::Vector3d> eyes_of(std::span<const NextStation> chosen) {
   return eyes;
 }
 
-// `tried`: the places that `chosen` is from.
+// `tried` has the places that `chosen` is from.
 void write_places(const fs::path& file, Overwrite overwrite, const Scene& scene,
                   std::span<const NextStation> chosen, std::span<const NamedPlace> tried, double hidden) {
   const Json& crs = scene.holes.at("crs");

@@ -52,7 +52,7 @@ double extent_of(const Summary& summary) {
   return bounds.isEmpty() ? 0 : bounds.sizes().maxCoeff();
 }
 
-// The loops of one kind, as one sentence has them.
+// The loops of one kind, for one sentence.
 struct Kind {
   std::vector<std::size_t> loops;  // by area, the largest first
   std::size_t long_ones = 0;       // with a larger perimeter than the bound
@@ -93,7 +93,7 @@ std::string print_largest(const std::vector<LoopMeasures>& loops, const Kind& ho
   return text;
 }
 
-// One line for each label, values below one another.
+// Prints one line for each label, values below one another.
 std::string print_facts(const std::vector<std::pair<std::string, std::string>>& facts) {
   std::size_t width = 0;
   for (const auto& [label, value] : facts) width = std::max(width, label.size());
@@ -104,7 +104,7 @@ std::string print_facts(const std::vector<std::pair<std::string, std::string>>& 
   return text;
 }
 
-// Empty where no station is known.
+// Returns an empty text if no station is known.
 std::string print_causes(const std::vector<LoopCause>& causes) {
   std::array<std::size_t, kCauses> counts{};
   for (const LoopCause& each : causes)
@@ -158,7 +158,7 @@ std::vector<std::pair<std::string, std::string>> findings(const Summary& summary
   return facts;
 }
 
-// A row for each phase; where several have a name, their times together.
+// Prints a row for each phase; phases of one name share a row with the sum of their times.
 std::string print_times(const Summary& summary, const RunTimes& times) {
   std::vector<PhaseTime> phases;
   const auto add = [&phases](const PhaseTime& phase) {

@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Rows as headers declare them; of text files, as many as their size allows for short lines.
+// Returns the rows that headers declare; for text files, as many as their size allows for short lines.
 std::uint64_t about_points(const FileScan& scan) {
   constexpr std::uint64_t kBytesOfLine = 24;
   std::uint64_t points = 0;
@@ -37,7 +37,7 @@ std::uint64_t about_points(const FileScan& scan) {
   return points;
 }
 
-// Whole minutes that a task takes at most, on a slow core.
+// Returns whole minutes that a task takes at most, on a slow core.
 std::uint64_t minutes_of(const Step& step, std::int64_t threads) {
   // Seconds of one thread. Measured on rough scans: 1.4e-6, and up to 0.7e-6 (bench/NOTES.md).
   const double of_point = step.evaluates ? 3e-6 : 2e-6;

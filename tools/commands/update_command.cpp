@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What `read_result` reads.
+// The data that `read_result` reads.
 constexpr std::array<const char*, 5> kComparedFiles = {"loops.ply", "boundary.ply", "sample.ply", "run.json",
                                                        "holes.json"};
 
@@ -74,7 +74,7 @@ bool is_left_out(std::span<const double> box, std::span<const double> boxes) {
   return false;
 }
 
-// The parameters of the run before, then the parameters of the command line. Boxes add up.
+// Returns the parameters of the run before, then the parameters of the command line. Boxes add up.
 FilesConfig changed_config(const RunArguments& arguments, const StoredRun& run, const fs::path& workspace) {
   FilesConfig base = config_of(run, workspace);
   const std::vector<double> before = std::exchange(base.input.leave_out, {});
@@ -90,7 +90,7 @@ FilesConfig changed_config(const RunArguments& arguments, const StoredRun& run, 
   return config;
 }
 
-// The folder that has the results of the run before; empty: none is known.
+// Returns the folder that has the results of the run before; empty if none is known.
 fs::path results_of(const fs::path& workspace) {
   for (const fs::path& folder : {earlier_parts(workspace), workspace}) {
     if (const auto note = read_note(folder, WorkspaceNote::kResults)) return *note;
@@ -110,7 +110,7 @@ void keep_results(const fs::path& results, const fs::path& kept) {
   }
 }
 
-// What has changed, as a file and as text.
+// Writes the changes, as a file and as text.
 std::string write_changes(const Comparison& comparison, const ResultArguments& to) {
   nlohmann::ordered_json json{{"lacuna", LACUNA_VERSION}};
   json.update(comparison.json());

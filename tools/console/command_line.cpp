@@ -100,7 +100,7 @@ const CLI::App* find_command(const CLI::App& app, const std::string& name) {
   return nullptr;
 }
 
-// "--k=3" is the option --k. Without it a misspelt option is an argument that was not expected.
+// "--k=3" is the option --k. Without this step, a misspelt option is an argument that was not expected.
 void check_option_names(const CLI::App& command, std::span<const std::string> arguments) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options()) {
@@ -139,7 +139,7 @@ std::string usage_hint(const CLI::App& app, const std::vector<std::string>& argu
   return " (see " + words + " --help)";
 }
 
-// A check of a value: what is allowed where `is_possible` says no.
+// A check of a value: it names the allowed values if `is_possible` is false.
 template <class IsPossible>
 CLI::Validator allowing(const std::string& allowed, IsPossible is_possible) {
   const auto check = [allowed, is_possible](const std::string& text) {

@@ -17,7 +17,7 @@ struct TypicalTime {
 };
 
 // Percent of a run with default options, measured on scans of 0.8 to 3 million points (dragon_30scans,
-// balm_23scans, a made plane) with 2 threads. What only some runs have is in the same unit.
+// balm_23scans, a synthetic plane) with 2 threads. Stages that only some runs have are in the same unit.
 constexpr std::array<TypicalTime, 15> kTypicalTimes{{{"survey", 3},
                                                      {"bucket", 11},
                                                      {"thin", 30},
@@ -81,7 +81,8 @@ void OverallProgress::end() {
   behind_ += std::exchange(current_, 0);
 }
 
-// For a stage without a total: as much time as the pace so far gives it is half of it, and no time is all.
+// For a stage without a total, the pace so far gives an expected time. After this time the share is one half.
+// If no time is expected, the share is 1 as soon as time has passed.
 double OverallProgress::share_of_stage(double seconds, std::uint64_t done, std::uint64_t total) const {
   if (total > 0) return std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
   const double spent = std::max(seconds - begin_, 0.0);

@@ -38,7 +38,7 @@ std::string time_left(double seconds) {
   return std::to_string(whole / 3600) + ":" + two(whole / 60 % 60) + ":" + two(whole % 60) + " h left";
 }
 
-// Counts what passes and shows it now and then, by whichever thread comes by when it is time.
+// Counts the progress and shows it now and then, by whichever thread comes by when it is time.
 class ShownProgress : public Progress {
  public:
   ShownProgress(std::vector<ExpectedStage> stages, Clock::duration interval)

@@ -21,10 +21,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Who has the console for longer writes to a stderr that takes nothing.
+// A thread that holds the console for longer is writing to a stderr that takes nothing.
 constexpr auto kLastLineAfter = 200ms;
 
-// stderr, with at most one line of progress that stands below everything else.
+// stderr, with at most one line of progress below everything else.
 class Console {
  public:
   void print_line(std::string_view line) {
@@ -41,7 +41,7 @@ class Console {
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (lock && can_write_now()) write(std::exchange(bar_, "").empty() ? "" : kErase);
   }
-  // Keeps the console. Without stdio, whose lock another thread may have.
+  // Keeps the console. It avoids stdio, whose lock another thread may have.
   void print_last_line(std::string_view line) {
     if (!mutex_.try_lock_for(kLastLineAfter) || !can_write_now()) return;
     const std::string text = erased() + visible(line) + '\n';
@@ -52,7 +52,7 @@ class Console {
   static constexpr const char* kErase = "\r\033[K";
 
   std::string erased() const { return bar_.empty() ? "" : kErase; }
-  // Not into a full pipe, nor to a terminal that has been stopped.
+  // Writes neither into a full pipe, nor to a terminal that has been stopped.
   static bool can_write_now() {
     pollfd err{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
     return poll(&err, 1, 0) == 1;
@@ -66,13 +66,13 @@ class Console {
   std::string bar_;
 };
 
-// Never destroyed: other threads may write until the very end.
+// The object is never destroyed, since other threads may write until the very end.
 Console& console() {
   static Console* const instance = new Console;
   return *instance;
 }
 
-// The program's name stands before each line.
+// The program's name comes before each line.
 std::string& name() {
   static std::string* const instance = new std::string("lacuna");
   return *instance;

@@ -23,7 +23,7 @@ std::vector<io::LoopIds> place(std::span<const ComparedLoop> loops, std::vector<
   return placed;
 }
 
-// It is of the same hole, or of a part of it: half of one runs along the other.
+// Whether a loop is of the same hole, or of a part of it: half of one runs along the other.
 bool is_related(const LoopMatch& match) {
   constexpr double kHalf = 0.5;
   return match.true_loop &&

@@ -24,7 +24,7 @@ class EdgeTree {
   // Segments with an end that is not finite are near nothing.
   explicit EdgeTree(std::vector<Segment> segments);
 
-  // Returns the owners of the segments at most `radius` from the point, each once, ascending. Returns none
+  // Finds the owners of the segments at most `radius` from the point, each once, ascending. Finds none
   // for a point that is not finite.
   void owners_within(const Eigen::Vector3d& point, double radius, std::vector<std::size_t>& owners) const;
 

@@ -78,7 +78,7 @@ bool matches(const Shares& shares, const MatchRule& rule) {
   return shares.on >= rule.share && shares.covered >= rule.share;
 }
 
-// Rates a loop that matches no true one, but lies on those that count together.
+// Rates a loop that matches no true loop, but lies on all counting true loops together.
 LoopMatch joined_or_parted(const Overlap& overlap, std::span<const TrueMatch> truth, const MatchRule& rule) {
   LoopMatch most_on, most_covered;
   for (const auto& [hit, shares] : overlap.of) {

@@ -28,7 +28,7 @@ std::vector<fs::path> config_folders() {
 [[noreturn]] void fail_unknown(const std::string& name, const std::vector<fs::path>& folders) {
   std::set<std::string> names;
   for (const fs::path& folder : folders) {
-    std::error_code error;  // a folder that is missing has none
+    std::error_code error;  // a folder that is missing has no config
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
       if (entry.path().extension() == ".toml") names.insert(entry.path().stem().string());
     }

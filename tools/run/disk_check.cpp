@@ -14,7 +14,7 @@ using namespace io;
 
 namespace {
 
-// Bytes that a disk has to take.
+// The bytes that a disk has to take.
 struct Needs {
   std::uint64_t certain = 0, probable = 0;
 };

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Where `a` is missing, a/../b is b.
+// If `a` is missing, a/../b becomes b.
 fs::path without_detours(const fs::path& folder) {
   fs::path begin;
   for (const fs::path& part : folder) {
@@ -68,7 +68,7 @@ MadeFolder::~MadeFolder() {
 
 void MadeFolder::remove_empty() const {
   for (const fs::path& folder : made_) {
-    if (rmdir(folder.c_str()) != 0) return;  // it holds something: that is what it was made for
+    if (rmdir(folder.c_str()) != 0) return;  // it holds something, for which it was made
   }
 }
 

@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPoseBlanks = " \t,";
 
-// Why a file of a folder is passed over; empty: it is a scan. Text may be anything, so it must also be
-// readable. A file of another format that is broken is an error, later.
+// Returns why a file of a folder is passed over; empty if it is a scan. Text may be anything, so it must also
+// be readable. A file of another format that is broken is an error, later.
 std::string reason_against(const fs::path& file, const ReadOptions& options) {
   const Recognised recognised = recognise(file);
   if (recognised == Recognised::kNo) return visible(file.string()) + ": it is not a scan";
@@ -60,7 +60,7 @@ void add_folder(const fs::path& folder, const ReadOptions& options, std::vector<
   if (files.size() == before) throw Error(folder.string() + ": no scan file in this folder");
 }
 
-// The ept.json that a name stands for: itself, or the one in a folder. Empty: none.
+// Returns the ept.json that a name stands for: itself, or the one in a folder. Empty if there is none.
 fs::path find_ept(const fs::path& input) {
   std::error_code error;
   const fs::path file = fs::is_directory(input, error) ? input / "ept.json" : input;

@@ -34,10 +34,10 @@ void release_symbol_tables() {
   ::dl_iterate_phdr(release, nullptr);
 }
 
-// Large arrays come from the system and go back to it; small ones share few arenas. Without this, what
-// threads free stays with them and the process grows beyond its limit. Where the limit is far, memory is kept
-// and used again: fresh pages have to be cleared by the system. Within 64 MiB, the least limit, next to none
-// is.
+// Large arrays come from the system and go back to it; small ones share few arenas. Without this, memory that
+// threads free stays with them, and the process grows beyond its limit. If the limit is far, memory is kept
+// and used again, because the system has to clear fresh pages. Within 64 MiB, the least limit, the process
+// keeps next to no memory.
 void set_up_allocator(std::uint64_t limit) {
   ::mallopt(M_MMAP_THRESHOLD, static_cast<int>(std::clamp(limit / 64, kMiB, 32 * kMiB)));
   ::mallopt(M_TRIM_THRESHOLD,

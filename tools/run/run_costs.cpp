@@ -27,15 +27,15 @@ struct Rate {
 //   vol_total    0.5       72                            157       2.3
 //   dragon       0.8       76                            239       3.1
 //   balm         1.7       148                           414       5.8
-// The sums of the next two rates are in the middle of these. --method paper on vol_total, 57 and 0.9, parts
-// them.
+// The sums of the next two rates are in the middle of the table's values. --method paper on vol_total, 57 and
+// 0.9, parts them.
 constexpr Rate kEachPoint = {.bytes = 60, .spilled = 100, .microseconds = 1.2};
 constexpr Rate kLevelsAbove = {.bytes = 40, .spilled = 100, .microseconds = 2.4};
-// Measured on the same day, as the difference to a default run of vol_total.
+// These rates were measured on the same day, as the difference to a default run of vol_total.
 constexpr Rate kOrientedNormals = {.bytes = 26, .spilled = 24, .microseconds = 1.2};
 constexpr Rate kVdb = {.bytes = 4, .microseconds = 0.7};  // bytes of the probability: the rest is no peak
 constexpr Rate kKeptWorkspace = {.bytes = 100, .microseconds = 0.1};
-// Not measured alone: the sizes of records, in all files that hold them at a time.
+// These rates were not measured alone. They are the sizes of records, in all files that hold them at a time.
 constexpr Rate kDoublePrecision = {.bytes = 30};  // coordinates that floats cannot hold
 constexpr Rate kGivenNormals = {.bytes = 40};
 // For each row of the input. The bytes are sizes of records; the microseconds are measured on vol_total with

@@ -33,8 +33,8 @@ int fail(const std::string& reason, ExitCode code) {
   return code;
 }
 
-// A full disk behind stdout is a failure like any other. Where a reader has closed the pipe, as `head` does,
-// it has all that it wants.
+// A full disk behind stdout is a failure like any other. A reader that has closed the pipe, as `head` does,
+// has all that it wants.
 int flush_output() {
   std::cout.flush();
   if (std::cout || output_failure() == EPIPE) return kDone;
@@ -54,8 +54,8 @@ std::string one_line(std::string text) {
   return text;
 }
 
-// Where one is closed, the next file to be opened would take its number, and messages would go into that
-// file. Writing to them fails, as it does to a closed one.
+// If one of the three is closed, the next file to be opened would take its number, and messages would go into
+// that file. Writing to the opened one fails, as it does to a closed one.
 void open_standard_descriptors() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(descriptor, F_GETFD) >= 0) continue;

@@ -27,14 +27,14 @@ using namespace io;
 
 namespace {
 
-// The distance from the farthest coordinate of single precision to the next one.
+// Returns the distance from the farthest coordinate of single precision to the next one.
 double coarsest_step(const Eigen::AlignedBox3d& bounds) {
   const double farthest = std::max(bounds.min().cwiseAbs().maxCoeff(), bounds.max().cwiseAbs().maxCoeff());
   const auto single = static_cast<float>(farthest);
   return static_cast<double>(std::nextafter(single, std::numeric_limits<float>::infinity()) - single);
 }
 
-// A coordinate in whole steps, a power of ten.
+// Prints a coordinate in whole steps, a power of ten.
 std::string print_in_steps(double value, double step) {
   const int decimals = std::max(0, static_cast<int>(std::lround(-std::log10(step))));
   std::array<char, 400> text;
@@ -53,7 +53,7 @@ std::string file_name(const FileScan& scan, std::size_t i) {
   return visible(scan.files()[i].string());
 }
 
-// The first of the files for which it holds.
+// Returns the first of the files for which the condition holds.
 template <class IsIt>
 std::optional<std::size_t> find_file(const FileScan& scan, const IsIt& is_it) {
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
@@ -62,7 +62,7 @@ std::optional<std::size_t> find_file(const FileScan& scan, const IsIt& is_it) {
   return std::nullopt;
 }
 
-// How many files after the first one it holds for, as ", and 3 more files" has it.
+// Returns the number of later files for which it holds, as ", and 3 more files".
 template <class IsIt>
 std::string and_more(const FileScan& scan, std::size_t first, const IsIt& is_it) {
   std::size_t count = 0;
@@ -106,7 +106,7 @@ void warn_of_other_units(const FileScan& scan, std::vector<std::string>& warning
                        file_name(scan, *first) + "; results name none, unless --unit states it");
 }
 
-// Where files contradict what the user states of all: `is_other` of a file.
+// Warns of files that contradict what the user states of all: `is_other` of a file.
 template <class IsOther>
 void warn_of_overridden(const FileScan& scan, const std::vector<std::string>& of_files,
                         const IsOther& is_other, const std::string& what, const std::string& stated,

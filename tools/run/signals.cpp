@@ -24,7 +24,7 @@ namespace {
 
 std::atomic<bool> interrupted = false;
 
-// Which file has a name at the moment; a file that replaces it is another.
+// Identifies the file that has a name at the moment; a file that replaces it is another.
 struct Identity {
   bool exists = false;
   dev_t device = 0;
@@ -53,7 +53,7 @@ struct WatchedResults {
 
 std::mutex watched_mutex;
 std::optional<WatchedResults> watched;
-std::filesystem::path watched_workspace;  // empty: none
+std::filesystem::path watched_workspace;  // empty without one
 
 std::string completeness(const WatchedResults& results) {
   return "; the results in " + results.folder.string() + " are complete";
