@@ -11,7 +11,8 @@
 
 namespace lacuna::io {
 
-// By the first bytes of a file, what it may be. Throws `Error` if it cannot be opened.
+// How sure the program is of the format of a file, by its first bytes. `recognise` throws `Error` if the file
+// cannot be opened.
 enum class Recognised : std::uint8_t {
   kNo,      // no format that is read
   kAsText,  // text, of rows of numbers or of anything else
@@ -19,7 +20,7 @@ enum class Recognised : std::uint8_t {
 };
 LACUNA_API Recognised recognise(const std::filesystem::path& file);
 
-// Opens a file by what it holds, not by its name. Throws `Error`.
+// Opens a file by its content, not by its name. Throws `Error`.
 LACUNA_API std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& file,
                                                  const ReadOptions& options);
 

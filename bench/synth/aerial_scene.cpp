@@ -11,7 +11,7 @@ namespace lacuna::synth {
 namespace {
 
 constexpr double kLength = 400, kWidth = 300;
-constexpr double kPlot = 38;       // metres: at most one house stands on each
+constexpr double kPlot = 38;       // metres: at most one house is on each
 constexpr double kFromWater = 16;  // of a house's middle
 constexpr double kFoundation = 4;  // below the ground
 constexpr int kTrees = 90;

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kLength = 28, kWidth = 18, kHeight = 8;
 
-// Two sides, and shelves with crates at several heights.
+// Adds two sides, and shelves with crates at several heights.
 void add_rack(Scene& scene, Vec3 at) {
   for (const double x : {-1.7, 1.7})
     scene.boxes.push_back({at + Vec3{x, 0, 1.8}, {0.06, 0.6, 1.8}, 1, 0, kMetal, "rack"});
@@ -17,7 +17,7 @@ void add_rack(Scene& scene, Vec3 at) {
   }
 }
 
-// From wall to wall along x, with legs to the floor.
+// The pipe runs from wall to wall along x, with legs to the floor.
 void add_pipe(Scene& scene, double y, double z, double radius) {
   scene.pipes.push_back({{0, y, z}, kX, kLength, radius, kMetal});
   for (const double x : {7.0, 14.0, 21.0})

@@ -13,7 +13,7 @@ namespace lacuna::synth {
 namespace {
 
 constexpr double kWobble = 0.1;       // of a step, uniform: no mechanism is perfect
-constexpr double kFullIntensity = 2;  // metres: white at this range, seen squarely, has intensity 1
+constexpr double kFullIntensity = 2;  // metres: white at this range, hit squarely, has intensity 1
 constexpr double kClearance = 0.6;    // metres between a station and any thing
 constexpr double kLeverArm = 10;      // metres at which an error of heading counts as much as one of place
 constexpr double kTilt = 25 / 360.0;  // turns, of the axis of each of several sweeps

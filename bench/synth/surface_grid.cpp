@@ -116,7 +116,7 @@ std::vector<Outline> outer_edges(const SurfaceGrid& grid) {
   }
   const double width = grid.columns - 1.0;
   const double around = 2 * (height + width);
-  // From the middle of the first row: no corner is cut in two.
+  // The curve begins in the middle of the first row, so that no corner is cut in two.
   return {{around, [=](double t) {
              double way = t * around + 0.5 * width;
              if (way >= around) way -= around;

@@ -13,14 +13,14 @@ namespace lacuna::io {
 
 struct CrsLookup {
   std::string given;       // a code or well-known text
-  std::string known_text;  // of it; empty: GDAL does not understand it
+  std::string known_text;  // of the system; empty if GDAL does not understand it
   std::string reason;      // GDAL's, where it does not
 };
 
 using LookUpCrs = void(CrsLookup& lookup);
 using IsSameCrs = bool(const std::string& a, const std::string& b);  // false where GDAL does not understand
-// As to_degrees() of io/crs/degrees.hpp. False where GDAL does not convert all places; some may be changed
-// then.
+// Works as to_degrees() of io/crs/degrees.hpp. Returns false if GDAL does not convert all places; then some
+// may be changed.
 using ConvertToDegrees = bool(const std::string& crs, std::span<Eigen::Vector3d> places);
 
 inline constexpr const char* kLookUpCrs = "lacuna_look_up_crs";

@@ -58,7 +58,7 @@ void FieldStream::take(std::size_t count, Column to, std::int64_t added) {
   const auto whole = [&](std::size_t i) {
     const std::uint64_t stored =
         field_.bits == 0 ? 0 : bits_at(bytes, begin_bit_ + i * field_.bits, field_.bits);
-    // Without overflow, whatever the limits are.
+    // Unsigned sums cannot overflow, whatever the limits are.
     return static_cast<std::int64_t>(stored + static_cast<std::uint64_t>(field_.minimum) +
                                      static_cast<std::uint64_t>(added));
   };

@@ -18,8 +18,8 @@ struct LasField {
   bool is_uint64 = false;            // as it is stored
 };
 
-// All but the coordinates, which are the first twelve bytes, in the order of their columns. `format`: 0
-// to 10.
+// Returns all fields but the coordinates, which are the first twelve bytes, in the order of their columns.
+// `format` is 0 to 10.
 std::vector<LasField> las_fields(int format);
 
 }  // namespace lacuna::io

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kHead = 60;  // of an extended record
 
-// By point format.
+// Sizes by point format.
 constexpr std::array<std::size_t, 11> kPointBytes = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
 constexpr std::array<std::size_t, 5> kHeaderBytes = {227, 227, 227, 235, 375};  // by minor version
 constexpr std::size_t kRecordHeader = 54, kExtraDescriptor = 192;

@@ -21,7 +21,7 @@ struct LasExtraBytes {
   std::uint8_t type;     // 1 to 10: one value; 11 to 30: two or three values; 0: bytes without a type
   std::uint8_t options;  // of type 0 the number of bytes, else which of the following count
   double scale, offset;  // value = stored * scale + offset
-  std::array<std::byte, 192> descriptor{};  // as it stands in the record
+  std::array<std::byte, 192> descriptor{};  // as it is in the record
 };
 
 // Where a variable length record is in its file, of either kind.
@@ -43,7 +43,7 @@ struct LasHeader {
   std::vector<LasExtraBytes> extra_bytes;
   std::vector<std::byte> laszip;  // data of the record "laszip encoded"; empty without it
   LasCrs crs;
-  std::vector<std::byte> bytes;  // the whole header block, as it stands in the file
+  std::vector<std::byte> bytes;  // the whole header block, as it is in the file
   std::vector<LasRecordPlace> records, extended;
   std::optional<std::uint64_t> waveforms_at;  // of the extended record with waveforms, where they are inside
 };

@@ -148,7 +148,7 @@ class CompressedPoints final : public LasPoints {
     return static_cast<std::uint64_t>(offset);
   }
 
-  // Both return the number of bytes, 0 at the end of what was decoded.
+  // Both functions return the number of bytes, 0 at the end of the decoded data.
   std::size_t read_decoded(std::span<std::byte> records) {
     const std::span<const std::byte> ready = std::span(decoded_).subspan(taken_);
     const std::size_t count = std::min(records.size(), ready.size());

@@ -22,7 +22,7 @@ inline constexpr std::string_view kLaszip = "laszip encoded";
 inline constexpr std::uint16_t kLaszipLayout = 22204;
 inline constexpr std::size_t kLasRecordHead = 54;  // bytes, of records that are not extended
 
-// What stands before the data of a record that is not extended.
+// The bytes before the data of a record that is not extended.
 std::string las_record_head(std::string_view user, std::uint16_t number, std::uint16_t bytes,
                             std::string_view description);
 

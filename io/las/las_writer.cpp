@@ -20,13 +20,13 @@ bool goes_over(const LasRecordPlace& record) {
   return record.user != kLasSpecification || record.number != kLasExtraBytes;
 }
 
-// As LAS 1.4 has it.
+// Returns the header as LAS 1.4 has it.
 std::string header_of(const LasHeader& from, std::size_t record_bytes) {
   constexpr std::array<std::size_t, 5> kBytes = {227, 227, 227, 235, 375};
   std::string header(kHeaderBytes, '\0');
   const std::size_t bytes = kBytes.at(static_cast<std::size_t>(from.minor));
   std::memcpy(header.data(), from.bytes.data(), bytes);
-  // Reserved before these versions.
+  // These fields were reserved before these versions.
   if (from.minor < 1) put_at<std::uint16_t>(header, 4, 0);
   if (from.minor < 2) put_at<std::uint16_t>(header, 6, 0);
   header.append(reinterpret_cast<const char*>(from.bytes.data()) + bytes, from.bytes.size() - bytes);

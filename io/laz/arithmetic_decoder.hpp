@@ -11,7 +11,7 @@
 
 namespace lacuna::io::laz {
 
-// All bytes of a chunk from `begin` to `end`. Throws `Corrupt` where the chunk is shorter.
+// Returns all bytes of a chunk from `begin` to `end`. Throws `Corrupt` if the chunk is shorter.
 std::vector<std::byte> read_all(const ChunkBytes& bytes, std::uint64_t begin, std::uint64_t end);
 
 // Decodes the bytes of a chunk from `begin` to `end`, which are within it; the chunk outlives the decoder. An

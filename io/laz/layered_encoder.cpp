@@ -86,7 +86,7 @@ class LayeredEncoder {
     if (extra_bytes_) extra_bytes_->encode(channel, changed, record + extra_bytes_at_);
   }
 
-  // In the order of the chunk.
+  // Layers are in the order of the chunk.
   std::vector<LayerEncoder*> layers() {
     std::vector<LayerEncoder*> layers;
     const auto add = [&](std::span<LayerEncoder> more) {

@@ -7,7 +7,7 @@
 //
 // Where the points of a LAZ file are, from the LAS header's `offset to point data`, P:
 //
-// - Compressor 2 and 3: at P stands the offset of the chunk table, 8 bytes, signed. The first chunk begins at
+// - Compressor 2 and 3: P has the offset of the chunk table, 8 bytes, signed. The first chunk begins at
 //   P + 8, the next one directly behind it. An offset of -1, or another that is not behind P, comes from a
 //   writer that could not seek. The last 8 bytes of the file hold the offset then.
 // - Compressor 1: no offset and no table. One chunk begins at P and has all points of the file. It goes up to

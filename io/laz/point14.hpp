@@ -30,7 +30,8 @@ class Point14Decoder {
   void decode_position(point14::Channel& channel, bool new_time);
   void decode_attributes(point14::Channel& channel, unsigned changed);
 
-  // In the order of the chunk. Those that hold one value for all points are empty, but for the first.
+  // Layers are in the order of the chunk. Layers that hold one value for all points are empty, but the first
+  // never is.
   Layer returns_xy_, z_, classification_, flags_, intensity_, scan_angle_, user_data_, point_source_,
       gps_time_;
   std::array<std::unique_ptr<point14::Channel>, point14::kChannels> channels_;

@@ -24,7 +24,7 @@ inline constexpr unsigned kChannels = 4;
 inline constexpr unsigned kReturnNumber = 3, kNumberOfReturns = 4, kScanAngle = 8, kGpsTime = 16,
                           kPointSource = 32, kScannerChannel = 64;
 
-// All but the scanner channel.
+// All fields of a point but the scanner channel.
 struct Fields {
   std::int32_t x, y, z;
   std::uint16_t intensity;
@@ -73,9 +73,9 @@ inline void write_fields(const Fields& fields, unsigned channel, std::byte* item
   store(item + 22, fields.gps_time);
 }
 
-// The context of x and y differences.
+// Returns the context of x and y differences.
 inline unsigned return_context(const Fields& fields, bool new_time) {
-  // By number of returns (row) and return number (digit of the row).
+  // The number of returns chooses the text, the return number its digit.
   static constexpr char kContexts[16][17] = {
       "0123453445555555", "1013333333333333", "2124444444433333", "3345444444444444",
       "4344544444444444", "5344454444444444", "3344445444444444", "4344444544444444",
@@ -97,7 +97,7 @@ inline unsigned height_level(const Fields& fields) {
   return std::min(return_level(fields.number_of_returns, fields.return_number), 7u);
 }
 
-// The context of the classification.
+// Returns the context of the classification.
 inline unsigned classification_context(const Fields& last, unsigned place) {
   return (last.classification & 31u) * 2 + (place == kOnlyReturn ? 1 : 0);
 }

@@ -24,7 +24,7 @@ class Point14Encoder {
   // Whether the last point was the first after one of another channel.
   bool changed_channel() const { return changed_channel_; }
 
-  // In the order of the chunk.
+  // Layers are in the order of the chunk.
   std::span<LayerEncoder> layers() { return layers_; }
 
  private:

@@ -16,7 +16,7 @@ class SymbolModel {
   static constexpr unsigned kShareBits = 15;  // a share is a number of 2^-15
   static constexpr bool kHasTable = kCapacity > 16;
 
-  // All symbols equally often. `symbols`: 2 to kCapacity.
+  // At first all symbols are equally frequent. `symbols` is 2 to kCapacity.
   explicit SymbolModel(unsigned symbols = kCapacity) : symbols_(symbols) {
     std::fill_n(counts_.begin(), symbols, std::uint16_t{1});
     if constexpr (kHasTable) {
@@ -31,10 +31,10 @@ class SymbolModel {
 
   unsigned symbols() const { return symbols_; }
 
-  // The sum of the shares of all symbols before `symbol`.
+  // Returns the sum of the shares of all symbols before `symbol`.
   std::uint32_t start(unsigned symbol) const { return starts_[symbol]; }
 
-  // Symbols before which the one at `place` in the interval is not, and after which it is not.
+  // The symbol at a place in the interval is not before `low` and not after `high`.
   struct Bracket {
     unsigned low, high;
   };

@@ -8,8 +8,9 @@
 
 namespace lacuna::io {
 
-// Whether two edges of the loop that do not follow each other cross or touch, seen along the normal of its
-// area vector. True where it has none. Cost: a sort, and the pairs whose boxes overlap along one axis.
+// Whether two edges of the loop that do not follow each other cross or touch in the projection along its area
+// vector. True if the loop has no area vector. Cost: a sort, and the pairs whose boxes overlap along one
+// axis.
 bool crosses_itself(std::span<const Eigen::Vector3d> loop);
 
 // Whether two triangles without a common vertex pass through each other or overlap in one plane. Two with a

@@ -24,14 +24,14 @@ inline constexpr std::string_view kHolesSchema = "holes 2";
 
 using Json = nlohmann::ordered_json;  // keys stay in the order given; what is not finite is printed as null
 
-// The first keys of each file: the program's version and the form of the file, such as "holes 1".
+// Returns the first keys of each file: the program's version and the form of the file, such as "holes 1".
 Json begin_json(std::string_view schema);
 
-// With the indent of nlohmann::json: -1 for one line. A path need not be UTF-8, the text is.
+// Prints with the indent of nlohmann::json: -1 gives one line. A path need not be UTF-8, but the text is.
 std::string print(const Json& json, int indent);
 
-// The content of a file that is no larger than memory; `keep` is called as nlohmann::json::parse does it.
-// Throws `Error` where the file is not regular, not JSON, or nested deeper than any result: printing and
+// Returns the content of a file that is no larger than memory; `keep` is called as nlohmann::json::parse does
+// it. Throws `Error` if the file is not regular, not JSON, or nested deeper than any result: printing and
 // copying such values is recursive. `needed` is for the error.
 Json read_json(const std::filesystem::path& file, const Json::parser_callback_t& keep = {},
                std::string_view needed = "a result of lacuna detect");

@@ -21,7 +21,7 @@ T read_value(InputFile& in, bool swapped) {
   return value;
 }
 
-// At most 2^32 - 1.
+// Returns at most 2^32 - 1.
 std::uint64_t read_count(InputFile& in, const PlyProperty& property, bool swapped) {
   const std::uint64_t place = in.position();
   return with_type(*property.count_type, [&](auto zero) -> std::uint64_t {

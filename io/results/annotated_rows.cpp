@@ -13,7 +13,7 @@
 namespace lacuna::io {
 namespace {
 
-// For each of the columns: the property of that name; null where a file has none.
+// Returns the property with the name of each column; null if a file has none.
 std::vector<const Property*> find_sources(const RowLayout& from, std::span<const Property> columns) {
   std::unordered_map<std::string_view, const Property*> by_name;
   for (const Property& property : from.properties) by_name.emplace(property.name, &property);

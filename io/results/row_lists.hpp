@@ -33,7 +33,7 @@ class RowLists {
  private:
   struct List {
     std::vector<std::byte> buffer;         // the bytes behind the full blocks
-    std::uint64_t first = 0, current = 0;  // blocks; meaningless in an empty list
+    std::uint64_t first = 0, current = 0;  // blocks; an empty list has none
     std::uint64_t size = 0;
   };
 

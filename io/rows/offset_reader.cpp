@@ -43,7 +43,7 @@ class OffsetReader final : public ScanReader {
  private:
   std::unique_ptr<ScanReader> reader_;
   RowLayout layout_;
-  std::vector<std::optional<double>> summands_;  // one for each column; none: it stays as it is
+  std::vector<std::optional<double>> summands_;  // of each column; empty if it stays as it is
   RowBatch rows_;                                // as the reader gives them
 };
 

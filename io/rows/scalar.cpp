@@ -17,7 +17,7 @@ struct Names {
   std::string_view other;
 };
 
-// In the order of `Scalar`.
+// Names are in the order of `Scalar`.
 constexpr std::array<Names, 8> kNames = {{{"char", "int8"},
                                           {"uchar", "uint8"},
                                           {"short", "int16"},

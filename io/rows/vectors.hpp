@@ -26,7 +26,7 @@ bool is_component(std::string_view property, const VectorNames& names);
 RowLayout with_components_as(Scalar type, const VectorNames& names, const RowLayout& layout);
 bool has_vectors(const RowLayout& layout, const VectorNames& names);
 
-// All three columns must be there; to store, as doubles.
+// All three columns must exist. `store_vectors` needs them as doubles.
 void load_vectors(const RowBatch& rows, const RowLayout& layout, const VectorNames& names,
                   std::vector<Eigen::Vector3d>& vectors);
 void store_vectors(std::span<const Eigen::Vector3d> vectors, const RowLayout& layout,

@@ -110,7 +110,7 @@ class LACUNA_API FileScan : public PointSource {
   void check_unchanged() const;
   void observe(RowObserver* observer) { observer_ = observer; }  // null: no observer
   void read_all(RowObserver& observer);                          // for this observer alone, once
-  bool has_scanners() const { return has_scanners_; }            // a file says where one stood
+  bool has_scanners() const { return has_scanners_; }            // a file has the place of one
   bool single_precision() const;                                 // x, y and z are 32-bit floats in every file
 
  private:

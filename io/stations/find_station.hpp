@@ -23,7 +23,7 @@ namespace lacuna::io {
 // Four points that follow each other. The middle two are ten times farther apart than the others.
 using Jump = std::array<Eigen::Vector3d, 4>;
 
-// Collects the jumps of a sweep, in the order in which it was measured. So many at most stand for all.
+// Collects the jumps of a sweep, in the order in which it was measured. At most so many jumps represent all.
 class Jumps {
  public:
   static constexpr std::size_t kMost = 8192;

@@ -18,7 +18,7 @@
 
 namespace lacuna::io {
 
-// In the folder of results; a program recognises an earlier one by how it begins.
+// The file is in the folder of results. A program recognises an earlier one by how it begins.
 inline constexpr const char* kNextStationsFile = "next_stations.geojson";
 inline constexpr std::string_view kNextStationsMark =
     "{\n  \"type\": \"FeatureCollection\",\n  \"name\": \"lacuna_next_stations\"";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Places at which a scanner may stand, as the user lists them.
+// Places for a scanner, as the user lists them.
 #pragma once
 
 #include <filesystem>

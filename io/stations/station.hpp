@@ -22,7 +22,7 @@ struct Station {
   Eigen::Vector3d axis{0, 0, 1};    // unit: the scanner turns around it
   std::optional<std::size_t> file;  // index of the file with its points; empty: any file
   std::optional<std::uint32_t>
-      source;  // its number in the column `scan` or `point_source_id`; none: all rows
+      source;  // its number in the column `scan` or `point_source_id`; empty: all rows
 };
 
 // Reads the stations that the user states, one on each line: a name without blanks, x y z, and its points.

@@ -74,7 +74,7 @@ class StationViews final : public RowObserver {
   bool are_stated_ = false, is_complete_ = false;
   std::unique_ptr<PathView> path_;
   std::vector<StationView> views_;
-  // By file and source, kAny for any of them.
+  // The key is file and source, kAny for any of them.
   static constexpr std::uint64_t kAny = UINT64_MAX;
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::size_t> index_;
   std::size_t file_ = SIZE_MAX;     // of the last batch

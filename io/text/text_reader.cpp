@@ -140,7 +140,7 @@ struct Preamble {
   std::string first;                   // the first line that is neither; empty without such a line
 };
 
-// In a file whose lines end with a carriage return alone, all is one line.
+// A file whose lines end with a carriage return alone is one line for this reader.
 void refuse_lone_returns(const InputFile& in, std::string_view line) {
   if (line.ends_with('\r')) line.remove_suffix(1);
   if (line.find('\r') != std::string_view::npos)

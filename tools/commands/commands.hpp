@@ -7,16 +7,16 @@ namespace lacuna::tools {
 
 class Command;
 
-// From a scan to its holes.
+// These start with a scan.
 void add_detect_command(const Command& program);
 void add_info_command(const Command& program);
 
-// What is made of results.
+// These start with the results of a run.
 void add_report_command(const Command& program);
 void add_render_command(const Command& program);
 void add_compare_command(const Command& program);
 
-// Where scanners should stand next, and where they stood.
+// These find places for scanners: the next ones, and the past ones.
 void add_stations_command(const Command& program);
 void add_find_stations_command(const Command& program);
 

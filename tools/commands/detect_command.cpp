@@ -45,7 +45,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-// In the order of ProgressStyle.
+// Names are in the order of ProgressStyle.
 constexpr std::array<std::string_view, 3> kProgressStyles = {"bar", "plain", "none"};
 
 struct DetectArguments {

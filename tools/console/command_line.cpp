@@ -114,7 +114,7 @@ void check_option_names(const CLI::App& command, std::span<const std::string> ar
   }
 }
 
-// Without it, a misspelt command is reported as a missing one.
+// Without this check, CLI11 reports a misspelt command as a missing one.
 void check_names(const CLI::App& app, std::span<const std::string> arguments) {
   const std::vector<const CLI::App*> commands = app.get_subcommands({});
   if (commands.empty()) return check_option_names(app, arguments);

@@ -56,12 +56,12 @@ struct TrueMatch {
 };
 
 struct LoopScores {
-  std::size_t true_loops = 0, found = 0, missed = 0;  // of those that count
-  std::size_t short_loops = 0;                        // true ones that do not
+  std::size_t true_loops = 0, found = 0, missed = 0;  // of the true loops that count
+  std::size_t short_loops = 0;                        // true ones that do not count
   std::size_t loops = 0, false_loops = 0, repeated = 0, joined = 0, parted = 0, steps = 0, unsampled = 0;
   std::optional<double> recall;  // share of the true ones that are found; empty without true ones
   std::optional<double>
-      precision;  // neither false, joined nor parted of the loops but steps; none: there are none
+      precision;  // neither false, joined nor parted of the loops but steps; empty without such loops
 };
 
 struct LoopAccuracy {
