@@ -28,7 +28,7 @@ using Eigen::Vector3d;
 
 constexpr std::array<std::size_t, 9> kLasBytes = {20, 28, 26, 34, 0, 0, 30, 36, 38};  // of a point, by format
 
-// What a scanner may measure besides the position.
+// Values that a scanner may measure besides the position.
 std::uint16_t intensity(std::size_t i) {
   return static_cast<std::uint16_t>(20'000 + 10'000 * std::sin(static_cast<double>(i) * 1e-3) +
                                     i * 7919 % 512);

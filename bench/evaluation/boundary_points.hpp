@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How well points were classified as boundary points.
+// Scores of the classification of points as boundary points.
 #pragma once
 
 #include "tools/matching/true_loops.hpp"

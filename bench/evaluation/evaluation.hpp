@@ -19,7 +19,8 @@
 namespace lacuna::evaluation {
 using namespace matching;
 
-// What a program found. Ids are ranks of points of the scan; the ids of polylines are places in `vertices`.
+// The result of a program. Ids are ranks of points of the scan; the ids of polylines are places in
+// `vertices`.
 struct Result {
   std::filesystem::path file;  // with the loops
   std::vector<io::LoopIds> loops;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `lacuna-bench evaluate` prints: for people, and as JSON.
+// The output of `lacuna-bench evaluate`: for people, and as JSON.
 #pragma once
 
 #include "bench/evaluation/evaluation.hpp"

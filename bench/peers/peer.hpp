@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What both peers share: their command line, and how they report their times.
+// Code that both peers share: their command line, and the report of their times.
 #pragma once
 
 #include <chrono>

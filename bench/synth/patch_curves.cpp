@@ -24,7 +24,7 @@ EdgeKey key_of(const Lattice& lattice, Node first, bool upward) {
   return 2 * (row * (static_cast<std::uint64_t>(lattice.columns) + 1) + column) + (upward ? 1 : 0);
 }
 
-// Where the curve crosses an edge, and the crossings before and after it.
+// The place where the curve crosses an edge, and the crossings before and after it.
 struct Crossing {
   Node first;
   bool upward;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the points of a synthetic surface are, in the plane of its grid.
+// Places of the points of a synthetic surface, in the plane of its grid.
 #pragma once
 
 #include "bench/synth/hole_field.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a coordinate reference system says of itself in well-known text (OGC 01-009; ISO 19162).
+// Facts about a coordinate reference system from its well-known text (OGC 01-009; ISO 19162).
 #pragma once
 
 #include <string_view>

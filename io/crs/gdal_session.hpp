@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What GDAL keeps for a thread or the whole program, held for as long as one file is written.
+// State of GDAL for a thread or the whole program, held for as long as one file is written.
 #pragma once
 
 #include <cstddef>
@@ -69,7 +69,7 @@ class GdalTextSink {
   GdalTextSink(const GdalTextSink&) = delete;
   GdalTextSink& operator=(const GdalTextSink&) = delete;
 
-  // Throws what `take` has thrown.
+  // Throws the exception that `take` has thrown.
   void check() const;
 
  private:

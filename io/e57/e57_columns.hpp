@@ -32,7 +32,7 @@ struct E57Columns {
   std::unordered_map<std::string, std::size_t> ranks;  // of properties, by name
 };
 
-// What one scan puts into the columns of its file.
+// The mapping of one scan's fields to the columns of its file.
 struct E57ScanColumns {
   struct Target {
     std::size_t property;  // its rank

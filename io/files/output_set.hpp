@@ -40,7 +40,7 @@ namespace lacuna::io {
 
 enum class Overwrite { kOwn, kAny };
 
-// What shows that a file was written by an earlier run of the command: a text at a byte of it.
+// The proof that an earlier run of the command wrote a file: a text at a byte of it.
 struct FileMark {
   FileMark(std::string_view text, std::uint64_t offset = 0) : text(text), offset(offset) {}
   FileMark(const char* text) : text(text) {}
@@ -94,7 +94,7 @@ class OutputSet {
   std::vector<std::filesystem::path> commit();
 
  private:
-  // What identifies a file and its content.
+  // These values identify a file and its content.
   struct FoundFile {
     dev_t device;
     ino_t number;

@@ -26,7 +26,7 @@ class LasColumns {
   void unpack(std::span<const std::byte> records, std::byte* rows) const;
 
  private:
-  // Where a column's value is in a record, and what is made of it.
+  // The place of a column's value in a record, and its conversion.
   struct Source {
     enum class Kind : std::uint8_t { kCoordinate, kBits, kCopy, kScaled } kind;
     std::size_t offset;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the fields of each point format are in a record (ASPRS LAS specification 1.4 R15, section 2.6).
+// Places of the fields of each point format in a record (ASPRS LAS specification 1.4 R15, section 2.6).
 #pragma once
 
 #include "io/rows/scan_reader.hpp"

@@ -24,7 +24,7 @@ struct LasExtraBytes {
   std::array<std::byte, 192> descriptor{};  // as it is in the record
 };
 
-// Where a variable length record is in its file, of either kind.
+// The place of a variable length record in its file, of either kind.
 struct LasRecordPlace {
   std::string user;
   std::uint16_t number;

@@ -13,7 +13,7 @@
 
 namespace lacuna::io {
 
-// How points become LAZ.
+// The compression of points to LAZ.
 struct LasCompression {
   laz::Layout layout;
   // Bytes that bound what is held, but for one chunk, which always is. Chunks that fit are compressed by

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the decoders of POINT10 and POINT14 choose their models by.
+// Contexts by which the decoders of POINT10 and POINT14 choose their models.
 #pragma once
 
 #include "io/laz/symbol_model.hpp"

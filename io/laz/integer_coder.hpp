@@ -37,7 +37,7 @@ class IntegerCoder {
     return static_cast<std::int32_t>(decode(decoder, static_cast<std::uint32_t>(prediction), context));
   }
 
-  // What decode() with the same prediction gives back.
+  // Encodes the value that decode() with the same prediction returns.
   void encode(ArithmeticEncoder& encoder, std::uint32_t prediction, std::uint32_t value,
               unsigned context = 0) {
     encode(encoder, prediction, value, ks_[context]);

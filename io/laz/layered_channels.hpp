@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the decoders and the encoders of RGB14, RGBNIR14 and BYTE14 have in common.
+// Code that the decoders and the encoders of RGB14, RGBNIR14 and BYTE14 share.
 #pragma once
 
 #include "io/laz/channel_values.hpp"

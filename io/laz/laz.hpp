@@ -5,7 +5,7 @@
 // Sensing 79(2), 2013, and "LAZ specification 1.4", rapidlasso, below cited as "LAZ". The arithmetic coder:
 // A. Said, "Introduction to arithmetic coding", HP Labs report HPL-2004-76, below cited as "Said".
 //
-// Where the points of a LAZ file are, from the LAS header's `offset to point data`, P:
+// The points of a LAZ file follow from the LAS header's `offset to point data`, P:
 //
 // - Compressor 2 and 3: P has the offset of the chunk table, 8 bytes, signed. The first chunk begins at
 //   P + 8, the next one directly behind it. An offset of -1, or another that is not behind P, comes from a
@@ -23,7 +23,7 @@
 
 namespace lacuna::io::laz {
 
-// What is wrong with compressed data, one line; the caller adds file and place.
+// An error in compressed data, one line; the caller adds file and place.
 class Corrupt : public std::runtime_error {
   using runtime_error::runtime_error;
 };
@@ -56,7 +56,7 @@ inline constexpr std::uint16_t kLayeredChunked = 3;
 
 inline constexpr std::uint32_t kVariableChunks = 0xffffffff;
 
-// How the records of a file are compressed.
+// The compression of the records of a file.
 struct Layout {
   std::uint16_t compressor;
   std::uint32_t chunk_points;  // kVariableChunks: the chunk table has each chunk's number of points
@@ -126,7 +126,7 @@ class RecordDecoder;
 // and a buffer for each stream that is read piece by piece.
 class ChunkDecoder {
  public:
-  // Both outlive the decoder.
+  // Layout and bytes outlive the decoder.
   ChunkDecoder(const Layout& layout, const ChunkBytes& bytes);
   ~ChunkDecoder();
 

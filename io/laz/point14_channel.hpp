@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the decoder and the encoder of POINT14 have in common: a point's fields, and the state of a channel.
+// Code that the decoder and the encoder of POINT14 share: a point's fields, and the state of a channel.
 #pragma once
 
 #include "io/files/little_endian.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the two kinds of chunks have in common.
+// The interface that the two kinds of chunks share.
 #pragma once
 
 #include <cstddef>

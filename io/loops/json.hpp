@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the results in JSON share.
+// The parts that the results in JSON share.
 #pragma once
 
 #include "engine/model/detection.hpp"

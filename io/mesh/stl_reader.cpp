@@ -108,7 +108,7 @@ class AsciiStl final : public ScanReader {
  private:
   enum class Place : std::uint8_t { kOutside, kSolid, kFacet, kLoop, kClosed };
 
-  // How many vertices the line has: 1 or 0.
+  // Returns the number of vertices of the line: 1 or 0.
   std::size_t read_line(std::string_view line, std::byte* to) {
     LineWords words(in_, line);
     const std::string keyword = first_word(words);

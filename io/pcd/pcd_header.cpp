@@ -16,7 +16,7 @@ namespace {
 // The limit is more than any real header has, and little enough to give up on a file without one.
 constexpr std::uint64_t kLongestHeader = 1 << 20;
 
-// What has been read so far.
+// The parts of the header that have been read so far.
 struct Parser {
   InputFile& in;
   PcdHeader header;
@@ -43,7 +43,7 @@ void parse_fields(Parser& parser, LineWords& words) {
   if (parser.header.fields.empty()) parser.fail("no fields; x, y and z are needed");
 }
 
-// One value for each field, in order.
+// Reads one value for each field, in order.
 template <class Parse>
 void parse_each(Parser& parser, LineWords& words, const char* keyword, const Parse& parse) {
   if (parser.header.fields.empty())

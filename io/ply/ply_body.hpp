@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What follows the header of a PLY file, in either encoding.
+// The data behind the header of a PLY file, in either encoding.
 #pragma once
 
 #include "io/ply/ply_header.hpp"

@@ -23,7 +23,7 @@ constexpr const char* kTypes =
 
 using Words = std::span<const std::string_view>;
 
-// What has been read so far.
+// The parts of the header that have been read so far.
 struct Parser {
   InputFile& in;
   PlyHeader header;

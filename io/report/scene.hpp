@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a report and a picture show: a sample of the scan and the loops, from the folder of a run's results.
+// The content of a report and a picture: a sample of the scan and the loops, from the folder of a run's
+// results.
 #pragma once
 
 #include "engine/model/loop.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much of a scan is covered, in square cells viewed from above.
+// The coverage of a scan, in square cells viewed from above.
 #pragma once
 
 #include "engine/model/detection.hpp"

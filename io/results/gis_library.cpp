@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kUser = "--gpkg, --geojson, --shp and --coverage";
 
-// One warning in a run for all files.
+// A run gives one warning for all files.
 void warn_not_understood(const FileScan& scan) {
   static std::once_flag warned;
   std::call_once(warned, [&] {

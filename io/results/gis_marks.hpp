@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How files for GIS are recognised that an earlier run wrote. These formats have no comments at their start.
+// Recognises files for GIS that an earlier run wrote. These formats have no comments at their start.
 #pragma once
 
 #include "io/files/output_set.hpp"

@@ -27,7 +27,7 @@ class PointsWriter {
   virtual void finish() {}
 };
 
-// What the forms are made of. The scan must outlive them.
+// The input of the forms. The scan must outlive them.
 struct PointsPlan {
   const FileScan& scan;
   const OutputConfig& config;

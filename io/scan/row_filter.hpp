@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which rows of a scan take part: the user's choice by place, class and return.
+// Chooses the rows of a scan that take part: the user's choice by place, class and return.
 #pragma once
 
 #include "io/options/options.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a moving scanner measured from each place of its path, collected while the scan is read.
+// The ranges that a moving scanner measured from each place of its path, collected during the read.
 //
 // Idea: the path is cut into sections so short that all rays of a section start at one place. In the axes of
 // the path, the directions in which the scanner measures are the same everywhere. So the scanner has sent a

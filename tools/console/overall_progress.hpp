@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a run is, over all of its stages, and how long it still takes.
+// Estimates the progress of a run over all of its stages, and the time left.
 #pragma once
 
 #include "engine/config/config.hpp"
