@@ -3,7 +3,7 @@
 //
 // - Scans: `io::FileScan` (io/scan/file_scan.hpp) is a `PointSource` of files, for `find_holes` and `detect`.
 //   `io::open_scan` (io/formats.hpp) reads rows of one file with all columns.
-// - Parameters: `io::FilesConfig` (io/options/options.hpp) has those of the engine, and those of files.
+// - Parameters: `io::FilesConfig` (io/options/options.hpp) has the parameters of the engine and of files.
 // - Results: `io::write_results` (io/results/results.hpp) writes what `lacuna detect` writes.
 // - The report: `io::write_report` (io/report/report.hpp) makes it from results in a folder.
 #pragma once

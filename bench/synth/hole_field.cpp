@@ -74,7 +74,7 @@ HoleField::HoleField(const SurfaceGrid& grid, const SurfaceOptions& options) : g
   }
 }
 
-// A hole is far from the edges of its cell. So either of two cells may have a place between them.
+// A hole is far from the edges of its cell. So a place between two cells may count to either of them.
 bool HoleField::takes(double row, double column) const {
   const std::uint32_t down = static_cast<std::uint32_t>(std::max(row, 0.0)) / cell_rows_;
   const auto from_left = static_cast<std::uint32_t>(std::max(column, 0.0));

@@ -121,7 +121,8 @@ void ScanTruth::note(const Echo& echo, std::uint64_t ray, std::uint64_t id) {
   });
 }
 
-// Returns the points nearest to the places in turn, without repetition; none if points are rare.
+// Returns the points nearest to the places of a row in turn. A point that repeats the one before is left out.
+// Returns none if points are rare.
 std::vector<std::uint64_t> ScanTruth::ids_along(const Row& row) const {
   std::vector<std::uint64_t> ids;
   std::size_t present = 0;

@@ -122,7 +122,7 @@ class LACUNA_API FileScan : public PointSource {
   std::vector<std::shared_ptr<const ScanArrays>> arrays_;  // one per file; null: it is one
   InputConfig config_;
   std::uint64_t memory_;
-  std::vector<FileState> states_;  // of each file; empty for arrays
+  std::vector<FileState> states_;  // of each file; nothing for arrays
   std::vector<RowLayout> layouts_;
   std::vector<std::string> crs_, units_, formats_;
   std::vector<bool> is_geographic_;

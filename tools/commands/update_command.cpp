@@ -110,7 +110,7 @@ void keep_results(const fs::path& results, const fs::path& kept) {
   }
 }
 
-// Writes the changes, as a file and as text.
+// Writes the changes to a file, and returns them as text.
 std::string write_changes(const Comparison& comparison, const ResultArguments& to) {
   nlohmann::ordered_json json{{"lacuna", LACUNA_VERSION}};
   json.update(comparison.json());
