@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every parameter of a run: one struct per stage, defaults here and nowhere else. A stage gets its own struct
-// as const. `parameters()` lists them all once: the config file, the command line, the errors and the printed
-// config come from that list.
+// Every parameter of a run: one struct per stage. Defaults are here and nowhere else. A stage gets its own
+// struct as const. `parameters()` lists them all once. The config file, the command line, the errors and the
+// printed config come from that list.
 #pragma once
 
 #include "engine/criteria/criteria.hpp"
@@ -18,7 +18,7 @@
 
 namespace lacuna {
 
-// How small a hole may be that is wanted.
+// Decides how small a hole is still found.
 struct ScaleConfig {
   double resolution = 0.0;   // one level, of a lattice with this edge, in units of the scan; 0: all levels
   double min_hole = 0.0;     // diameter of the smallest wanted hole, in units of the scan; 0: off
@@ -62,30 +62,30 @@ struct LoopsConfig {
   LoopMethod method = LoopMethod::kTangential;
 };
 
-// The constants of the tangential method, all of them. Lengths are relative, so that none depends on the
+// The constants of the tangential method, all of them. Lengths are relative, so no constant depends on the
 // scan's unit. Here d is the mean distance of a point to its neighbours. M is the median circumradius of the
-// triangles around it, and S their spread (M less the smallest). On a square grid M = 0.41 d and S = 0.
-// Chosen on the synthetic and real scans of bench/accuracy; its README has what happens when each is halved
-// and doubled.
+// triangles around it, and S is their spread (M less the smallest). On a square grid M = 0.41 d and S = 0.
+// The constants were chosen on the synthetic and real scans of bench/accuracy. Its README says what happens
+// when each is halved and doubled.
 struct TangentialConfig {
-  // Candidates of a higher probability are seeds. Along a boundary they all become active from one seed, so
-  // chance gaps below it need no stars.
+  // Candidates of a higher probability are seeds. All points along a boundary become active from one seed, so
+  // chance gaps below the limit need no stars.
   double seed_probability = 0.7;
   // Largest circumradius: `max_radius` M + S. On a grid 1.41 M closes a missing point, 1.58 M a missing line.
   double max_radius = 1.5;
-  // A triangle with a circumradius of more than `hole_radius` d lies in a hole: M and S leave it out. That is
-  // twice the grid's.
+  // A triangle with a circumradius of more than `hole_radius` d lies in a hole: M and S leave it out. The
+  // limit is twice the circumradius on a grid.
   double hole_radius = 0.85;
-  // M and S are at most `most_radius` d each, a little more than the grid's M. Where half of the triangles
-  // lie in holes, as on strips and islands, medians say nothing.
+  // M and S are at most `most_radius` d each, a little more than M on a grid. Where half of the triangles lie
+  // in holes, as on strips and islands, medians say nothing.
   double most_radius = 0.5;
-  // Curves are found within this bound and again within `coarse_bound` times it, where sparse places next to
-  // dense ones are surface, too.
+  // Curves are found within the bound, and again within `coarse_bound` times the bound. Sparse places next to
+  // dense ones are surface within the second bound, too.
   double coarse_bound = 2;
   // A point counts fully for a curve's clearness where the empty circle is this many times as large as the
   // sampling radius. Nine in ten of the circumradii around are no larger than that.
   double clear_radius = 2.5;
-  // Sampling radii of length that clearness adds to each curve: short curves say little.
+  // Clearness adds this many sampling radii to the length of each curve: short curves say little.
   double added_length = 4;
   std::int64_t min_curve = 8;  // points; around fewer, a sampling leaves gaps anyway
 };
@@ -99,7 +99,7 @@ struct SelectionConfig {
   bool holes_only = false;  // no outer boundaries
 };
 
-// Which returns of a pulse count.
+// Which returns of a pulse are read.
 enum class Returns : std::uint8_t { kAll, kFirst, kLast, kOnly };
 
 // The unit of the lengths of the scan.
@@ -145,7 +145,7 @@ struct OutputConfig {
   double cut_outs = 0;                   // write the points within this distance of each hole; 0: off
   bool no_coordinates = false;           // loops of holes.json have ids alone
   bool local_coordinates = false;        // PLY: floats relative to an offset
-  std::int64_t sample_points = 1000000;  // of sample.ply, at most; 0: none
+  std::int64_t sample_points = 1000000;  // of sample.ply, at most; 0: no sample
   bool report = false;                   // write report.html
 };
 
@@ -172,7 +172,7 @@ struct Config {
   RunConfig run;
 };
 
-// What a parameter needs in order to change the results.
+// The conditions under which a parameter changes the results.
 struct Need {
   std::string_view options;  // as on the command line; empty: nothing
   bool (*is_given)(const Config&);
@@ -203,27 +203,27 @@ struct Parameter {
   LACUNA_API void set(std::string_view text) const;
 };
 
-// Every parameter, in the order of the config file.
+// Returns every parameter, in the order of the config file.
 LACUNA_API std::vector<Parameter> parameters(Config& config);
 
-// Values of the file over those in `config`. Returns the file's keys. Throws `Error` (file, line, key, what
-// is allowed) for unknown keys, wrong types and impossible values.
+// Sets the values of the file over the values in `config`. Returns the file's keys. Throws `Error` (file,
+// line, key, what is allowed) for unknown keys, wrong types and impossible values.
 LACUNA_API std::vector<std::string> read_config(const std::filesystem::path& file, Config& config);
 
 // Does the same with the text of a file.
 LACUNA_API std::vector<std::string> read_config_text(const std::string& text,
                                                      const std::filesystem::path& file, Config& config);
 
-// The whole config as TOML, a help comment above each key.
+// Returns the whole config as TOML, with a help comment above each key.
 LACUNA_API std::string print_config(const Config& config);
 
-// Cells of the resolution across the smallest wanted hole: of holes of that size, 98 in 100 and more are
-// found (docs/method.md, D).
+// Cells of the resolution across the smallest wanted hole. At least 98 in 100 holes of that size are found
+// (docs/method.md, D).
 inline constexpr double kCellsAcross = 5;
-// Edge of the first level's lattice: the resolution, or what min_hole sets; 0: the first level has every
-// point.
+// Returns the edge of the first level's lattice: the resolution, or what min_hole sets. 0: the first level
+// has every point.
 LACUNA_API double first_edge(const ScaleConfig& scale);
-// The config in effect: min_hole sets min_diameter where that is 0.
+// Returns the config in effect: min_hole sets min_diameter where min_diameter is 0.
 LACUNA_API Config with_min_hole(Config config);
 
 // Throws `Error` where values contradict each other (eps and eps_fraction, all weights 0, a memory limit

@@ -10,10 +10,10 @@
 
 namespace lacuna {
 
-// Throws `Error` that names the parameter, what was given and what is allowed.
+// Throws `Error` that names the parameter, the given value and the allowed values.
 [[noreturn]] void refuse(const Parameter& parameter, std::string_view given);
 
-// Whether the value has one of these types.
+// Returns whether the value has one of the types `Types`.
 template <typename... Types>
 bool is_any_of(const Parameter& parameter) {
   return (std::holds_alternative<Types>(parameter.value) || ...);
@@ -21,10 +21,10 @@ bool is_any_of(const Parameter& parameter) {
 
 bool in_range(const Parameter& parameter, double value);
 
-// As TOML: 1.0, never 1, since the point makes a number a real one in TOML.
+// Returns the number as TOML: 1.0, never 1, since the point makes a number a real one in TOML.
 std::string print_number(double value);
 
-// A TOML basic string.
+// Returns the text as a TOML basic string.
 std::string quote(std::string_view text);
 
 }  // namespace lacuna
