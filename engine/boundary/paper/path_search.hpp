@@ -15,9 +15,9 @@ namespace lacuna::paper {
 // Two balls grow towards each other, the smaller front first. It keeps its memory for the next search.
 class PathSearch {
  public:
-  // Returns whether there is a path of at most `limit` edges. mark_of(v) returns a number of each vertex by
-  // reference; it is 0 before the first search. for_each_neighbour(v, visit) calls visit(w). Cost: the vertices
-  // within limit / 2 steps.
+  // Returns whether there is a path of at most `limit` edges. `mark_of(v)` is a number of vertex v, by
+  // reference. It is 0 before the first search. `for_each_neighbour(v, visit)` calls `visit(w)`. Cost: the
+  // vertices within limit / 2 steps.
   template <class MarkOf, class ForEachNeighbour>
   bool connects(LocalIndex a, LocalIndex b, std::int64_t limit, MarkOf&& mark_of,
                 ForEachNeighbour&& for_each_neighbour) {
