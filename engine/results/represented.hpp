@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results of every point of a thinned scan: those of its representative.
+// Results of every point of a thinned scan: each point has the results of its representative.
 #pragma once
 
 #include "engine/model/detection.hpp"
@@ -10,9 +10,9 @@
 
 namespace lacuna {
 
-// The detection on the representatives, with result blocks of all points of the input. Everything else is of
-// representatives alone. Cost: one sort of all points on disk when the blocks are read. With output.points
-// only.
+// Returns the detection on the representatives, with result blocks of all points of the input. All other
+// values count representatives alone. Cost: one sort of all points on disk when the blocks are read. With
+// output.points only.
 std::unique_ptr<Detection> spread_results(std::unique_ptr<Detection> detection,
                                           AppendLists<Represented> represented, const Job& job);
 
