@@ -10,7 +10,7 @@
 namespace lacuna {
 namespace {
 
-// Min along each axis, then max along each.
+// Checks a box: min along each axis, then max along each.
 void check_box(const std::string& name, std::span<const double> box) {
   const std::size_t axes = box.size() / 2;
   for (std::size_t axis = 0; axis < axes; ++axis) {
@@ -34,8 +34,8 @@ void check_boxes(const InputConfig& input) {
   for (std::size_t at = 0; at < boxes.size(); at += 6) check_box("boxes of leave_out", boxes.subspan(at, 6));
 }
 
-// A report is put together in memory, and GDAL has memory of its own. Measured beyond the rest: 21 and 30
-// MiB.
+// A report is put together in memory, and GDAL has memory of its own. Measured in addition to the rest, in
+// MiB: 21 for a report, and 30 for GDAL.
 void check_memory_of_outputs(const OutputConfig& output, std::uint64_t memory_limit) {
   constexpr std::uint64_t kMiB = 1 << 20, kLeast = 64, kReport = 32, kGis = 48;
   const bool is_gis = output.gpkg || output.geojson || output.shp;
