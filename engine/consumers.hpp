@@ -14,9 +14,10 @@
 
 namespace lacuna {
 
-// The method, which finds the loops. At the first level, also all else that a user wants of its points.
+// The method finds the loops. At the first level, other consumers find all else that a user wants of its
+// points.
 struct Consumers {
-  // `keeps_outputs`: a workspace keeps them. `level` and `job` must outlive this.
+  // `keeps_outputs`: a workspace keeps the outputs. `level` and `job` must outlive this.
   Consumers(const Level& level, bool keeps_outputs, Job& job);
   Consumers(const Consumers&) = delete;
   Consumers& operator=(const Consumers&) = delete;

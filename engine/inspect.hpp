@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first steps of a run alone: what is known of a scan once its points are counted.
+// The first steps of a run alone. They find what is known of a scan once its points are counted.
 #pragma once
 
 #include "engine/config/config.hpp"
@@ -18,8 +18,8 @@ struct Inspection {
   std::uint64_t cells = 0;
 };
 
-// The scan is surveyed, thinned and bucketed as in a run. `workspace`: an existing empty folder. Throws
-// `Error`, also where the scan can never fit in the memory limit.
+// Surveys, thins and buckets the scan as a run does. `workspace`: an existing empty folder. Throws `Error`,
+// also where the scan can never fit in the memory limit.
 Inspection inspect(PointSource& scan, const Config& config, const std::filesystem::path& workspace,
                    Progress& progress);
 

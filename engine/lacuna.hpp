@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lacuna as a library: `#include <lacuna/lacuna.hpp>`. Everything that a user needs is in this header and in
-// those that it includes.
+// Lacuna as a library: `#include <lacuna/lacuna.hpp>`. This header and the headers that it includes have
+// everything that a user needs.
 //
 // - Points in memory: `find_holes`, below.
 // - A scan larger than memory: derive from `PointSource` (engine/model/points.hpp), and call `detect`
@@ -9,8 +9,8 @@
 //   them by name, `read_config` (engine/config/config_file.hpp) reads them from a file.
 // - Errors: `Error` (engine/run/error.hpp), one line of text for the user.
 //
-// Results are the same bytes for every number of threads and every memory limit. They are those of the
-// program, which calls the same functions. Source of the method: docs/method.md.
+// Results are the same bytes for every number of threads and every memory limit. The program calls the same
+// functions and has the same results. Source of the method: docs/method.md.
 #pragma once
 
 #include "engine/config/config.hpp"
@@ -27,7 +27,7 @@
 
 namespace lacuna {
 
-// All that a run has found, in memory. A point's id is its index in the input.
+// All results of a run, in memory. A point's id is its index in the input.
 struct Holes {
   std::vector<ReportedLoop> loops;  // in order of (first id, length, ids): holes and outer boundaries
   std::vector<PointResult> points;  // one per point of the input, in its order; only with `results.points`
@@ -36,16 +36,17 @@ struct Holes {
 
 // Finds the loops around the holes of the surface that `points` sample, in any unit of length. All lengths of
 // the results are in the same unit. Non-finite points are dropped and counted. Empty input, and fewer points
-// than a hole needs, give no loops. A vector or span of Eigen::Vector3d or Vector3f is a `PointArray`; so are
+// than a hole needs, give no loops. A vector or span of Eigen::Vector3d or Vector3f is a `PointArray`. So are
 // records with three coordinates at fixed strides.
 //
-// `config`: `input` is for files and has no effect; of `output`, `points` alone counts.
+// `config`: `input` is for files and has no effect; `points` is the only value of `output` that counts.
 // `progress`: is called as in engine/run/progress.hpp; an exception that it throws ends the run.
 // Throws `Error` for parameters that contradict each other, for a coordinate beyond `kFarthest`, and where
 // the scratch folder cannot be made or written to.
 //
-// What a run puts aside stays in memory where it fits within half of `run.memory_limit`. Else it goes to a
-// folder in `run.scratch`, or in that for temporary files, which is gone at the end.
+// Temporary data of a run stays in memory where it fits within half of `run.memory_limit`. Else it goes to a
+// folder in `run.scratch`, or in the system's folder for temporary files. The run removes that folder at its
+// end.
 //
 // Cost: time is nearly linear in the points of a surface. Memory holds the input, the results, and what
 // `run.memory_limit` allows. A folder takes some 100 bytes per point (docs/usage.md says how many). Calls
@@ -53,8 +54,8 @@ struct Holes {
 LACUNA_API Holes find_holes(const PointArray& points, const Config& config = {},
                             Progress* progress = nullptr);
 
-// Finds the loops with known normals, one per point, of any length; NaN or zero where one is not known.
-// Throws `Error` too where their number is not that of the points.
+// Finds the loops with known normals. There is one normal per point, of any length. A normal that is not
+// known is NaN or zero. Throws `Error` too where the number of normals differs from the number of points.
 LACUNA_API Holes find_holes(const PointArray& points, const PointArray& normals, const Config& config = {},
                             Progress* progress = nullptr);
 

@@ -33,7 +33,7 @@
 namespace lacuna {
 namespace {
 
-// All points of the scan, in tiles on disk.
+// Brings all points of the scan into tiles on disk.
 Level bucket_points(PointSource& scan, StoreFiles files, const Workspace& workspace, Job& job) {
   if (scan.reads_slowly()) {
     KeptScan kept(scan, job.file("input"));
@@ -57,7 +57,8 @@ LevelPlace place_of(std::size_t number, const Workspace& workspace, const Job& j
   return {level_files(number, workspace, job), find_join(number, workspace)};
 }
 
-// The tiles of a level whose outputs a process makes: those without one whose middle point is in its share.
+// Returns the tiles of a level whose outputs a process makes: tiles without outputs whose middle point is in
+// its share.
 std::vector<TileIndex> tiles_in(const TaskShare& share, const std::vector<TileIndex>& missing,
                                 const Tiling& tiling) {
   std::vector<TileIndex> mine;
@@ -157,14 +158,14 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   Job job(config, scratch, progress);
   const Workspace workspace = open_workspace(scan, config);
 
-  // Survey, bucket: where the points are, and the points in tiles on disk.
+  // Survey and bucket: find where the points are, and bring them into tiles on disk.
   Level first = first_level(scan, workspace, job);
   const TileStore& store = first.store;
   Summary summary = summarise(first, job);
   const double eps = eps_length(config.neighbourhood, first.extent);
   refuse_balls(store.tiling(), eps, job);  // the balls of thinner levels hold fewer points
 
-  // The loops of all levels.
+  // Finds the loops of all levels.
   Consumers consumers(first, workspace.is_kept(), job);
   FoundLevel found = find_loops(first, consumers, workspace, job);
   const TileOutputs& outputs = found.outputs;
@@ -173,12 +174,12 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   if (has_levels(config)) find_loops_above(first, found.totals, levels, workspace, job);
   add_findings(found.totals, found.found, levels, eps, summary);
 
-  // Track: each hole through the levels.
+  // Track: follows each hole through the levels.
   TrackedLoops tracked = track_loops(std::move(levels), job);
   MeasuredLoops loops =
       measure_loops(std::move(tracked.loops), tracked.tracks, found.totals.mean_edge_length(), job);
 
-  // Results, in the order of the input.
+  // Brings the results into the order of the input.
   std::vector<std::size_t> selected = select_loops(loops.measures, config.selection);
   LoopRows on_loops = find_loop_rows(loops.loops, selected, store, job);
   RowSet coherent = coherent_candidates(outputs, store.tiling(), job);

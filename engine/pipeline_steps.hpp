@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps of a run that other processes may do, too (unit.hpp). Each takes from the workspace what is
-// there.
+// The steps of a run that other processes may do, too (unit.hpp). Each step takes from the workspace what is
+// already there.
 #pragma once
 
 #include "engine/evaluate/evaluated_tile.hpp"
@@ -18,11 +18,11 @@
 
 namespace lacuna {
 
-// Survey, bucket, thin: the points of the first level. Where the config has a resolution, one point for each
-// cell of its lattice is left. Reads the input twice, or once where it reads slowly. Throws `Error`.
+// Makes the points of the first level: survey, bucket, thin. Where the config has a resolution, one point is
+// left for each cell of its lattice. Reads the input twice, or once where it reads slowly. Throws `Error`.
 Level first_level(PointSource& scan, const Workspace& workspace, Job& job);
 
-// Thin: the level above, made from the points of the one below. None where too few are left for a hole.
+// Thins the points of a level to the level above. Returns nothing where too few are left for a hole.
 std::optional<Level> level_above(const Level& below, const Totals& totals, const Workspace& workspace,
                                  Job& job);
 
@@ -31,7 +31,8 @@ struct TaskShare {
   std::size_t task = 0, tasks = 1;
 };
 
-// Halo, evaluate: the outputs of all tiles of a level; or, with a share, at least of its tiles.
+// Makes the outputs of all tiles of a level: halo, evaluate. With a share, at least the tiles of the share
+// get outputs.
 TileOutputs evaluate_level(const Level& level, std::span<const TileConsumer> consumers,
                            const Workspace& workspace, Job& job,
                            const std::optional<TaskShare>& share = std::nullopt);

@@ -46,7 +46,7 @@ class PointArray {
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  // Points [first, first + count).
+  // Returns points [first, first + count).
   std::vector<Eigen::Vector3d> copy(std::size_t first, std::size_t count) const;
 
  private:
@@ -56,10 +56,10 @@ class PointArray {
   bool is_float_ = false;
 };
 
-// Batches are copies. The arrays must outlive it.
+// A source whose batches are copies of the arrays. The arrays must outlive it.
 class LACUNA_API PointsInMemory final : public PointSource {
  public:
-  // `normals`: one for each point, or none at all.
+  // `normals`: one for each point, or an empty array.
   PointsInMemory(const PointArray& points, const PointArray& normals) : points_(points), normals_(normals) {}
 
   void rewind() override { next_ = 0; }

@@ -13,10 +13,12 @@
 
 namespace lacuna {
 
-// Counts and bounds of the input, not of its representatives; tiles, threads and memory limit in effect.
+// Returns counts and bounds of the input, not of its representatives, and tiles, threads and memory limit in
+// effect.
 Summary summarise(const Level& level, const Job& job);
 
-// What the evaluation of the first level and the search for loops at all levels have found. `eps`: in effect.
+// Adds what the evaluation of the first level and the search for loops at all levels have found. `eps`: in
+// effect.
 void add_findings(const Totals& totals, const FoundLoops& found, std::span<const LevelLoops> levels,
                   double eps, Summary& summary);
 

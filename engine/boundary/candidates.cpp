@@ -17,7 +17,7 @@ std::vector<Candidate> without_points(std::span<const StoredCandidate> stored) {
   return candidates;
 }
 
-// Other tiles with gap neighbours of a tile's candidates, ascending.
+// Returns the other tiles with gap neighbours of a tile's candidates, ascending.
 std::vector<TileIndex> tiles_around(std::span<const StoredCandidate> candidates, TileIndex tile,
                                     const Tiling& tiling) {
   std::vector<Row> foreign;
@@ -46,7 +46,8 @@ RowSet coherent_candidates(const TileOutputs& outputs, const Tiling& tiling, Job
   const std::size_t tiles = tiling.tiles.size();
   Phase phase(job, "coherence", tiling.points());
   RowSet boundary(tiling.row_count());
-  std::vector<std::vector<TileIndex>> dependents(tiles);  // of each tile: those that depend on its candidates
+  std::vector<std::vector<TileIndex>> dependents(tiles);  // of each tile: the tiles that depend on its
+                                                          // candidates
   std::mutex mutex;
   job.arena.for_each(tiles, [&](std::size_t i) {
     const auto t = static_cast<TileIndex>(i);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Candidates: points whose Pi exceeds the threshold (paper, 5.1), and which of them belong to the boundary.
+// Candidates: points whose Pi exceeds the threshold (paper, 5.1). This finds which of them belong to the
+// boundary.
 #pragma once
 
 #include "engine/boundary/coherence.hpp"
@@ -26,12 +27,12 @@ void for_each_row(StoredCandidate& record, Visit&& visit) {
 inline constexpr RecordStream<StoredCandidate> kCandidates{"candidates"};
 void emit_candidates(const EvaluatedTile& tile, TileOutput& output);
 
-// The coherent candidates: the greatest set of candidates of which each has both of its gap neighbours in
-// it. Tiles are evaluated on their own, and again while a tile that their candidates depend on changes; the
-// order does not matter. Memory: one bit per row.
+// Returns the coherent candidates: the greatest set of candidates in which each has both of its gap
+// neighbours. Tiles are evaluated on their own, and again while a tile that their candidates depend on
+// changes. The order does not matter. Memory: one bit per row.
 RowSet coherent_candidates(const TileOutputs& outputs, const Tiling& tiling, Job& job);
 
-// The candidates whose gap neighbours both lie on loops.
+// Returns the candidates whose gap neighbours both lie on loops.
 RowSet candidates_between(const RowSet& on_loop, const TileOutputs& outputs, const Tiling& tiling, Job& job);
 
 }  // namespace lacuna

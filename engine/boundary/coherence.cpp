@@ -26,7 +26,7 @@ class Dependents {
   }
 
  private:
-  // visit(row, candidate): gap neighbours that lie among the candidates' rows.
+  // Calls visit(row, candidate) for gap neighbours that lie among the candidates' rows.
   template <class Visit>
   void for_each_gap(std::span<const Candidate> candidates, Visit&& visit) const {
     for (std::uint32_t i = 0; i < candidates.size(); ++i) {

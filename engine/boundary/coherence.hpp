@@ -14,7 +14,7 @@ struct Candidate {
   Row gap_near, gap_far;
 };
 
-// Takes candidates off the boundary until each of these that is left has both of its gap neighbours on it.
+// Takes candidates off the boundary until each remaining one has both of its gap neighbours on it.
 // `candidates` in ascending row; only their own bits are changed. True if any was taken off. Repeated over
 // parts of a scan, in any order, until no part changes, this gives the greatest fixed point of the whole.
 // Cost: linear in the candidates and the rows between the first and the last of them.

@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::size_t kBatches = 4;  // in flight
 
-// Where the points of every cell go: a tile, or, from `aside` on, a group of those that are set aside.
+// The destination of the points of every cell: a tile, or, from `aside` on, a group of points that are set
+// aside.
 struct Destinations {
   explicit Destinations(const TilePlan& plan)
       : index(plan.grid, plan.cells, std::span(plan.aside).first(plan.heavy)),
@@ -32,7 +33,7 @@ struct Destinations {
     std::iota(of_cell.end() - static_cast<std::ptrdiff_t>(plan.heavy), of_cell.end(), aside);
   }
 
-  // `end` where no point was counted.
+  // Returns `end` where no point was counted.
   std::uint32_t operator[](std::uint32_t cell) const {
     return cell == CellIndex::kNoCell ? far : of_cell[cell];
   }
@@ -55,7 +56,7 @@ struct Scattered {
   std::vector<std::uint32_t> destinations;  // of each point of the batch; its cell at first
 };
 
-// A counting sort. What is not finite goes behind the last destination, and then away.
+// Sorts by counting. Points that are not finite go behind the last destination, and are then removed.
 void Scattered::scatter(const Destinations& to) {
   destinations.resize(batch.size());
   to.index.find(batch.positions, destinations);
@@ -112,7 +113,7 @@ std::vector<Record> pick(const std::vector<Record>& records, std::span<const std
   return picked;
 }
 
-// Cells of a tile's points, counted from its first cell.
+// Returns the cells of a tile's points, counted from its first cell.
 std::vector<std::uint32_t> cells_of(std::span<const StoredPoint> points, const CellIndex& index,
                                     const Tile& tile) {
   std::vector<std::uint32_t> cells(points.size());
@@ -126,7 +127,7 @@ std::vector<std::uint32_t> cells_of(std::span<const StoredPoint> points, const C
   return cells;
 }
 
-// Streams the scan: every finite point into its tile, or aside.
+// Streams the scan: every finite point goes into its tile, or is set aside.
 void fill(TileStore& store, SetAside& aside, PointSource& scan, const Destinations& to, Job& job,
           Phase& phase) {
   TileStore::Filler filler(store, job.memory.tiles / 2);
@@ -145,7 +146,8 @@ void fill(TileStore& store, SetAside& aside, PointSource& scan, const Destinatio
   filler.finish();
 }
 
-// Raw points of tiles are all written. Those that are set aside may be copies of a few.
+// Returns the least bytes of the store. Raw points of tiles are all written. Points that are set aside may be
+// copies of a few.
 std::uint64_t least_store_bytes(const TilePlan& plan, Precision precision) {
   std::uint64_t points = 0;
   for (const Tile& tile : plan.tiles) points += tile.raw;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// bucket: the points sorted into tiles on disk.
+// bucket: sorts the points into tiles on disk.
 #pragma once
 
 #include "engine/bucket/split.hpp"
@@ -12,9 +12,9 @@
 
 namespace lacuna {
 
-// Plans the tiles of a surveyed scan: as large as the memory limit allows. Consumes the survey's cells.
-// `guide`: how an earlier scan was cut; it is used if it is of the same cells. Throws `Error` where the
-// points do not fit on the disk.
+// Plans the tiles of a surveyed scan, as large as the memory limit allows. Consumes the survey's cells.
+// `guide`: how an earlier scan was cut; it is used if it has the same cells. Throws `Error` where the points
+// do not fit on the disk.
 TilePlan plan_tiles(SurveyedScan& survey, std::optional<TileGuide> guide, const Job& job);
 
 // Streams the scan and stores every distinct finite point in its tile, in cell order. `bounds`: of all

@@ -47,8 +47,8 @@ CellIndex::CellIndex(const CellGrid& grid, std::span<const CountedCell> cells,
 CellIndex::CellIndex(CellIndex&&) noexcept = default;
 CellIndex::~CellIndex() = default;
 
-// In steps through the levels of the tree, each for many positions: the cache misses of positions in random
-// order overlap.
+// The search goes in steps through the levels of the tree, each for many positions: the cache misses of
+// positions in random order overlap.
 void CellIndex::find(std::span<const Eigen::Vector3d> positions, std::span<std::uint32_t> numbers) const {
   assert(positions.size() == numbers.size());
   constexpr std::size_t kTogether = 256;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a place to the cell that holds it.
+// Finds the cell that holds a place.
 #pragma once
 
 #include "engine/model/cell_grid.hpp"
@@ -22,7 +22,7 @@ class CellIndex {
   CellIndex(CellIndex&&) noexcept;
   ~CellIndex();
 
-  // The number of each position's cell; `kNoCell` where the cell has none. From any thread.
+  // Sets the number of each position's cell, and `kNoCell` where the cell has no number. From any thread.
   void find(std::span<const Eigen::Vector3d> positions, std::span<std::uint32_t> numbers) const;
 
  private:

@@ -13,7 +13,7 @@ namespace lacuna {
 
 namespace {
 
-// Every third bit of the result, from the lowest 8 bits.
+// Spreads the lowest 8 bits to every third bit of the result.
 std::uint32_t spread(std::uint32_t bits) {
   bits = (bits | bits << 8) & 0x0f00f;
   bits = (bits | bits << 4) & 0xc30c3;
@@ -49,7 +49,7 @@ std::uint32_t index_of(std::uint64_t key) {
   return static_cast<std::uint32_t>(key);
 }
 
-// By place, then by coordinates and id. Few points share a place: only those are sorted again.
+// Sorts by place, then by coordinates and id. Few points share a place: only those are sorted again.
 void sort_cell(std::span<std::uint64_t> keys, std::span<const StoredPoint> points) {
   const auto by_point = [&](std::uint64_t a, std::uint64_t b) {
     const StoredPoint &p = points[index_of(a)], &q = points[index_of(b)];
@@ -75,7 +75,7 @@ class Orderer {
 
   OrderedTile take() { return std::move(tile_); }
 
-  // Points of one counted cell, with their places on its coarse curve.
+  // Adds points of one counted cell, with their places on its coarse curve.
   void add_cell(std::span<std::uint64_t> keys) {
     if (keys.size() > 4 * cell_points_) {
       add_crowded_cell(keys);
@@ -120,7 +120,7 @@ class Orderer {
     }
   }
 
-  // Copies come one after the other. `first`: of the counted cell.
+  // Copies come one after the other. `first`: the first point of the counted cell.
   bool keep(std::uint32_t point, std::size_t first) {
     if (tile_.order.size() > first && coincide(points_[tile_.order.back()], points_[point])) {
       tile_.duplicates.push_back({points_[point].id, static_cast<LocalIndex>(tile_.order.size() - 1)});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// order_tile: a tile's points in store order, without exact copies, and the cells that they form.
+// order_tile: brings a tile's points into store order, without exact copies, and makes the cells that they
+// form.
 #pragma once
 
 #include "engine/model/cell_grid.hpp"
@@ -14,7 +15,7 @@ namespace lacuna {
 
 struct OrderedTile {
   std::vector<std::uint32_t> order;  // of each distinct point, its place in the input
-  std::vector<Cell> cells;           // of these, one after the other; without rows
+  std::vector<Cell> cells;           // of the ordered points, one after the other; without rows
   std::vector<Duplicate> duplicates;
 };
 

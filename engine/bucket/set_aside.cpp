@@ -26,7 +26,7 @@ class LastTile {
     places_.push_back(place);
   }
 
-  // A copy of the point that was added last.
+  // Adds a copy of the point that was added last.
   void add_copy(PointId id) {
     copies_.push_back({id, static_cast<LocalIndex>(points_.size() - 1)});
     if (copies_.size() == kCopies) send_copies();

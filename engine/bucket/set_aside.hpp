@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Points of cells that hold more points than a tile may, and of cells without end. They are far denser, or
-// far farther away, than the survey's cells are made for.
+// far farther away, than the survey's cells allow.
 #pragma once
 
 #include "engine/bucket/split.hpp"
@@ -14,20 +14,20 @@
 
 namespace lacuna {
 
-// They are sorted on disk, group by group and along a Z curve through each group. One pass takes any density
+// Sorts the points on disk, group by group and along a Z curve through each group. One pass takes any density
 // and any extent. Copies of a point follow each other, so they merge as they stream. Runs of the curve become
-// tiles and cells. Memory: that of the sort, and one tile.
+// tiles and cells. Memory: the memory of the sort, and one tile.
 class SetAside {
  public:
-  // `bounds`: of all points. The plan must outlive this.
+  // `bounds`: the bounds of all points. The plan must outlive this.
   SetAside(const TilePlan& plan, const Eigen::AlignedBox3d& bounds, std::filesystem::path file,
            std::uint64_t memory);
 
-  // A point of a cell of that group of the plan. By one thread at a time.
+  // Adds a point of a cell of the plan's group `group`. By one thread at a time.
   void add(std::uint32_t group, const StoredPoint& point, const StoredNormal& normal);
 
-  // All are there: appends their tiles to the store. Throws `Error` where a cell got other points than were
-  // counted.
+  // Appends the tiles to the store, once all points are added. Throws `Error` where a cell got other points
+  // than were counted.
   void store(TileStore& store, std::uint64_t cell_points);
 
  private:

@@ -12,7 +12,7 @@
 namespace lacuna {
 namespace {
 
-// Below, the order of cells does not matter.
+// Below this number, the order of cells does not matter.
 constexpr std::uint32_t kFewCells = 4;
 
 class Splitter {
@@ -22,7 +22,8 @@ class Splitter {
   void split() { split(0, static_cast<std::uint32_t>(plan_.cells.size()), false, !guide_.empty()); }
 
  private:
-  // `in_tile`: a tile holds these cells already. `is_guided`: the next cut of the guide is theirs.
+  // `in_tile`: a tile holds these cells already. `is_guided`: the next cut of the guide belongs to these
+  // cells.
   void split(std::uint32_t first, std::uint32_t last, bool in_tile, bool is_guided) {
     const Cut cut = is_guided ? guide_[next_cut_++] : Cut{};
     if (cut.axis >= 0) {
@@ -101,8 +102,8 @@ class Splitter {
     return longest;
   }
 
-  // Divides the cells across the longest side, half of the points before and half behind; returns the
-  // first cell of the second half.
+  // Divides the cells across the longest side, half of the points before and half behind. Returns the first
+  // cell of the second half.
   std::uint32_t halve(const Part& node, std::size_t longest) {
     // A histogram across finds the slab of cells that holds the half-way point; only that is ordered.
     const auto begin = plan_.cells.begin() + node.first, end = plan_.cells.begin() + node.last;

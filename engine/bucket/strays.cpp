@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::uint64_t kMostPassedOver = 1024;
 
-// The smallest of `key(point)` after `passed_over` smaller ones. `least(box)` is a lower bound of the keys of
-// points in a box.
+// Returns the smallest of `key(point)` after `passed_over` smaller ones. `least(box)` is a lower bound of the
+// keys of points in a box.
 template <class Least, class Key>
 double smallest_after(const TileStore& store, std::uint64_t passed_over, Least&& least, Key&& key) {
   std::priority_queue<double> smallest;  // the largest of them on top
@@ -31,7 +31,7 @@ double smallest_after(const TileStore& store, std::uint64_t passed_over, Least&&
   return smallest.top();
 }
 
-// The box of the points that are not passed over.
+// Returns the box of the points that are not passed over.
 Eigen::AlignedBox3d usual_box(const TileStore& store, std::uint64_t passed_over) {
   Eigen::AlignedBox3d box;
   for (int axis = 0; axis < 3; ++axis) {

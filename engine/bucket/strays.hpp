@@ -7,13 +7,13 @@
 
 namespace lacuna {
 
-// The rule. Of n distinct points, the n / 1024 outermost ones of each side of each axis are passed over, from
-// 1 to 1024 of them. The others have a box. A stray lies outside of that box grown on all sides by
-// `kFarFromRest` times its longest edge. With fewer than `kFewestPoints` points, and where all others
-// coincide, there are none.
+// The rule: on each side of each axis, the n / 1024 outermost of n distinct points are passed over, from 1 to
+// 1024 of them. The others have a box. A stray lies outside of that box grown on all sides by `kFarFromRest`
+// times its longest edge. There are no strays with fewer than `kFewestPoints` points, and where all others
+// coincide.
 //
-// The result depends on the distinct points alone. Cost: linear in cells, and a read of the outermost ones;
-// where there are strays, of all cells that reach out of the box.
+// The result depends on the distinct points alone. Cost: linear in cells, and a read of the outermost ones.
+// Where there are strays, all cells that reach out of the box are read.
 Strays find_strays(const TileStore& store);
 
 inline constexpr double kFarFromRest = 2;

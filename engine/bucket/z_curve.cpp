@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kSteps = 0x1p62;
 
-// The highest bit in which places differ: axis x before y before z among equal ones. No bit: 0.
+// The highest bit in which places differ: axis x before y before z among equal ones. The bit is 0 where no
+// bit differs.
 struct Difference {
   std::size_t axis = 0;
   std::uint64_t bit = 0;

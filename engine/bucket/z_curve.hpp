@@ -23,7 +23,7 @@ class ZCurve {
   // An empty box: every point has the same place.
   explicit ZCurve(const Eigen::AlignedBox3d& box);
 
-  // Equal for equal points; points outside of the box are moved to its sides.
+  // Returns equal places for equal points. Points outside of the box are moved to its sides.
   ZPlace place(const Eigen::Vector3d& point) const;
 
  private:
@@ -31,7 +31,7 @@ class ZCurve {
   double scale_ = 0;
 };
 
-// Whether `a` comes before `b` on the curve.
+// Returns whether `a` comes before `b` on the curve.
 bool comes_before(const ZPlace& a, const ZPlace& b);
 
 // Cuts places in ascending order into runs of at most `most`, where the curve leaves one half of a box for

@@ -15,7 +15,7 @@
 
 namespace lacuna {
 
-// How small a hole may be that is wanted.
+// Decides how small a hole is still found.
 struct ScaleConfig {
   double resolution = 0.0;   // one level, of a lattice with this edge, in units of the scan; 0: all levels
   double min_hole = 0.0;     // diameter of the smallest wanted hole, in units of the scan; 0: off
@@ -59,30 +59,30 @@ struct LoopsConfig {
   LoopMethod method = LoopMethod::kTangential;
 };
 
-// The constants of the tangential method, all of them. Lengths are relative, so that none depends on the
+// The constants of the tangential method, all of them. Lengths are relative, so no constant depends on the
 // scan's unit. Here d is the mean distance of a point to its neighbours. M is the median circumradius of the
-// triangles around it, and S their spread (M less the smallest). On a square grid M = 0.41 d and S = 0.
-// Chosen on the synthetic and real scans of bench/accuracy; its README has what happens when each is halved
-// and doubled.
+// triangles around it, and S is their spread (M less the smallest). On a square grid M = 0.41 d and S = 0.
+// The constants were chosen on the synthetic and real scans of bench/accuracy. Its README says what happens
+// when each is halved and doubled.
 struct TangentialConfig {
-  // Candidates of a higher probability are seeds. Along a boundary they all become active from one seed, so
-  // chance gaps below it need no stars.
+  // Candidates of a higher probability are seeds. All points along a boundary become active from one seed, so
+  // chance gaps below the limit need no stars.
   double seed_probability = 0.7;
   // Largest circumradius: `max_radius` M + S. On a grid 1.41 M closes a missing point, 1.58 M a missing line.
   double max_radius = 1.5;
-  // A triangle with a circumradius of more than `hole_radius` d lies in a hole: M and S leave it out. That is
-  // twice the grid's.
+  // A triangle with a circumradius of more than `hole_radius` d lies in a hole: M and S leave it out. The
+  // limit is twice the circumradius on a grid.
   double hole_radius = 0.85;
-  // M and S are at most `most_radius` d each, a little more than the grid's M. Where half of the triangles
-  // lie in holes, as on strips and islands, medians say nothing.
+  // M and S are at most `most_radius` d each, a little more than M on a grid. Where half of the triangles lie
+  // in holes, as on strips and islands, medians say nothing.
   double most_radius = 0.5;
-  // Curves are found within this bound and again within `coarse_bound` times it, where sparse places next to
-  // dense ones are surface, too.
+  // Curves are found within the bound, and again within `coarse_bound` times the bound. Sparse places next to
+  // dense ones are surface within the second bound, too.
   double coarse_bound = 2;
   // A point counts fully for a curve's clearness where the empty circle is this many times as large as the
   // sampling radius. Nine in ten of the circumradii around are no larger than that.
   double clear_radius = 2.5;
-  // Sampling radii of length that clearness adds to each curve: short curves say little.
+  // Clearness adds this many sampling radii to the length of each curve: short curves say little.
   double added_length = 4;
   std::int64_t min_curve = 8;  // points; around fewer, a sampling leaves gaps anyway
 };
@@ -132,8 +132,8 @@ LACUNA_API std::vector<Parameter> parameters(Config& config);
 // Cells of the resolution across the smallest wanted hole: of holes of that size, 98 in 100 and more are
 // found (docs/method.md, D).
 inline constexpr double kCellsAcross = 5;
-// Edge of the first level's lattice: the resolution, or what min_hole sets; 0: the first level has every
-// point.
+// Returns the edge of the first level's lattice: the resolution, or what min_hole sets. 0: the first level
+// has every point.
 LACUNA_API double first_edge(const ScaleConfig& scale);
 // The config in effect: min_hole sets min_diameter where that is 0.
 template <class AnyConfig>

@@ -59,7 +59,7 @@ std::string belongs_in(const Parameter& parameter) {
   return " (\"" + std::string(parameter.key) + "\" belongs in [" + std::string(parameter.section) + "])";
 }
 
-// What is wrong with a key outside of all sections, with a section, and with a key of this section.
+// These say what is wrong with a key outside of all sections, with a section, and with a key of this section.
 std::string stray_key(const std::vector<Parameter>& all, const std::string& key) {
   const Parameter* const known = find_key(all, key);
   return "key \"" + key + "\" is outside of a section" + (known ? belongs_in(*known) : "") +
@@ -79,7 +79,7 @@ std::string unknown_key(const std::vector<Parameter>& all, const std::string& se
          (elsewhere ? belongs_in(*elsewhere) : suggestion(key, keys)) + "; allowed there: " + listed(keys);
 }
 
-// A number or a flag is as on the command line. All others are no such text: a string has its quotes.
+// Shows a value in an error message. Numbers and flags look as on the command line. Strings have quotes.
 std::string shown(const toml::node& node) {
   if (node.is_table()) return "{...}";
   if (node.is_array()) return "[...]";
@@ -91,7 +91,7 @@ std::string shown(const toml::node& node) {
   return out.str();
 }
 
-// Takes a value over as text of the command line, once it has the type of the parameter.
+// Sets the parameter from the text of a value, once the value has the type of the parameter.
 void set(const Parameter& parameter, const toml::node& node) {
   const bool is_text = is_any_of<std::string*>(parameter);
   const bool is_list = is_any_of<std::vector<double>*, std::vector<std::int64_t>*>(parameter);

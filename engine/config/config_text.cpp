@@ -24,7 +24,8 @@ std::string_view without_blanks(std::string_view text) {
   return text.substr(std::min(text.find_first_not_of(kBlanks), text.size()));
 }
 
-// "[", or "[[" of an array of tables, with nothing behind that a name can begin with.
+// Returns whether a line is "[", or "[[" of an array of tables, with nothing behind that a name can begin
+// with.
 bool is_section_without_name(std::string_view line) {
   line = without_blanks(line);
   if (!line.starts_with('[')) return false;
@@ -36,7 +37,7 @@ bool is_section_without_name(std::string_view line) {
   return !is_letter && !('0' <= c && c <= '9') && std::string_view("_-\"'").find(c) == std::string_view::npos;
 }
 
-// A line without its strings and its comment; none where a string of more lines begins.
+// Returns a line without its strings and its comment, and nothing where a string of more lines begins.
 std::optional<std::string> bare_text(std::string_view line) {
   std::string bare;
   while (!line.empty() && line.front() != '#') {
@@ -66,7 +67,7 @@ bool is_name_too_deep(std::string_view bare) {
   return false;
 }
 
-// Empty: nothing is wrong.
+// Returns what is wrong with the line. Empty: nothing is wrong.
 std::string fault_of(std::string_view line) {
   if (!is_utf8(line)) return "is not UTF-8; a config file must be";
   if (is_section_without_name(line)) return "a section without a name; [name] is needed";

@@ -14,9 +14,9 @@ struct TextFault {
   std::string reason;    // and what is allowed
 };
 
-// Returns the first line that toml++ 3.3 may not be given, or none. It runs into __builtin_unreachable on
-// characters outside of ASCII, unless they are in a comment or a string of one line. A section without a name
-// is an assertion there.
+// Returns the first line that toml++ 3.3 may not be given, or nothing. On characters outside of ASCII, the
+// library runs into `__builtin_unreachable`. Characters in a comment or a string of one line are the
+// exception. A section without a name fails an assertion there.
 std::optional<TextFault> find_fault(std::string_view config_text);
 
 }  // namespace lacuna

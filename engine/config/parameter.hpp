@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A parameter by name, and its value as text. A config is a struct with a function `parameters` that lists
-// what it has: the engine's is engine/config/config.hpp, and the one of runs on files adds to it.
+// A parameter by name, and its value as text. A config is a struct with a function `parameters` that lists its
+// parameters. The engine has one (config.hpp); the config of runs on files (io/options) adds to it.
 #pragma once
 
 #include "engine/export.hpp"

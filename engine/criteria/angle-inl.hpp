@@ -14,8 +14,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace lacuna::HWY_NAMESPACE {
 
-// The gap against 2 pi / m, that of m evenly spread neighbours: without any hole it is 0. Differs from the
-// paper: m counts the neighbours that have a direction, and with fewer than three the point is a boundary.
+// The criterion compares the gap with 2 pi / m, the gap of m evenly spread neighbours. Without any hole it is
+// 0. Differs from the paper: m counts the neighbours that have a direction. With fewer than three, the point
+// is a boundary.
 template <class V>
 HWY_INLINE V angle_probability(const Surface<V>& surface) {
   const V pi = all<V>(std::numbers::pi), one = all<V>(1);

@@ -19,10 +19,10 @@ struct Criterion {
   std::string help;  // of the parameter
 };
 
-// Every criterion, in the order of the table.
+// Returns every criterion, in the order of the table.
 LACUNA_API const std::vector<Criterion>& criteria();
 
-// In the order of the table.
+// Returns the default weights, in the order of the table.
 LACUNA_API std::vector<double> default_weights();
 
 }  // namespace lacuna

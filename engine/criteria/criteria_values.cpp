@@ -26,8 +26,8 @@ HWY_INLINE Vector<V> vectors(double value) {
 
 // ---- The plane through the neighbours: mu_p and C_p (4.3, 4.4)
 
-// The covariance, weighted by exp(-d^2 / sigma^2), as xx, yy, zz and xy, xz, yz. Also whether the weight of
-// the nearest neighbour is more than nothing.
+// The covariance, weighted by exp(-d^2 / sigma^2), as xx, yy, zz and xy, xz, yz. It also says whether the
+// weight of the nearest neighbour is more than 0.
 struct Covariance {
   Vector<V> diagonal, off_diagonal;
   Mask counts_for_something;
@@ -57,8 +57,8 @@ Covariance weigh(const Slice& slice, V sigma, Surface<V>& surface) {
   return c;
 }
 
-// Eigenvalues in closed form, divided by their sum, and the eigenvector of the smallest. False where the two
-// smallest are so near each other that digits are lost.
+// Finds eigenvalues in closed form, divided by their sum, and the eigenvector of the smallest. Returns false
+// where the two smallest are so near each other that digits are lost.
 Mask eigen(const Covariance& c, Surface<V>& surface) {
   const V sum = (c.diagonal.x + c.diagonal.y) + c.diagonal.z;
   const Vector<V> a = c.diagonal / sum, b = c.off_diagonal / sum;
@@ -150,7 +150,7 @@ HWY_INLINE Gap<V> gap_of(const Slice& slice, const BatchGaps& gaps) {
   return {slice.get(gaps.size), slice.get(gaps.used), slice.get(gaps.near), slice.get(gaps.far)};
 }
 
-// The direction of the crease, if it is in question whether there is one.
+// The direction of the crease, where a crease is possible.
 struct Crease {
   Mask is_there;
   Vector<V> direction;
@@ -203,7 +203,7 @@ void turn_at_creases(const NeighbourBatch& batch, const CriteriaParameters& para
   }
 }
 
-// The nearest multiple of 2^-24, ties to even.
+// Returns the nearest multiple of 2^-24, ties to even.
 HWY_INLINE V round_to_step(V probability) {
   const V shift = all<V>(0x1.8p28);  // adding it leaves 2^-24 in the lowest bit
   return (probability + shift) - shift;

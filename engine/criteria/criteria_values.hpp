@@ -19,9 +19,9 @@ struct CriteriaValues {
   Batch<double> probability;              // Pi: combined, a multiple of 2^-24
   Batch<double> mean_distance;            // r_p
   Batch<double> mean_offset[3];           // mu_p - p
-  Batch<double> normal[3];                // NaN: none
+  Batch<double> normal[3];                // NaN: no normal
   Batch<double> surface_share;            // of the boundary and the interior shape (4.4)
-  Batch<double> gap_near;                 // ranks of the gap neighbours, nearer first; -1: none
+  Batch<double> gap_near;                 // ranks of the gap neighbours, nearer first; -1: no gap
   Batch<double> gap_far;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the criteria are combined to, at one point.
+// The combined criteria of one point.
 #pragma once
 
 #include "engine/model/ids.hpp"
@@ -15,7 +15,7 @@ struct Evaluation {
   double mean_distance = 0;  // r_p
   Eigen::Vector3d normal = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   Eigen::Vector3d mean_offset{0, 0, 0};  // mu_p - p
-  LocalIndex gap_near = kNoIndex;        // gap neighbours, nearer first; none: kNoIndex
+  LocalIndex gap_near = kNoIndex;        // gap neighbours, nearer first; kNoIndex: no gap
   LocalIndex gap_far = kNoIndex;
   float surface_share = 0;  // how much the neighbourhood resembles a surface (paper, 4.4), [0, 1]
 };

@@ -58,13 +58,13 @@ std::vector<Direction> sorted_directions(const std::vector<Vector3d>& offsets, c
   return directions;
 }
 
-// Runs of directions each within kSameDirection of the one before, across pi too, become one.
+// Unites runs of directions that are each within kSameDirection of the one before. Runs go across pi, too.
 std::vector<Direction> unite_directions(const std::vector<Direction>& sorted) {
   const std::size_t m = sorted.size();
   const auto before = [&](std::size_t i) {
     return i == 0 ? sorted[0].angle - sorted[m - 1].angle + kTurn : sorted[i].angle - sorted[i - 1].angle;
   };
-  // Start behind a wider gap, so that no run is cut, and go round once.
+  // The search starts behind a wider gap, so that no run is cut, and goes round once.
   std::size_t start = 0;
   while (start < m && before(start) <= kSameDirection) ++start;
   if (start == m) start = 0;  // all are one direction
@@ -80,7 +80,7 @@ std::vector<Direction> unite_directions(const std::vector<Direction>& sorted) {
   return merged;
 }
 
-// visit(turn, i) for the turn from each direction to the next, the last to the first.
+// Calls visit(turn, i) for the turn from each direction to the next, and from the last to the first.
 template <class Visit>
 void for_each_turn(const std::vector<Direction>& directions, Visit&& visit) {
   const std::size_t last = directions.size() - 1;
@@ -123,7 +123,7 @@ PlaneFit fit_plane_exactly(const double covariance[6]) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.compute(matrix);
   const Vector3d values = solver.eigenvalues(), normal = solver.eigenvectors().col(0);
-  // No more than rounding noise between the two smallest: no plane fits better than another.
+  // The two smallest differ by no more than rounding noise: no plane fits better than another.
   constexpr double kSameEigenvalue = 1e-12;
   return {.eigenvalues = {values[2], values[1], values[0]},
           .normal = {normal.x(), normal.y(), normal.z()},

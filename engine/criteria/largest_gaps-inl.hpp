@@ -20,7 +20,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lacuna::HWY_NAMESPACE {
 
 struct TangentPlanes {
-  Batch<double> normals[3];  // unit; NaN: none, and no gap
+  Batch<double> normals[3];  // unit; NaN: no normal, and no gap
   double cos_cone;           // neighbours with |<n, q - p>| > cos_cone |q - p| have no stable direction
 };
 
@@ -43,12 +43,13 @@ constexpr std::int32_t kTurn = 1 << 30;
 constexpr std::int32_t kNoTurn = 1 << 29;  // nothing below is a normal number
 constexpr std::int32_t kInfinite = 0x7f800000;
 
-// Two turns are ambiguous if they differ by no more. A direction is wrong by at most 1e-6 of a radian. Its
-// angle and quotient in single precision give 4e-7, the cut to 2^-24 turns 4e-7, and the number below as
-// much. A turn is wrong by twice that, a difference of two by four times: 4e-6. This is 1.2e-5.
+// Two turns are ambiguous if they differ by no more than this. A direction is wrong by at most 1e-6 of a
+// radian. Its angle and quotient in single precision give 4e-7, the cut to 2^-24 turns 4e-7, and the number
+// below as much. A turn is wrong by twice the sum. A difference of two turns is wrong by four times the sum:
+// 4e-6. The limit is 1.2e-5.
 constexpr std::int32_t kAmbiguousTurn = 2048;
 
-// In units of the squared distance: below this difference, it is ambiguous whether a neighbour is within the
+// Below this difference, in units of the squared distance, it is ambiguous whether a neighbour is within the
 // cone around the normal.
 constexpr float kAmbiguousCone = 1e-5F;
 
@@ -77,7 +78,7 @@ void project(const Slice& slice, const Frame<V>& frame, std::size_t ranks, Proje
   }
 }
 
-// The angle of the direction (x, y) from 0 to 1, in turns, to 5e-8; (0, 0) gives 0. Abramowitz and
+// Returns the angle of the direction (x, y) from 0 to 1, in turns, to 5e-8; (0, 0) gives 0. Abramowitz and
 // Stegun, 4.4.49.
 HWY_INLINE Single turn_of(Single y, Single x) {
   const Single zero = all<Single>(0), ax = hn::Abs(x), ay = hn::Abs(y);
@@ -91,7 +92,7 @@ HWY_INLINE Single turn_of(Single y, Single x) {
   return hn::IfThenElse(y < zero, all<Single>(1) - turn, turn);
 }
 
-// Which neighbours the largest gap lies between, by rank, in the order of turning.
+// The neighbours between which the largest gap lies, by rank, in the order of turning.
 struct Between {
   Batch<std::int32_t> from, to, used, is_ambiguous;
 };
@@ -189,7 +190,7 @@ void find_largest_gaps(const NeighbourBatch& batch, const TangentPlanes& planes,
     const std::int32_t from = between.from.at[point], to = between.to.at[point];
     LargestGap gap;
     if (normal[0] != normal[0]) {
-      // None.
+      // There is no gap.
     } else if (between.is_ambiguous.at[point] != 0 || batch.counts.at[point] > static_cast<double>(kMost)) {
       gap = find_largest_gap_exactly(batch, point, normal, planes.cos_cone);
     } else {

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t kStep = kLanes<Doubles>;
 
-// Gathers as many points as a vector holds, from `first` on. What is read again and again is named first: for
-// all that the compiler knows, an offset that is written might hold it.
+// Gathers as many points as a vector holds, from `first` on. Values that are read again and again have names
+// first. Otherwise the compiler has to assume that an offset that is written changes them.
 void gather_from(const NeighbourLists& lists, std::size_t first, NeighbourBatch& batch) {
   const Doubles d;
   const double* const positions = lists.positions;
@@ -51,7 +51,7 @@ void gather_from(const NeighbourLists& lists, std::size_t first, NeighbourBatch&
     store_rank(rank);
   }
   for (; rank < ranks; ++rank) {
-    // Beyond the last neighbour the point itself: an offset of 0.
+    // Ranks beyond the last neighbour get the point itself: an offset of 0.
     for (std::size_t i = 0; i < kStep; ++i)
       sources[i] = rank < counts[i] ? position(neighbours[i][rank]) : points[i];
     store_rank(rank);

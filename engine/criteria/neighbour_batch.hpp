@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The neighbourhoods of eight points side by side: what the criteria of a batch are computed from.
+// The neighbourhoods of eight points side by side, from which the criteria of a batch are computed.
 #pragma once
 
 #include "engine/model/ids.hpp"
@@ -23,7 +23,7 @@ struct NeighbourBatch {
   Batch<double> given_normals[3];   // unit; NaN: to be estimated
 };
 
-// Whose neighbours are gathered. A point may occur more than once.
+// The points whose neighbours are gathered. A point may occur more than once.
 struct NeighbourLists {
   const double* positions;  // x, y, z of all points
   LocalIndex points[kBatchSize];

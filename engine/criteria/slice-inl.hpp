@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// As many points of a batch as a vector holds.
+// A slice holds as many points of a batch as a vector holds.
 #if defined(LACUNA_CRITERIA_SLICE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LACUNA_CRITERIA_SLICE_INL
 #undef LACUNA_CRITERIA_SLICE_INL
@@ -20,7 +20,7 @@ using Mask = MaskOf<V>;
 
 inline constexpr std::size_t kSlices = kBatchSize / kLanes<Doubles>;
 
-// Points `first` and the next.
+// Point `first` of the batch and the next ones.
 struct Slice {
   const NeighbourBatch& batch;
   std::size_t first;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface around a point, estimated from its neighbours: what the criteria are formulas of. A `V` holds
+// The surface around a point, estimated from its neighbours. The criteria are formulas over it. A `V` holds
 // the numbers of several points.
 #if defined(LACUNA_CRITERIA_SURFACE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LACUNA_CRITERIA_SURFACE_INL
@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace lacuna::HWY_NAMESPACE {
 
-// What is left of `a` in the plane with this unit normal.
+// Returns the part of `a` in the plane with this unit normal.
 template <class V>
 HWY_INLINE Vector<V> in_plane(Vector<V> a, Vector<V> normal) {
   return a - normal * dot(normal, a);
@@ -35,7 +35,7 @@ HWY_INLINE Gap<V> select(MaskOf<V> mask, const Gap<V>& a, const Gap<V>& b) {
           hn::IfThenElse(mask, a.near, b.near), hn::IfThenElse(mask, a.far, b.far)};
 }
 
-// What shape the neighbourhood has: shares in [0, 1] of the kernels of the characteristic shapes (paper, 4.4).
+// The shape of the neighbourhood: shares in [0, 1] of the kernels of the characteristic shapes (paper, 4.4).
 template <class V>
 struct ShapeShares {
   V boundary;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every criterion: its formula, its name, the default of its weight, and the help of its weight. The config,
-// the combined probability, the stored results and the columns of the annotated scan all come from this table.
+// Every criterion has its formula, its name, the default of its weight, and the help of its weight here. The
+// config, the combined probability, the stored results and the columns of the annotated scan all come from
+// this table.
 #if defined(LACUNA_CRITERIA_TABLE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LACUNA_CRITERIA_TABLE_INL
 #undef LACUNA_CRITERIA_TABLE_INL

@@ -51,7 +51,7 @@ class Batches {
  private:
   std::size_t count(LocalIndex p) const { return neighbourhoods_[p].size(); }
 
-  // A counting sort.
+  // Sorts by counting.
   void order_by_count(LocalIndex first, LocalIndex last) {
     std::size_t most = 0;
     for (LocalIndex p = first; p < last; ++p) most = std::max(most, count(p));
@@ -150,7 +150,7 @@ std::vector<Evaluation> evaluate(const TilePoints& points, const Neighbourhoods&
     if (values.empty()) return;
     for (std::size_t i = 0; i < count; ++i) values[p * count + i] = found.criteria[i].at[lane];
   };
-  // By runs of the store order: what is near in space shares the cache.
+  // The loop goes by runs of the store order: points that are near in space share the cache.
   constexpr LocalIndex kRun = 64;
   for (LocalIndex first = 0, last; first < points.owned; first = last) {
     last = std::min(first + kRun, points.owned);

@@ -18,7 +18,7 @@
 namespace lacuna {
 namespace {
 
-// Cells of other tiles within eps of a tile's cells.
+// Returns the cells of other tiles within eps of a tile's cells.
 std::vector<std::uint32_t> halo_cells(const Tiling& tiling, const Tile& tile, double eps) {
   std::vector<std::uint32_t> cells;
   if (eps == 0) return cells;
@@ -101,8 +101,8 @@ TilePoints gather(const TileStore& store, TileIndex index, std::vector<HaloEdge>
   return points;
 }
 
-// All that the output of a tile depends on, save for the config: its points and those around it.
-// Rows are in their sealed form, which does not depend on other tiles.
+// Returns the fingerprint of all that the output of a tile depends on, save for the config: its points and
+// the points around it. Rows are in their sealed form, which does not depend on other tiles.
 Digest content_of(const TilePoints& points, std::span<const Eigen::Vector3d> normals, const Tiling& tiling,
                   double eps, double unit) {
   std::vector<Row> foreign(points.rows.begin() + points.owned, points.rows.end());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// evaluate, over the tiles of a level: every point evaluated from its neighbourhood (paper, 4.1 to 4.6).
+// evaluate, over the tiles of a level: evaluates every point from its neighbourhood (paper, 4.1 to 4.6).
 #pragma once
 
 #include "engine/evaluate/evaluated_tile.hpp"
@@ -13,8 +13,8 @@
 
 namespace lacuna {
 
-// Evaluates these tiles, and adds what their consumers put out to `outputs`. Consumes the halo. A tile that
-// is as it was before an update keeps its earlier output.
+// Evaluates `tiles`, and adds what their consumers put out to `outputs`. Consumes the halo. A tile that is as
+// it was before an update keeps its earlier output.
 void evaluate_tiles(const Level& level, std::span<const TileIndex> tiles, AppendLists<HaloEdge> halo,
                     std::span<const TileConsumer> consumers, TileOutputs& outputs, Job& job);
 

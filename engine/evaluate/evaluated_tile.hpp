@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the evaluation of a tile hands on, and who takes it.
+// The results of a tile's evaluation, and the consumers that take them.
 #pragma once
 
 #include "engine/criteria/evaluation.hpp"
@@ -33,8 +33,8 @@ struct EvaluatedTile {
   float probability(LocalIndex p) const { return static_cast<float>(evaluations[p].probability); }
 };
 
-// Puts what a later step needs of an evaluated tile into its output. Called from several threads at once, for
-// tiles in any order.
+// Puts the data that a later step needs of an evaluated tile into its output. Called from several threads at
+// once, for tiles in any order.
 using TileConsumer = std::function<void(const EvaluatedTile& tile, TileOutput& output)>;
 
 }  // namespace lacuna

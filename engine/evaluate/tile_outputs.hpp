@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the steps behind the evaluation need of the tiles: named streams of plain records.
+// The data that the steps behind the evaluation need of the tiles: named streams of plain records.
 //
-// It is all that is left of an evaluated tile: the neighbour graph never touches the disk. The global steps
-// read the streams tile by tile. A run whose workspace is kept seals the outputs, so that no tile is
-// evaluated twice. Any other run buffers them in memory, and spills what does not fit to one file without a
-// name.
+// Nothing else is left of an evaluated tile: the neighbour graph never touches the disk. The global steps
+// read the streams tile by tile. A run whose workspace is kept seals the outputs, so no tile is evaluated
+// twice. Any other run buffers them in memory, and spills what does not fit to one file without a name.
 #pragma once
 
 #include "engine/model/tiling.hpp"
@@ -32,9 +31,9 @@ struct RecordStream {
   std::string_view name;
 };
 
-// for_each_row(record, visit): visit(row) for each row of a record, by reference. Sealed records have the
-// number of a tile and a place in it instead of a row. So an output stays right where other tiles get more or
-// fewer points.
+// for_each_row(record, visit) calls visit(row) for each row of a record, by reference. Sealed records have
+// the number of a tile and a place in it instead of a row. So an output stays right where other tiles get
+// more or fewer points.
 template <class Visit>
 void for_each_row(Row& row, Visit&& visit) {
   visit(row);
@@ -44,14 +43,15 @@ concept HasRows = requires(Record& record) {
   for_each_row(record, [](Row&) {});
 };
 
-// The sealed form of a row, and back. The latter throws `Error` where the tile has no such row.
+// Return the sealed form of a row, and the row of a sealed form. The latter throws `Error` where the tile has
+// no such row.
 Row to_stored_row(Row row, const Tiling& tiling);
 Row from_stored_row(Row stored, const Tiling& tiling);
 
 // The output of one tile, while its consumers put their records into it.
 class TileOutput {
  public:
-  // `stream`: one that was not added before.
+  // `stream`: a stream that was not added before.
   template <class Record>
   void add(const RecordStream<Record>& stream, std::span<const Record> records) {
     if (records.empty()) return;
@@ -91,7 +91,7 @@ class TileOutputs {
   // `kept`: where a workspace keeps the outputs. `tiling` must outlive this.
   TileOutputs(const Tiling& tiling, std::optional<KeptOutputs> kept, const Job& job);
 
-  // Tiles whose outputs are not there yet, ascending.
+  // Returns the tiles whose outputs are not there yet, ascending.
   std::vector<TileIndex> missing() const;
   bool is_kept() const { return kept_.has_value(); }
   // Adds the output that the run before an update has sealed for a tile. `content`: the fingerprint of all
@@ -103,7 +103,7 @@ class TileOutputs {
   void add(TileIndex tile, TileOutput output, const Digest& content);
   void finish();
 
-  // In the order in which they were added. Throws `Error` where a sealed stream is broken.
+  // Returns records in the order in which they were added. Throws `Error` where a sealed stream is broken.
   template <class Record>
   std::vector<Record> read(const RecordStream<Record>& stream, TileIndex tile) const {
     std::vector<Record> records(count(stream, tile));

@@ -9,7 +9,7 @@
 namespace lacuna {
 namespace {
 
-// A power of two so small that no edge is lost: 2^-60 of the scan's extent.
+// Returns a power of two so small that no edge is lost: 2^-60 of the scan's extent.
 double length_unit(double extent) {
   return extent > 0 ? std::ldexp(1.0, std::ilogb(extent) - 60) : 1.0;
 }

@@ -34,21 +34,21 @@ struct Totals {
   double mean_neighbours() const;   // K
   double mean_edge_length() const;  // over the edges of G
   double median_distance() const { return distances.median(); }
-  // The surface, where its points are even: the sum of the areas that they stand for. A disc of 3/2
-  // the mean distance holds its neighbours, the point and, as measured for k from 8 to 50, 1.5 more. Within
-  // 2 % on even samplings; points near a boundary count for more.
+  // Returns the area of the surface, where its points are even: the sum of the areas that they stand for. A
+  // disc of 3/2 the mean distance holds its neighbours and the point. As measured for k from 8 to 50, it
+  // holds 1.5 more. The area is within 2 % on even samplings; points near a boundary count for more.
   double surface_area() const;
 };
 
-// The sums of a tile. `extent`: the largest distance between points of the scan. `candidates` gets the points
-// whose probability exceeds the threshold, ascending: one sweep for both, since the evaluations do not fit in
-// the cache.
+// Returns the sums of a tile. `extent`: the largest distance between points of the scan. `candidates` gets
+// the points whose probability exceeds the threshold, ascending. One sweep finds both, since the evaluations
+// do not fit in the cache.
 Totals sum_up(std::span<const Evaluation> evaluations, const Neighbourhoods& neighbourhoods, double threshold,
               double extent, std::vector<LocalIndex>& candidates);
 
 void emit_totals(const Totals& sums, TileOutput& output);
 
-// The sums of all tiles.
+// Returns the sums of all tiles.
 Totals read_totals(const TileOutputs& outputs, const Tiling& tiling, double extent);
 
 }  // namespace lacuna

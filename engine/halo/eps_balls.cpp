@@ -35,7 +35,7 @@ std::uint64_t ball_bytes(const Tiling& tiling, const Tile& tile, double eps, std
   return bytes;
 }
 
-// Such a tile is alone at work, and the bound is about twice what it takes.
+// Such a tile is alone at work, and the bound is about twice the memory that it takes.
 std::uint64_t most_ball_bytes(const Job& job) {
   return 2 * job.memory.tiles;
 }

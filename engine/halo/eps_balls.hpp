@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Neighbourhoods of a given radius: its length, how many points they hold, and whether these fit in memory.
+// Neighbourhoods of a given radius: the radius as a length, the number of points, and whether they fit in
+// memory.
 #pragma once
 
 #include "engine/config/config.hpp"
@@ -12,17 +13,18 @@
 
 namespace lacuna {
 
-// The largest distance between two points within the bounds; 0 without any point.
+// Returns the largest distance between two points within the bounds; 0 without any point.
 double extent_of(const Eigen::AlignedBox3d& bounds);
 
-// The radius as a length, for a scan of this extent; 0: off.
+// Returns the radius as a length, for a scan of this extent; 0: off.
 double eps_length(const NeighbourhoodConfig& config, double extent);
 
-// Bytes for the neighbourhoods of a tile's points within eps: no less than they take, by the boxes of cells
-// some twice as many. Not counted further than `most`. eps 0: none.
+// Returns bytes for the neighbourhoods of a tile's points within eps. The result is no less than they take.
+// The boxes of cells give about twice as many. Bytes are not counted further than `most`. Returns 0 if eps is
+// 0.
 std::uint64_t ball_bytes(const Tiling& tiling, const Tile& tile, double eps, std::uint64_t most);
 
-// What `ball_bytes` of one tile may be.
+// Returns the largest `ball_bytes` that one tile may have.
 std::uint64_t most_ball_bytes(const Job& job);
 
 // Throws `Error` where the neighbourhoods of one tile cannot fit in memory, before any is searched.

@@ -12,10 +12,10 @@ namespace lacuna {
 namespace {
 
 // Cells near a cell hold some hundreds of points, or, near a scanner, a multiple of its own points. A cell
-// whose distance bound holds more than both is that of an outlier.
+// whose distance bound holds more than both holds an outlier.
 constexpr std::uint64_t kFarPoints = 32'768, kFarShare = 64;
 
-// Points that are searched together, also for a tile of fewer.
+// This many points are searched together. A tile of fewer points takes the memory for as many.
 constexpr std::uint64_t kGroupPoints = kFarPoints / 4;
 
 // Border cells to be searched together, and all cells within their distance bounds.
@@ -59,7 +59,7 @@ class WantedTiles {
   bool contains_cell(std::uint32_t cell) const { return contains(tiling_.tile_of_cell(cell)); }
   const Eigen::AlignedBox3d& box(TileIndex t) const { return boxes_[t]; }
 
-  // Those that lie near a box.
+  // Returns the wanted tiles that lie near a box.
   std::vector<TileIndex> near(const Eigen::AlignedBox3d& box, double squared_radius) const {
     std::vector<TileIndex> found;
     for (TileIndex t = 0; t < boxes_.size(); ++t) {
@@ -74,8 +74,8 @@ class WantedTiles {
   std::vector<std::uint8_t> is_wanted_;     // by tile
 };
 
-// Finds the cells of a tile whose points may have neighbours in other tiles, or be theirs. Of a tile that is
-// not wanted itself, only those count that may be neighbours of a wanted one.
+// Finds the cells of a tile whose points may have neighbours in other tiles, or be neighbours of their
+// points. For a tile that is not wanted itself, only possible neighbours of a wanted tile count.
 class BorderPlan {
  public:
   // The cells of a group hold about `group_points` points at most.
@@ -127,7 +127,7 @@ class BorderPlan {
     return leaves;
   }
 
-  // Whether the box may be near a wanted tile. A tile of k points or fewer has no bound of its own.
+  // Returns whether the box may be near a wanted tile. A tile of k points or fewer has no bound of its own.
   bool may_count(const Eigen::AlignedBox3d& box, double squared_radius) const {
     return all_count_ || tile_.points <= k_ ||
            std::any_of(wanted_near_.begin(), wanted_near_.end(), [&](TileIndex t) {
@@ -135,7 +135,7 @@ class BorderPlan {
            });
   }
 
-  // No less than the squared distance from any point of the cell to its k-th neighbour.
+  // Returns at least the squared distance from any point of the cell to its k-th neighbour.
   double bound_of(std::uint32_t cell, const CellNode& node) const {
     const Eigen::AlignedBox3d box = tiling_.cells[cell].box;
     if (tiling_.cells[cell].points <= k_ && node.points > k_) return max_squared_distance(box, node.box);
@@ -157,7 +157,7 @@ class BorderPlan {
     plan(border);
   }
 
-  // Cells side by side share most of the cells around them.
+  // Cells next to each other share most of the cells around them.
   void plan(std::span<const BorderCell> border) {
     if (border.empty()) return;
     Eigen::AlignedBox3d box;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// halo: the points of other tiles that a tile needs, and the edges to them.
+// halo: finds the points of other tiles that a tile needs, and the edges to them.
 #pragma once
 
 #include "engine/run/job.hpp"
@@ -10,7 +10,7 @@
 
 namespace lacuna {
 
-// Sent to the owner of a point: a halo point, and the edge to it.
+// A halo point, and the edge to it. The owner of the edge's other point receives it.
 struct HaloEdge {
   Row row;  // of the foreign point
   StoredPoint foreign;
@@ -18,12 +18,13 @@ struct HaloEdge {
   std::uint32_t incoming;  // 1: the foreign point has the owned one among its k nearest; 0: the other way
 };
 
-// The inboxes of these tiles; those of others stay empty. With it, a tile knows every foreign point that is
-// among the k nearest of its own, or the reverse. It need not read a halo for this.
+// Returns the inboxes of `tiles`; the inboxes of other tiles stay empty. With its inbox, a tile knows
+// every foreign point that is among the k nearest of its own, or the reverse. It need not read a halo for
+// this.
 //
-// Only points whose neighbourhood may leave their tile take part: those of cells whose distance bound touches
-// a foreign cell. Their exact neighbours are searched among all cells within that bound, so that the halo is
-// complete. The bound of a lone outlier holds too many points. Its neighbours are searched cell by cell,
+// Only points whose neighbourhood may leave their tile take part: points of cells whose distance bound
+// touches a foreign cell. Their exact neighbours are searched among all cells within that bound, so the halo
+// is complete. The bound of a lone outlier holds too many points. Its neighbours are searched cell by cell,
 // nearest cell first.
 AppendLists<HaloEdge> exchange_halo(const TileStore& store, std::span<const TileIndex> tiles, Job& job);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loops of a level, on disk: a loop may be larger than memory. In memory is only where each one lies.
+// The loops of a level, on disk: a loop may be larger than memory. Memory holds only the place of each loop.
 #pragma once
 
 #include "engine/model/loop.hpp"
@@ -32,7 +32,8 @@ inline LoopPoint loaded(const StoredLoopPoint& p) {
   return {p.point.id, p.point.position(), {p.surface[0], p.surface[1], p.surface[2]}, p.probability};
 }
 
-// What a method finds of a loop besides its points (method.md, C.6). The paper's method does not measure it.
+// What a method finds of a loop in addition to its points (method.md, C.6). The paper's method does not
+// measure it.
 struct LoopEvidence {
   double clearness = 1;     // of its wedges, [0, 1]
   double surface = 1;       // how much the neighbourhoods around it resemble a surface, [0, 1]
@@ -40,7 +41,7 @@ struct LoopEvidence {
   double sampling_gap = 0;  // sampling radius over the distance to the neighbours, along it
   bool is_coarse = false;   // found within the coarse bound
 
-  // It may be reported, or be a link of a track. Others are gaps of the sampling.
+  // Returns whether the loop may be reported, or be a link of a track. Other loops are gaps of the sampling.
   bool may_be_hole() const {
     constexpr double kLeastClearness = 0.5, kLeastSurface = 0.3;
     return clearness >= kLeastClearness && surface >= kLeastSurface;
@@ -51,7 +52,7 @@ class Loops {
  public:
   explicit Loops(std::filesystem::path file) : points_(std::move(file)) {}
 
-  // point(i): the i-th of `count` points. From any thread.
+  // Adds a loop. point(i): point i of `count` points. From any thread.
   void add(std::uint64_t count, const LoopEvidence& evidence,
            const std::function<StoredLoopPoint(std::uint64_t)>& point);
   // Numbers the loops in the order of (first id, length, ids), a fine loop before the same coarse one.
@@ -61,13 +62,13 @@ class Loops {
   std::uint64_t points() const { return points_.size(); }  // of all loops
   std::uint64_t count(std::size_t loop) const { return index_[loop].count; }
   const LoopEvidence& evidence(std::size_t loop) const { return index_[loop].evidence; }
-  // to: `count` points.
+  // Reads the points of a loop. `to` has the size of the loop.
   void read(std::size_t loop, std::span<StoredLoopPoint> to) const { points_.read(index_[loop].first, to); }
-  // In the order of the loop, in blocks.
+  // Calls visit for the points, in the order of the loop, in blocks.
   void for_each_point(std::size_t loop, const std::function<void(const StoredLoopPoint&)>& visit) const;
 
-  // Compares the points of two loops by (first id, length, ids): less than 0 where a comes first, 0 where
-  // they have the same points.
+  // Compares the points of two loops by (first id, length, ids). Returns less than 0 where a comes first, and
+  // 0 where they have the same points.
   friend int compare_points(const Loops& a, std::size_t i, const Loops& b, std::size_t j);
 
  private:
@@ -83,7 +84,7 @@ class Loops {
   std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();
 };
 
-// Loops of several levels, of which some are chosen.
+// Loops of several levels, some of which are chosen.
 struct ChosenLoops {
   struct Place {
     std::uint32_t level, loop;
@@ -106,8 +107,8 @@ struct ChosenLoops {
   }
 };
 
-// visit(i, points, scratch) for each loop of `Loops` or `ChosenLoops`, from several threads. Memory: a share
-// of the limit, whatever the length of a loop.
+// Calls visit(i, points, scratch) for each loop of `Loops` or `ChosenLoops`, from several threads. Memory: a
+// share of the limit, whatever the length of a loop.
 template <class LoopSet, class Visit>
 void for_each_loop(const LoopSet& loops, Job& job, Visit&& visit) {
   std::vector<std::uint64_t> needs;

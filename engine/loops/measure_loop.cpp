@@ -15,7 +15,8 @@ namespace {
 
 using Points = std::span<const StoredLoopPoint>;
 
-// Runs of the loop with their boxes, halved down to a few points: near along the loop is near in space.
+// Runs of the loop with their boxes, halved down to a few points. Points near along the loop are near in
+// space.
 class Runs {
  public:
   Runs(Points loop, Scratch& scratch)
@@ -98,7 +99,7 @@ class Runs {
   double best_ = 0;
 };
 
-// visit(before, at, after) for each point of the loop, in order.
+// Calls visit(before, at, after) for each point of the loop, in order.
 template <class Visit>
 void for_each_with_neighbours(Points loop, Scratch& scratch, Visit&& visit) {
   const std::size_t n = loop.size();
@@ -124,7 +125,7 @@ Eigen::Vector3d centroid(Points loop, Scratch& scratch) {
   return origin + sum / static_cast<double>(loop.size());
 }
 
-// Half the sum of cross products (Newell): its length is the area, its direction the normal.
+// Returns half the sum of cross products (Newell): its length is the area, its direction the normal.
 Eigen::Vector3d area_vector(Points loop, const Eigen::Vector3d& centre, Scratch& scratch) {
   Eigen::Vector3d sum{0, 0, 0};
   for_each_with_neighbours(loop, scratch, [&](const auto&, const auto& at, const auto& after) {
@@ -144,7 +145,7 @@ double planarity(Points loop, const Eigen::Vector3d& centre, Scratch& scratch) {
   return extents[2] > 0 ? 1 - extents[0] / extents[2] : 0;
 }
 
-// Growth of the enclosed area as the points move towards the surface, each by its own offset.
+// Returns the growth of the enclosed area as the points move towards the surface, each by its own offset.
 LoopKind kind(Points loop, const Eigen::Vector3d& normal, Scratch& scratch) {
   double growth = 0, most = 0;
   for_each_with_neighbours(loop, scratch, [&](const auto& before, const auto& at, const auto& after) {
@@ -153,12 +154,13 @@ LoopKind kind(Points loop, const Eigen::Vector3d& normal, Scratch& scratch) {
     growth += surface.dot(along.cross(normal));
     most += surface.norm() * along.norm();
   });
-  // The end of a tube is neither inside nor outside of its surface: something to be filled all the same.
+  // The end of a tube is neither inside nor outside of its surface. It counts as a hole, since a user may
+  // fill it.
   constexpr double kUndecided = 0.1;
   return growth < -kUndecided * most ? LoopKind::kOuter : LoopKind::kHole;
 }
 
-// A cube is wide against the distance of points, so consecutive points are mostly in one.
+// A cube is wide against the distance of points, so consecutive points are mostly in one cube.
 std::uint64_t lattice_cubes(Points loop, double edge, Scratch& scratch) {
   std::vector<std::array<double, 3>> cubes;
   scratch.for_each(loop, [&](const StoredLoopPoint& p) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// measure_loops: what a user sorts and filters the found loops by.
+// measure_loops: measures the values by which a user sorts and filters the found loops.
 #pragma once
 
 #include "engine/config/config.hpp"
@@ -13,17 +13,17 @@
 
 namespace lacuna {
 
-// In order of (first id, length, ids).
+// Loops in order of (first id, length, ids).
 struct MeasuredLoops {
   ChosenLoops loops;
   std::vector<LoopMeasures> measures;
 };
 
-// `tracks`: of each loop. `mean_edge_length` sets the lattice of LoopMeasures::tiles.
+// `tracks`: one for each loop. `mean_edge_length` sets the lattice of LoopMeasures::tiles.
 MeasuredLoops measure_loops(ChosenLoops loops, std::span<const LoopTrack> tracks, double mean_edge_length,
                             Job& job);
 
-// The loops that the selection reports.
+// Returns the loops that the selection reports.
 std::vector<std::size_t> select_loops(const std::vector<LoopMeasures>& loops, const SelectionConfig& config);
 
 }  // namespace lacuna

@@ -13,12 +13,13 @@ namespace lacuna {
 
 namespace {
 
-// Exact to multiply by, so every pass finds the same cell. Exponents of grids are those of normal numbers.
+// To multiply by a power of two is exact, so every pass finds the same cell. Exponents of grids give normal
+// numbers.
 double power_of_two(int exponent) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
 }
 
-// Rounds down the coordinates of points one after the other. In rows of four points, which fill whole
+// Rounds down the coordinates of points one after the other. It takes rows of four points, which fill whole
 // registers.
 LACUNA_VECTORISED
 void round_down(const double* coordinates, std::size_t count, double scale, const double* origin, int shift,

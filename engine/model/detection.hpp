@@ -23,8 +23,8 @@ struct Counts {
   std::uint64_t thinned_out = 0;      // represented by another point of their cell; 0 without a resolution
   std::uint64_t duplicates = 0;       // at the coordinates of a point with a lower id
   std::uint64_t candidates = 0;       // distinct points with Pi above the threshold
-  std::uint64_t coherent = 0;         // of these, those that are coherent (paper, 5.1)
-  std::uint64_t boundary_points = 0;  // points of the input, duplicates too, but none that was thinned out
+  std::uint64_t coherent = 0;         // those candidates that are coherent (paper, 5.1)
+  std::uint64_t boundary_points = 0;  // points of the input: duplicates count, thinned-out ones do not
   std::uint64_t boundary_edges = 0;   // of the boundary graph; by the paper: eligible ones
   std::uint64_t components = 0;       // of the boundary graph
   std::uint64_t raw_loops = 0;        // before selection
@@ -48,7 +48,7 @@ inline constexpr std::size_t kProbabilityBins = 20;
 using ProbabilityBins = std::array<std::uint64_t, kProbabilityBins>;
 
 // Points far from all others (engine/bucket/strays.hpp has the rule), and where the others are. Views,
-// printed digits and the report's positions follow `rest`, so that a stray spoils none of them.
+// printed digits and the report's positions follow `rest`, so a stray spoils none of them.
 struct Strays {
   std::uint64_t points = 0;                           // distinct ones
   Eigen::Vector3d example = Eigen::Vector3d::Zero();  // the one of the lowest id
@@ -64,7 +64,7 @@ struct Summary {
   double resolution = 0;            // of the first level; 0: every point
   double mean_neighbours = 0;       // K
   double mean_edge_length = 0;      // over the edges of G
-  double median_distance = 0;       // over points, of the mean distance to their neighbours; within 1 %
+  double median_distance = 0;       // median over points of the mean distance to their neighbours; within 1 %
   double surface_area = 0;          // sampled; the median over levels of their estimates
   double eps = 0;                   // in effect
   std::int64_t e = 0;               // in effect; 0: method tangential
@@ -78,17 +78,17 @@ struct Summary {
 
 inline constexpr std::size_t kMostCriteria = 8;
 
-// The result of one point of the input. A duplicate has that of the point that it is a copy of. A point that
-// was thinned out has that of its representative.
+// The result of one point of the input. A duplicate has the result of the point that it copies. A point that
+// was thinned out has the result of its representative.
 struct PointResult {
   float probability;                          // from 0 to 1; NaN for a dropped point
   std::array<float, kMostCriteria> criteria;  // likewise, as many as there are, in the order of the table
-  // On a loop; or a candidate that is coherent (method paper) or lies between two neighbours on a loop
-  // (tangential).
+  // The point is on a loop, or it is a candidate that the method adds. The method `paper` adds coherent
+  // candidates; `tangential` adds candidates between two neighbours on a loop.
   std::uint8_t boundary = 0;
-  // A candidate that coherence leaves (paper, 5.1), whichever method finds the loops.
+  // The point is a candidate that coherence leaves (paper, 5.1), whichever method finds the loops.
   std::uint8_t coherent = 0;
-  std::int32_t loop = -1;  // index of the first reported loop through it; -1: none
+  std::int32_t loop = -1;  // index of the first reported loop through it; -1: no loop
   Eigen::Vector3f normal;  // NaN where undefined
 };
 
@@ -125,7 +125,7 @@ struct ReportedLoop {
   Loop points;
 };
 
-// Calls visit with each element, in the order stated. As often as wanted.
+// Calls visit with each element, in the stated order. It may be called as often as wanted.
 template <class... Element>
 using Stream = std::function<void(const std::function<void(Element...)>& visit)>;
 

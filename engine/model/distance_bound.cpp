@@ -16,8 +16,8 @@ struct Far {
   friend bool operator<(const Far& a, const Far& b) { return a.squared_distance < b.squared_distance; }
 };
 
-// Whether the children of a node would hardly give a nearer bound than the node itself. Otherwise the cell of
-// an outlier would go through all cells of a surface far below it, or in the midst of its own box.
+// Returns whether the children of a node would hardly give a nearer bound than the node itself. Otherwise the
+// cell of an outlier would go through all cells of a surface far below it, or in the midst of its own box.
 bool is_small(const Eigen::AlignedBox3d& node, double farthest) {
   constexpr double kTimes = 8;
   return kTimes * kTimes * max_squared_distance(node, node) <= farthest;
@@ -30,8 +30,8 @@ double squared_distance_bound(const Tiling& tiling, std::uint32_t cell, std::siz
   if (tiling.cells[cell].points > k) return max_squared_distance(box, box);
   if (tiling.nodes[0].points <= k) return std::numeric_limits<double>::infinity();
 
-  // Cells by their nearest corner; done when those whose farthest corner is nearer than any corner to come
-  // hold k points and the point itself.
+  // Cells come by their nearest corner. The walk collects cells whose farthest corner is nearer than any
+  // corner to come. It ends once these hold k points and the point itself.
   std::priority_queue<Far> enough;  // cells that hold more than k points together, the farthest on top
   std::uint64_t points = 0;
   const auto keep = [&](Far far) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bounds on the distance to the k-th neighbour, from the counted cells alone.
+// Bounds on the distance to the k-th neighbour. They follow from the counted cells alone.
 #pragma once
 
 #include "engine/model/tiling.hpp"
@@ -11,8 +11,8 @@
 namespace lacuna {
 
 // Returns a squared upper bound of the distance from any point of the cell to its k-th nearest neighbour. The
-// cells that lie wholly within it hold more than k points. Infinite where the scan has no more than k points.
-// Cost: the cells near by, logarithmic in the number of all.
+// cells that lie wholly within the bound hold more than k points. The bound is infinite where the scan has no
+// more than k points. Cost: the cells near by, logarithmic in the number of all.
 double squared_distance_bound(const Tiling& tiling, std::uint32_t cell, std::size_t k);
 
 // Calls visit(cell) for every cell that may hold a point within `squared_radius` of a point of `box`, in

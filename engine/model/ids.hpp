@@ -7,7 +7,7 @@
 
 namespace lacuna {
 
-// Rank of a point in the input: files in the order given, rows in file order. Ties are decided by it.
+// Rank of a point in the input: files in the order given, rows in file order. The id decides ties.
 enum class PointId : std::uint64_t {};
 
 // Place of a distinct point in the tile store. Rows of a tile are contiguous; not every row is used.

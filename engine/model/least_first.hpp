@@ -9,9 +9,10 @@
 
 namespace lacuna {
 
-// visit(cell) for cells in ascending order of least(box), a number that is no larger for a larger box. The
-// cells of a node are passed over where enter(node) is false. The walk ends where is_enough(least) is true of
-// the least number to come. Cost: the nodes on the way to the visited cells, times the logarithm of those.
+// Calls visit(cell) for cells in ascending order of least(box), a number that is no larger for a larger box.
+// It passes over the cells of a node where enter(node) is false. It ends where is_enough(least) is true of
+// the least number to come. Cost: the nodes on the way to the visited cells, times the logarithm of their
+// number.
 template <class Least, class IsEnough, class Enter, class Visit>
 void for_each_cell_least_first(const Tiling& tiling, Least&& least, IsEnough&& is_enough, Enter&& enter,
                                Visit&& visit) {

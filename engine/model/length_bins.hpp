@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A histogram of lengths, exact in any order of adding.
+// A histogram of lengths. It is exact in any order of adding.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ struct LengthBins {
 
   static std::uint32_t bin_of(double length);  // positive
   static double start_of(std::uint32_t bin);   // the shortest of the bin
-  // Returns the median, as if the numbers of a bin were spread evenly over it. 0 without any number.
+  // Returns the median, as if the numbers of a bin were spread evenly over it. Returns 0 without any number.
   double median() const;
-  // Within 1.6 %.
+  // Returns the sum within 1.6 %.
   double sum_of_squares() const;
 };
 

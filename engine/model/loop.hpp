@@ -19,7 +19,8 @@ struct LoopPoint {
   float probability = 0;
 };
 
-// Written from its smallest id towards that one's smaller neighbour; closed, the first point not repeated.
+// A loop is written from its smallest id towards the smaller neighbour of that point. It is closed, and its
+// first point is not repeated.
 using Loop = std::vector<LoopPoint>;
 
 enum class LoopKind : std::uint8_t {
@@ -30,20 +31,20 @@ constexpr const char* name_of(LoopKind kind) {
   return kind == LoopKind::kHole ? "hole" : "outer";
 }
 
-// What is known of a hole from all levels at which it is found. Lengths in units of the scan.
+// What all levels at which a hole is found say of it. Lengths are in units of the scan.
 struct LoopTrack {
-  double confidence = 1;   // that it is one, [0, 1]; of the method "paper": 1
+  double confidence = 1;   // that it is a hole, [0, 1]; 1 by the method "paper"
   double persistence = 0;  // octaves from the spacing along the loop to the last scale, 0 or more
   // Edges of the first and of the last lattice at which it is found; 0: among all points.
   double first_scale = 0, last_scale = 0;
 };
 
-// What a user sorts and filters loops by. Lengths in units of the scan.
+// Values by which a user sorts and filters loops. Lengths are in units of the scan.
 struct LoopMeasures {
   LoopKind kind = LoopKind::kHole;
   std::uint64_t points = 0;
   double perimeter = 0;               // sum of its edges' lengths
-  double area = 0;                    // of the loop seen along its normal
+  double area = 0;                    // of the loop projected along its normal
   double diameter = 0;                // largest distance between two of its points
   Eigen::Vector3d centroid{0, 0, 0};  // of its points
   // Unit; right hand rule about the loop's direction; 0 where it encloses nothing.

@@ -24,21 +24,22 @@ struct Neighbourhoods {
   }
 };
 
-// Distinct points: first those that the tile owns, in store order, then the foreign ones that it needs.
+// Distinct points: first the owned points of the tile, in store order, then the foreign points that it needs.
 struct TilePoints {
   LocalIndex owned = 0;
   std::vector<Eigen::Vector3d> positions;
   std::vector<PointId> ids;
   std::vector<Row> rows;
-  // The foreign points q that have the owned point p among their k nearest: one list per owned point.
+  // The foreign points q that have the owned point p among their k nearest. There is one list per owned
+  // point.
   Neighbourhoods linked;
 
   std::size_t size() const { return positions.size(); }
   bool is_owned(LocalIndex point) const { return point < owned; }
 };
 
-// The order of neighbours: by squared distance, then by id. Each operation of the distance is rounded
-// (the project is compiled without contraction to fused multiply-add), or exact ties would break.
+// The order of neighbours: by squared distance, then by id. Each operation of the distance is rounded alone,
+// or exact ties would break. The project is compiled without contraction to fused multiply-add.
 inline double squared_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const double dx = a.x() - b.x(), dy = a.y() - b.y(), dz = a.z() - b.z();
   return (dx * dx + dy * dy) + dz * dz;

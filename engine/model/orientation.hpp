@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the orientation of normals is decided by.
+// The values that decide the orientation of normals.
 #pragma once
 
 #include "engine/model/ids.hpp"

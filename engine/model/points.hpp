@@ -16,18 +16,19 @@
 
 namespace lacuna {
 
-// Coordinates beyond it are an `Error`: squared distances between points would overflow.
+// A coordinate beyond this value is an `Error`: squared distances between points would overflow.
 inline constexpr double kFarthest = 1e153;
 inline bool is_too_far(const Eigen::Vector3d& point) {
   return point.allFinite() && point.cwiseAbs().maxCoeff() > kFarthest;
 }
 
-// Points of the input in ascending id, non-finite ones included.
+// Points of the input in ascending id. Non-finite points are included.
 struct PointBatch {
   PointId first{};
   std::vector<PointId> ids;  // of each point; empty where point i has id `first + i`
   std::vector<Eigen::Vector3d> positions;
-  // As given: one for each position if the source has normals, NaN where a file of it has none; else empty.
+  // Normals as given. If the source has normals, there is one for each position, NaN where a file has none.
+  // Else the vector is empty.
   std::vector<Eigen::Vector3d> normals;
 
   std::size_t size() const { return positions.size(); }
@@ -35,27 +36,29 @@ struct PointBatch {
 };
 
 // One registered scan, in any unit of length. It is read in bounded batches, from the first point to the last
-// and as often as wanted. Ids ascend. It is called from one thread at a time, not always the same. Several
+// and as often as wanted. Ids ascend. One thread at a time calls it, not always the same thread. Several
 // batches are in memory at once. Throws `Error` naming file and place.
 class LACUNA_API PointSource {
  public:
   virtual ~PointSource() = default;
 
   virtual void rewind() = 0;
-  // Fills the batch with the next points; false, and an empty batch, at the end.
+  // Fills the batch with the next points. Returns false, and an empty batch, at the end.
   virtual bool next(PointBatch& batch) = 0;
-  // Number of points where headers have it, for progress and buffer sizes; text files do not.
+  // Returns the number of points where headers have it, for progress and buffer sizes. Text files do not have
+  // it.
   virtual std::optional<std::uint64_t> expected_points() const = 0;
   virtual bool has_normals() const = 0;
-  // Whether a pass costs more than to write and read a file of plain numbers: compressed formats.
+  // Returns whether a pass costs more than to write and read a file of plain numbers, as in compressed
+  // formats.
   virtual bool reads_slowly() const { return false; }
-  // One line for each part of the source, such as a file. Lines are equal only where the points are. Empty:
-  // it cannot be said, so that no workspace is kept.
+  // Returns one line for each part of the source, such as a file. Lines are equal only where the points are.
+  // The result is empty where a source cannot identify its parts. Then no workspace is kept.
   virtual std::vector<std::string> identity() const { return {}; }
-  // What opens the same parts again, in whatever form the source's program reads.
+  // Returns names that open the same parts again, in whatever form the source's program reads.
   virtual std::vector<std::string> names() const { return {}; }
-  // Counts of the last pass, such as rows that filters left out. A workspace keeps them for runs that do not
-  // read again.
+  // Returns counts of the last pass, such as rows that filters left out. A workspace keeps them for runs that
+  // do not read again.
   virtual std::vector<std::uint64_t> pass_counts() const { return {}; }
   virtual void set_pass_counts(std::span<const std::uint64_t>) {}
 };

@@ -30,7 +30,7 @@ std::uint32_t Tiling::build_node(std::uint32_t first, std::uint32_t last) {
   return index;
 }
 
-// The first cell of the second half.
+// Returns the first cell of the second half.
 std::uint32_t Tiling::halve(std::uint32_t first, std::uint32_t last) const {
   const std::uint64_t end = value(cells[last - 1].first_row) + cells[last - 1].points;
   const Row half{(value(cells[first].first_row) + end) / 2};
@@ -102,7 +102,8 @@ bool Tiling::check() const {
   });
 }
 
-// Rounded in the same order as the distances of points, so that rounding, being monotone, keeps the bounds.
+// The bounds are rounded in the same order as the distances of points. Rounding is monotone, so it keeps the
+// bounds.
 namespace {
 
 double squared_length(const Eigen::Array3d& offset) {

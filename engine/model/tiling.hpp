@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the points are: cells that hold them, a tree over the cells, and tiles cut from it.
+// The places of the points: cells that hold them, a tree over the cells, and tiles cut from the tree.
 #pragma once
 
 #include "engine/model/ids.hpp"
@@ -36,7 +36,7 @@ constexpr std::uint64_t aligned_row(std::uint64_t row) {
 struct Tile {
   std::uint32_t first_cell = 0, last_cell = 0;
   Row first_row{};           // its rows: [first_row, first_row + points)
-  std::uint64_t raw = 0;     // rows that are kept for it: points with their copies
+  std::uint64_t raw = 0;     // rows that the store keeps for the tile: points with their copies
   std::uint64_t points = 0;  // distinct points; known after bucketing
 
   bool owns(Row row) const { return value(row) - value(first_row) < points; }
@@ -46,8 +46,8 @@ struct Tile {
 
 using TileIndex = std::uint32_t;
 
-// The index of a scan: boxes, counts and places, never points. Cells and tiles are in the order of points
-// in the store (near in the order: near in space).
+// The index of a scan. It holds boxes, counts and places, never points. Cells and tiles are in the order of
+// points in the store. What is near in that order is near in space.
 struct Tiling {
   static constexpr std::uint32_t kLeafCells = 4;
 
@@ -55,8 +55,8 @@ struct Tiling {
   std::vector<CellNode> nodes;  // nodes[0] is the root, where there are cells
   std::vector<Tile> tiles;
 
-  // Halves the cells down to `kLeafCells`: between tiles where a node holds several, else at half of the
-  // points. Cost: linear in cells, but for the search of the halves.
+  // Halves the cells down to `kLeafCells`. A node of several tiles is halved between tiles, another one at
+  // half of its points. Cost: linear in cells, except for the search of the halves.
   void build_tree();
 
   TileIndex tile_of_cell(std::uint32_t cell) const;
@@ -65,8 +65,8 @@ struct Tiling {
   std::uint64_t row_count() const;                                   // rows up to the last used one
   std::uint64_t points() const;                                      // distinct ones
 
-  // Whether tiles hold every cell once and in order, and their rows do not overlap. Rows of cells lie in
-  // their tiles, and the nodes halve all cells. For asserts and tests.
+  // Returns whether tiles hold every cell once and in order, and their rows do not overlap. Rows of cells lie
+  // in their tiles, and the nodes halve all cells. For asserts and tests.
   bool check() const;
 
  private:
@@ -74,7 +74,7 @@ struct Tiling {
   std::uint32_t halve(std::uint32_t first, std::uint32_t last) const;
 };
 
-// Lower and upper bound of the squared distance between a point of `a` and a point of `b`.
+// Return the lower and the upper bound of the squared distance between a point of `a` and a point of `b`.
 double min_squared_distance(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b);
 double max_squared_distance(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b);
 

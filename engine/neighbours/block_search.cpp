@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-// Blocks around a run of queries are looked for within this multiple of the radius for one.
+// Blocks around a run of queries are searched within this multiple of the radius for one query.
 constexpr double kRunGuess = 1.3;
 
 // Bounds are widened by more than rounding can have narrowed them.
@@ -26,7 +26,7 @@ constexpr double kLargestRun = 64;
 // Squared radii in between leave digits for all distances in the surroundings.
 constexpr double kLeastSquared = 1e-290, kMostSquared = 1e290;
 
-// So many candidates that most likely all neighbours are among them: more take longer to rank, fewer fail
+// With this many candidates, most likely all neighbours are among them. More take longer to rank, fewer fail
 // more often.
 double wanted_candidates(std::size_t neighbours) {
   const double found = static_cast<double>(neighbours) + 1;  // with the query itself
@@ -62,8 +62,8 @@ void BlockSearch::prepare(std::size_t neighbours) {
     next_guess_[found] = (1 + std::sqrt(wanted_candidates(neighbours) / static_cast<double>(found))) / 2;
 }
 
-// visit(first, last): queries that share surroundings. Where the order of points jumps, fewer queries share
-// them. The surroundings of one query alone may be empty.
+// Calls visit(first, last) for queries that share surroundings. Where the order of points jumps, fewer
+// queries share them. The surroundings of one query alone may be empty.
 template <class Radius, class Visit>
 void BlockSearch::for_each_part(LocalIndex first, LocalIndex last, Radius&& radius, Visit&& visit) {
   if (!find_surroundings(first, last, radius()) && last - first > 1) {
@@ -75,7 +75,7 @@ void BlockSearch::for_each_part(LocalIndex first, LocalIndex last, Radius&& radi
   }
 }
 
-// Candidates for the neighbours of the queries of [first, last), to the lists of the run.
+// Adds candidates for the neighbours of the queries of [first, last) to the lists of the run.
 void BlockSearch::list_run(LocalIndex first, LocalIndex last, LocalIndex run) {
   const auto radius = [this] { return kRunGuess * guess_; };
   for_each_part(first, last, radius, [&](LocalIndex begin, LocalIndex end) {
@@ -86,8 +86,8 @@ void BlockSearch::list_run(LocalIndex first, LocalIndex last, LocalIndex run) {
   });
 }
 
-// All points within some radius: more than the neighbours wanted, yet not too many. None if there is no such
-// radius at hand.
+// Lists all points within some radius: more than the neighbours wanted, yet not too many. It lists nothing if
+// no such radius is at hand.
 void BlockSearch::list_candidates(LocalIndex query, LocalIndex last, CandidateList& list) {
   constexpr int kAttempts = 4;
   for (int attempt = 0; attempt < kAttempts && covered_ > 0; ++attempt) {
@@ -107,8 +107,8 @@ void BlockSearch::list_candidates(LocalIndex query, LocalIndex last, CandidateLi
   list.count = 0;
 }
 
-// Where density changes, a list holds many more than are wanted: fewer are ranked in registers. On a surface,
-// half of the squared radius holds half of the points.
+// Where density changes, a list holds many more candidates than are wanted: fewer are ranked in registers. On
+// a surface, half of the squared radius holds half of the points.
 void BlockSearch::narrow(CandidateList& list) {
   const double wanted = 1.2 * wanted_candidates(neighbours_);
   if (list.count <= kBatchesInRegisters || wanted > kBatchesInRegisters) return;
@@ -134,9 +134,10 @@ void BlockSearch::set_distance_bound(CandidateList& list) const {
       (list.limit - surroundings_.margin) / (surroundings_.scale * surroundings_.scale);
 }
 
-// The neighbours of the queries of a run, whose candidates are listed.
+// Finds the neighbours of the queries of a run, whose candidates are listed.
 void BlockSearch::rank(LocalIndex first, LocalIndex last, Lists lists) {
-  // The query itself, its neighbours, and what comes after them, which must not be as near as the last.
+  // Ranks hold the query itself, its neighbours, and the next candidate, which must not be as near as the
+  // last neighbour.
   const std::size_t wanted = neighbours_ + 2;
   const bool can_rank = wanted <= kMostCandidates;
   if (can_rank) rank_lists(last - first, wanted, true);
@@ -159,7 +160,8 @@ void BlockSearch::rank_lists(std::size_t count, std::size_t wanted, bool ends_at
                     rankings_[place / kQueries]);
 }
 
-// The exact fallback: distances in double precision, of listed candidates or of a walk through the tree.
+// The exact fallback computes distances in double precision, of listed candidates or of a walk through the
+// tree.
 void BlockSearch::find_exactly(LocalIndex query, const CandidateList& list, std::span<LocalIndex> found) {
   nearest_.clear();
   for (std::size_t i = 0; i < list.count; ++i) keep_if_near(query, list.points[i]);
@@ -195,7 +197,7 @@ void BlockSearch::keep_if_near(LocalIndex query, LocalIndex other) {
   std::push_heap(nearest_.begin(), nearest_.end());
 }
 
-// Lists and ranks the points within the radius of the queries of a run, and those that may be.
+// Lists and ranks the points within the radius of the queries of a run, and points that may be within it.
 void BlockSearch::list_balls(LocalIndex first, LocalIndex last, double radius) {
   std::size_t most = 0;
   const auto same_radius = [radius] { return radius; };
@@ -242,8 +244,8 @@ void BlockSearch::collect_point(LocalIndex query, LocalIndex other, double squar
   if (other != query && distance <= squared_radius) nearest_.push_back({distance, ids_[other], other});
 }
 
-// Finds all blocks within `radius` of any query of [first, last). False, and none, if they are too many or
-// single precision does not do.
+// Finds all blocks within `radius` of any query of [first, last). Returns false, and no block, if there are
+// too many or single precision does not suffice.
 bool BlockSearch::find_surroundings(LocalIndex first, LocalIndex last, double radius) {
   covered_ = 0;
   surroundings_.count = 0;
@@ -258,7 +260,7 @@ bool BlockSearch::find_surroundings(LocalIndex first, LocalIndex last, double ra
   return true;
 }
 
-// Sets origin, scale and margin of the surroundings. False where single precision has too few digits.
+// Sets origin, scale and margin of the surroundings. Returns false where single precision has too few digits.
 bool BlockSearch::set_origin(const BlockBox& run, double radius) {
   surroundings_.scale = std::ldexp(1.0, -std::ilogb(radius));
   const double scaled = radius * surroundings_.scale;
@@ -268,10 +270,10 @@ bool BlockSearch::set_origin(const BlockBox& run, double radius) {
     extent = std::max({extent, (run.high[axis] - surroundings_.origin[axis]) * surroundings_.scale,
                        (surroundings_.origin[axis] - run.low[axis]) * surroundings_.scale});
   }
-  // The rounding of single precision, u, for a query at most `extent` from the origin along each axis, and a
-  // point at distance d. Each difference of coordinates has an error of 2 u (extent + d). So the sum of
-  // squares has one of 4 u (sqrt(3) extent d + d^2). Squaring and adding add 3 u d^2. That is below 7 u d
-  // (extent + d).
+  // The rounding of single precision is u. A query is at most `extent` from the origin along each axis, and a
+  // point is at distance d. Each difference of coordinates has an error of 2 u (extent + d). So the sum of
+  // squares has an error of 4 u (sqrt(3) extent d + d^2). Squaring and adding add 3 u d^2. The sum is below 7
+  // u d (extent + d).
   constexpr double kRounding = 0x1p-24;
   surroundings_.margin = 8 * kRounding * scaled * (extent + scaled);
   return extent <= kLargestRun * scaled;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// block_search: the k nearest neighbours of points in store order, many at a time.
+// block_search: finds the k nearest neighbours of points in store order, many at a time.
 #pragma once
 
 #include "engine/model/neighbourhoods.hpp"
@@ -14,20 +14,21 @@
 namespace lacuna {
 
 // One walk through a `BlockTree` finds the blocks around a run of queries. Each query takes the points within
-// a radius, which it guesses from how many the query before found. Sixteen queries are ranked side by side,
-// in single precision, relative to the run. Few queries are ambiguous: the radius holds too few points or too
-// many, or two distances are too near to each other. Distances in double precision decide these, one query at
+// a radius. It guesses the radius from the number of points that the query before found. Sixteen queries are
+// ranked side by side, in single precision, relative to the run. Few queries are ambiguous: the radius holds
+// too few points or too many, or two distances are too near to each other. Distances in double precision
+// decide these, one query at a time.
 // a time.
 //
 // Exact: bounds err on the far side only, and no rank is left to rounding. Memory: 28 bytes a point.
 class BlockSearch {
  public:
-  // Over distinct points, which must outlive it.
+  // Searches among distinct points, which must outlive the search.
   BlockSearch(std::span<const Eigen::Vector3d> positions, std::span<const PointId> ids);
 
-  // For each query of [first, last), in order: visit(query, neighbours) with the first k in neighbour order,
-  // all where fewer exist. Not from several threads at once. Throws `Error` if a squared distance
-  // underflows.
+  // Calls visit(query, neighbours) for each query of [first, last), in order, with the first k in neighbour
+  // order. It visits all neighbours where fewer than k exist. Not from several threads at once. Throws
+  // `Error` if a squared distance underflows.
   template <class Visit>
   void nearest(LocalIndex first, LocalIndex last, std::size_t k, Visit&& visit) {
     const std::size_t count = neighbours_of(k);
@@ -40,7 +41,7 @@ class BlockSearch {
     }
   }
 
-  // Lists that begin so far apart.
+  // Lists that begin at this distance from each other.
   struct Lists {
     LocalIndex* first;
     std::size_t stride;
@@ -49,11 +50,11 @@ class BlockSearch {
   };
   void nearest(LocalIndex first, LocalIndex last, std::size_t k, Lists lists);
 
-  // How many neighbours each query has.
+  // Returns how many neighbours each query has.
   std::size_t neighbours_of(std::size_t k) const { return std::min(k, positions_.size() - 1); }
 
-  // For each query of [first, last), in order: visit(query, points) with all other points whose squared
-  // distance is at most radius * radius, in neighbour order.
+  // Calls visit(query, points) for each query of [first, last), in order. `points` are all other points whose
+  // squared distance is at most radius * radius, in neighbour order.
   template <class Visit>
   void within(LocalIndex first, LocalIndex last, double radius, Visit&& visit) {
     for (LocalIndex begin = first, end; begin < last; begin = end) {
@@ -92,13 +93,13 @@ class BlockSearch {
   std::span<const PointId> ids_;
   BlockTree tree_;
 
-  double guess_ = 0;    // radius for the next query; 0: none yet
-  double covered_ = 0;  // `surroundings_` holds all blocks within this distance of the queries; 0: none
+  double guess_ = 0;    // radius for the next query; 0: not known yet
+  double covered_ = 0;  // `surroundings_` holds all blocks within this distance of the queries; 0: no block
   Surroundings surroundings_;
   std::array<CandidateList, kRun> lists_;  // of the queries of a run
   std::array<Ranking, kRun / kQueries> rankings_;
   std::size_t neighbours_ = 0;  // of each query
-  // By how many points the query before found, in units of its radius.
+  // By the number of points that the query before found, in units of its radius.
   std::array<double, kMostCandidates + 1> next_guess_{};
   std::vector<LocalIndex> found_;   // by query of the run, or in one ball
   std::vector<Neighbour> nearest_;  // of one query, by the exact fallback

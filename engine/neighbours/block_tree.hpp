@@ -39,8 +39,8 @@ class BlockTree {
   BlockTree& operator=(const BlockTree&) = delete;
   explicit BlockTree(std::span<const Eigen::Vector3d> positions);
 
-  // Sets `surroundings.blocks` to all blocks within the radius of a box. False where they are more than
-  // kMostBlocks.
+  // Sets `surroundings.blocks` to all blocks within the radius of a box. Returns false where they are more
+  // than kMostBlocks.
   bool find_near(const BlockBox& box, double squared_radius, Surroundings& surroundings) const;
 
   // Fills the boxes and coordinates of the blocks in `surroundings.blocks`.

@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lacuna::HWY_NAMESPACE {
 namespace {
 
-// As many numbers of a block or of the queries as fit: both are sixteen.
+// As many numbers of a block, or of the queries, as fit. Both have sixteen.
 using Singles = hn::CappedTag<float, kBlock>;
 using Whole = hn::RebindToUnsigned<Singles>;
 static_assert(kBlock == kQueries);
@@ -24,7 +24,7 @@ constexpr std::size_t kStep = kLanes<Singles>;
 
 constexpr float kLargest = std::numeric_limits<float>::max();
 
-// Squared distances between a box and as many others as a vector holds.
+// Finds the squared distances between a box and as many others as a vector holds.
 template <class D, class Number>
 HWY_INLINE hn::Vec<D> squared_gaps(D d, const Number* low, const Number* high, const Number* const lows[3],
                                    const Number* const highs[3], std::size_t first) {
@@ -66,8 +66,8 @@ HWY_INLINE std::size_t append(hn::Vec<Singles> squared_distances, hn::Vec<Whole>
   return hn::CountTrue(kSingles, chosen);
 }
 
-// The squared distances of candidates side by side, by their numbers in the lists; beyond the last: the
-// largest number there is.
+// The squared distances of candidates side by side, by their numbers in the lists. Places beyond the last
+// candidate hold the largest number there is.
 void list_side_by_side(const CandidateList* lists, std::size_t count, std::size_t ranks, Ranking& ranking) {
   for (std::size_t query = 0; query < kQueries; ++query) {
     std::size_t rank = 0;
@@ -95,8 +95,8 @@ void put_numbers(std::size_t ranks, Ranking& ranking) {
   }
 }
 
-// Finds successive keys that are as near to each other as the numbers in them allow. `ends`: what is in no
-// list is no nearer.
+// Finds successive keys that are as near to each other as the numbers in them allow. `ends`: points in no
+// list are no nearer.
 void find_ambiguous(const float* ends, const float* margins, std::size_t wanted, Ranking& ranking) {
   const auto number_bits = hn::Set(kWhole, ranking.number_bits);
   const auto least_of = [&](hn::Vec<Whole> key)
@@ -218,7 +218,7 @@ void narrow_list(float limit, std::size_t least, CandidateList& list) {
     left += hn::CountTrue(kSingles, within(first));
   if (left < least) return;
   left = 0;
-  // In place: what is written ends no later than what was read.
+  // It works in place: what is written ends no later than what was read.
   for (std::size_t first = 0; first < list.count; first += kStep) {
     left += append(hn::Load(kSingles, list.squared_distances + first), hn::Load(kWhole, list.points + first),
                    within(first), list, left);

@@ -17,7 +17,7 @@ using Numbers = hn::CappedTag<std::uint32_t, kListLine>;
 constexpr Numbers kNumbers;
 using V = hn::Vec<Numbers>;
 
-// Which places of the line hold such a point.
+// Returns which places of the line hold such a point.
 template <class IsChosen>
 HWY_INLINE std::uint32_t places(const ListLine& line, IsChosen&& is_chosen) {
   std::uint32_t chosen = 0;
@@ -26,7 +26,7 @@ HWY_INLINE std::uint32_t places(const ListLine& line, IsChosen&& is_chosen) {
   return chosen;
 }
 
-// `stride`: the lists', best known when this is compiled.
+// `stride`: the stride of the lists, best known when this is compiled.
 HWY_INLINE void find_mutual_in(const NearestLists& lists, std::size_t stride, std::uint32_t first,
                                std::uint32_t last) {
   for (std::uint32_t p = first; p < last; ++p) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// N_p^k of many points, in whole cache lines, since the most frequent query is whether a list holds a point.
+// Stores N_p^k of many points in whole cache lines, since the most frequent query is whether a list holds a
+// point.
 #pragma once
 
 #include <cstddef>
@@ -21,18 +22,18 @@ struct NearestLists {
   std::uint16_t* mutual;  // by line: bit i, its i-th neighbour has the point among its own
 };
 
-// Sets `mutual` among points [first, last) and those before them, whose `mutual` has been set likewise.
+// Sets `mutual` among points [first, last) and the points before them, whose `mutual` has been set likewise.
 // The lists of points after them need not exist yet.
 void find_mutual(const NearestLists& lists, std::uint32_t first, std::uint32_t last);
 
-// From points p to neighbours q. What is appended writes up to kListLine more.
+// Edges from points p to neighbours q. An append writes up to kListLine more.
 struct EdgeList {
   std::uint32_t* q;
   std::uint32_t* p;
 };
 
-// Sets `edges` to those from points [first, last) to neighbours below `owned` that are not mutual, once this
-// is known of all points. Returns how many.
+// Sets `edges` to the edges from points [first, last) to neighbours below `owned` that are not mutual.
+// `mutual` of all points must be known. Returns how many.
 std::size_t find_one_sided(const NearestLists& lists, std::uint32_t first, std::uint32_t last,
                            std::uint32_t owned, const EdgeList& edges);
 

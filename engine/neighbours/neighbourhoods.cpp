@@ -14,7 +14,7 @@ namespace {
 
 constexpr LocalIndex kTogether = 64;  // points searched together
 
-// N_p^k of every owned point.
+// Finds N_p^k of every owned point.
 class Nearest {
  public:
   Nearest(BlockSearch& search, const TilePoints& points, std::size_t k) {
@@ -28,7 +28,7 @@ class Nearest {
       search.nearest(first, last, k, lists);
       for (LocalIndex p = first; p < last; ++p)
         std::fill(lists[p - first] + count, lists[p - first] + lists.stride, kNoIndex);
-      // Now: those before are still in the cache.
+      // This happens now, since the lists before are still in the cache.
       find_mutual(lists_, first, last);
     }
   }
@@ -54,7 +54,7 @@ class Nearest {
   NearestLists lists_{};
 };
 
-// List q: the owned points p with q in N_p^k but p not in N_q^k.
+// List q has the owned points p with q in N_p^k but p not in N_q^k.
 Neighbourhoods one_sided(const TilePoints& points, const Nearest& nearest) {
   const std::size_t most = kTogether * nearest.lists().count + kListLine;
   std::vector<std::uint32_t> q, p;
@@ -84,7 +84,7 @@ void check_count(std::uint64_t neighbours) {
         "the neighbourhoods of a tile hold more than 2^32 points; a smaller eps or tile_points is needed");
 }
 
-// The points within eps of every owned point, in neighbour order.
+// Finds the points within eps of every owned point, in neighbour order.
 Neighbourhoods balls(BlockSearch& search, const TilePoints& points, double eps) {
   Neighbourhoods lists;
   if (eps == 0) {
@@ -120,11 +120,11 @@ Neighbourhoods find_neighbourhoods(const TilePoints& points, std::size_t k, doub
   for (LocalIndex p = 0; p < points.owned; ++p) {
     end = nearest.copy(p, end);
 
-    // One of the k nearest and the points within eps holds the other: both begin alike.
+    // Either the k nearest hold all points within eps, or the reverse: both begin alike.
     const auto beyond = near[p].subspan(std::min(nearest.lists().count, near[p].size()));
     end = std::copy(beyond.begin(), beyond.end(), end);
 
-    // What is in neither comes after both.
+    // Points in neither come after both.
     added.clear();
     const auto add = [&](LocalIndex q) {
       const double distance = squared_distance(points.positions[p], points.positions[q]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// stored_search: the k nearest neighbours of single points of the tile store.
+// stored_search: finds the k nearest neighbours of single points of the tile store.
 #pragma once
 
 #include "engine/store/tile_store.hpp"
@@ -24,14 +24,14 @@ struct StoredNeighbour {
   }
 };
 
-// Best first over the tree of cells; cells are read as they come, and kept while they are few. Not for use
-// from several threads at once.
+// The search goes through the tree of cells, best first. Cells are read as they come, and kept while they are
+// few. Not for use from several threads at once.
 class StoredSearch {
  public:
   explicit StoredSearch(const TileStore& store) : store_(store), tiling_(store.tiling()) {}
 
-  // The k nearest of all other points, in no order; all where fewer exist. Throws `Error` if a squared
-  // distance underflows.
+  // Returns the k nearest of all other points, in no order, or all of them where fewer exist. Throws `Error`
+  // if a squared distance underflows.
   std::vector<StoredNeighbour> nearest(const StoredPoint& point, Row row, std::size_t k);
 
  private:

@@ -12,7 +12,7 @@
 namespace lacuna {
 namespace {
 
-// What a point is.
+// The properties of a point.
 constexpr std::uint32_t kCoherent = 1, kBoundary = 2;
 
 // A point of one tile that is coherent or belongs to the boundary.
@@ -28,7 +28,7 @@ struct MarkedPoint {
 struct StoredBoundary {
   StoredPoint point;
   float probability;
-  std::int32_t loop;  // -1: none
+  std::int32_t loop;  // -1: it is on no reported loop
   std::uint64_t flags;
 
   bool is_boundary() const { return (flags & kBoundary) != 0; }
@@ -38,14 +38,14 @@ struct StoredBoundary {
 
 using BoundarySort = SortedRuns<StoredBoundary>;
 
-// visit(record) for each of a column.
+// Calls visit(record) for each record of a column.
 template <class Record, class Visit>
 void for_each_record(const Column<Record>& column, Visit&& visit) {
   ColumnReader<Record> records(column);
   for (std::uint64_t i = 0; i < column.size(); ++i) visit(records[i]);
 }
 
-// What result blocks are made of.
+// The data from which result blocks are made.
 struct ResultBlocks {
   std::uint64_t points;  // of the input
   PointResults results;
@@ -86,7 +86,7 @@ struct ResultBlocks {
   }
 };
 
-// Each stream holds what it reads.
+// Each stream holds the data that it reads.
 std::unique_ptr<Detection> make_detection(Findings findings, Column<StoredBoundary> boundary_points) {
   auto detection = std::make_unique<Detection>();
   detection->summary = std::move(findings.summary);

@@ -19,7 +19,7 @@
 
 namespace lacuna {
 
-// What the stages have found.
+// The results of the stages.
 struct Findings {
   Summary summary;
   MeasuredLoops loops;
@@ -33,7 +33,7 @@ struct Findings {
   std::optional<RowSet> opposed_normals;         // rows whose normal is to be turned round
 };
 
-// Fills in the counts of boundary points.
+// Collects the results, and fills in the counts of boundary points.
 std::unique_ptr<Detection> collect_results(Findings findings, const TileOutputs& outputs,
                                            const TileStore& store, Job& job);
 

@@ -13,7 +13,7 @@
 namespace lacuna {
 namespace {
 
-// visit(tile) for each that may have a point at this place.
+// Calls visit(tile) for each tile that may have a point at this place.
 template <class Visit>
 void for_each_tile_at(const Tiling& tiling, const Eigen::Vector3d& place, Visit&& visit) {
   std::optional<TileIndex> last;
@@ -42,7 +42,7 @@ void send_points(const ChosenLoops& loops, std::span<const std::size_t> selected
   outbox.send();
 }
 
-// Those of the points that the tile has, with their places in it.
+// Returns the points that the tile has, with their places in it.
 std::vector<PointOnLoop> owned_points(std::vector<PointOnLoop> points, const TileStore& store, TileIndex t) {
   const auto by_id = [](const PointOnLoop& a, const PointOnLoop& b) { return a.point.id < b.point.id; };
   std::sort(points.begin(), points.end(), by_id);

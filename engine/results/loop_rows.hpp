@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// loop_rows: where the loops of all levels pass in the store of the first one.
+// loop_rows: finds where the loops of all levels pass in the store of the first one.
 #pragma once
 
 #include "engine/loops/measure_loops.hpp"
@@ -18,7 +18,7 @@ inline constexpr std::int32_t kNotReported = INT32_MAX;
 
 struct PointOnLoop {
   LocalIndex owned;
-  std::int32_t loop;  // the reported loop; kNotReported: none
+  std::int32_t loop;  // the reported loop; kNotReported: the loop is not reported
   float probability;  // at the level of the loop
   StoredPoint point;
 };
@@ -29,7 +29,8 @@ struct LoopRows {
 };
 
 // `selected`: the loops that are reported, ascending. The points of a loop are input points, at whatever
-// level it was found. So each is found by its place and its id. Cost: one pass over the tiles that have any.
+// level it was found. So each point is found by its place and its id. Cost: one pass over the tiles that have
+// such points.
 LoopRows find_loop_rows(const ChosenLoops& loops, std::span<const std::size_t> selected,
                         const TileStore& store, Job& job);
 

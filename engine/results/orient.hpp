@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// orient: consistent orientation of normals by a minimum spanning tree of G (Hoppe et al. 1992).
+// orient: orients normals consistently by a minimum spanning tree of G (Hoppe et al. 1992).
 #pragma once
 
 #include "engine/model/orientation.hpp"
@@ -16,10 +16,10 @@ struct OrientedEnd {
   Eigen::Vector3d normal;
 };
 
-// The edge of G between two points: weight 1 - |n_a . n_b|, ties by ids.
+// Returns the edge of G between two points: weight 1 - |n_a . n_b|, ties by ids.
 OrientationEdge orientation_edge(const OrientedEnd& a, const OrientedEnd& b);
 
-// The edges of the minimum spanning forest of a graph over rows [first_row, first_row + rows).
+// Returns the edges of the minimum spanning forest of a graph over rows [first_row, first_row + rows).
 std::vector<OrientationEdge> spanning_forest(std::vector<OrientationEdge> edges, std::uint64_t first_row,
                                              LocalIndex rows);
 

@@ -16,7 +16,7 @@ Eigen::Vector3d vector(const StoredNormal& n) {
   return {n.x, n.y, n.z};
 }
 
-// Disjoint sets of rows that know for each row whether its normal opposes that of its root.
+// Disjoint sets of rows that know for each row whether its normal opposes the normal of its root.
 class SignedUnionFind {
  public:
   SignedUnionFind(std::uint64_t rows, Scratch& scratch)
@@ -58,7 +58,7 @@ class SignedUnionFind {
 
 using EdgeSort = SortedRuns<OrientationEdge>;
 
-// What a tile puts out.
+// The data that a tile puts out.
 constexpr RecordStream<StoredNormal> kNormals{"normals"};
 constexpr RecordStream<OrientationEdge> kForest{"orientation"};
 constexpr RecordStream<OrientationCrossing> kCrossings{"orientation crossings"};
@@ -133,7 +133,8 @@ RowSet opposed_normals(const TileOutputs& outputs, const TileStore& store, Job& 
   SignedUnionFind trees(rows, scratch);
   edges.for_each([&](const OrientationEdge& e) { trees.unite(value(e.low), value(e.high), e.opposed); });
 
-  // The topmost point of a tree, and whether the root's normal has to be turned for that one to point up.
+  // The topmost point of a tree. The root's normal may have to be turned for the normal of that point to
+  // point up.
   struct Top {
     double z;
     std::uint64_t id;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Consistent orientation of the normals over all tiles (Hoppe et al. 1992), exact.
+// Orients the normals over all tiles consistently (Hoppe et al. 1992). The result is exact.
 #pragma once
 
 #include "engine/evaluate/evaluated_tile.hpp"
@@ -21,14 +21,14 @@ void for_each_row(OrientationCrossing& record, Visit&& visit) {
   visit(record.foreign);
 }
 
-// An edge that is the heaviest on a cycle inside one tile is in no minimum spanning tree. So of the edges
-// inside a tile only its own spanning forest is put out, with the normals and the edges between tiles.
+// An edge that is the heaviest on a cycle inside one tile is in no minimum spanning tree. So a tile puts out
+// only its own spanning forest of its inner edges, with the normals and the edges between tiles.
 void emit_orientation(const EvaluatedTile& tile, TileOutput& output);
 
 // Returns the rows whose normal has to be turned round. The minimum spanning tree of G is built from the
 // tiles' forests and the edges between tiles. They are sorted on disk, and a union-find carries the sign. In
-// every component, the normal of the topmost point (largest z, then lowest id) points up. Its first
-// coordinate of z, y, x that is not 0 is positive. Memory: the global budget.
+// every component, the normal of the topmost point (largest z, then lowest id) points up. The first
+// coordinate of z, y, x of that normal that is not 0 is positive. Memory: the global budget.
 RowSet opposed_normals(const TileOutputs& outputs, const TileStore& store, Job& job);
 
 }  // namespace lacuna

@@ -29,14 +29,14 @@ inline constexpr std::uint64_t kResultBlock = 1 << 17;
 // Puts out the results of all points of a tile.
 void emit_point_results(const EvaluatedTile& tile, TileOutput& output);
 
-// By block of ids. Duplicates have the results of the point that they are copies of.
+// The results by block of ids. Duplicates have the results of the point that they copy.
 class PointResults {
  public:
   // Takes the results of all tiles. `ids`: points of the input.
   PointResults(const TileOutputs& outputs, std::uint64_t ids, const TileStore& store, const Job& job);
 
   std::size_t blocks() const { return lists_.lists(); }
-  // visit(result, criteria), in any order.
+  // Calls visit(result, criteria), in any order.
   template <class Visit>
   void for_each(std::size_t block, Visit&& visit) const {
     constexpr std::size_t kTogether = 1 << 14;
@@ -55,7 +55,8 @@ class PointResults {
  private:
   std::size_t record_bytes() const { return sizeof(StoredResult) + criteria_ * sizeof(float); }
   void take(const TileOutputs& outputs, TileIndex tile);
-  // The results of the copies of points; clears `copies`. `records`: of all points of the tile, without rows.
+  // Appends the results of the copies of points; clears `copies`. `records`: of all points of the tile,
+  // without rows.
   void append(TileIndex tile, std::span<const std::byte> records, std::vector<Duplicate>& copies);
 
   const TileStore& store_;

@@ -22,13 +22,13 @@ using Upper = Tree::RootNodeType::ChildNodeType;
 using Lower = Upper::ChildNodeType;
 using Leaf = Tree::LeafNodeType;
 
-// The largest probability in each voxel. While the tree takes more than `most_bytes`, voxels double, and
-// merge. More voxels never take fewer nodes, so the order of the voxels does not change the result.
+// Holds the largest probability in each voxel. While the tree takes more than `most_bytes`, voxels double,
+// and merge. More voxels never take fewer nodes, so the order of the voxels does not change the result.
 class MergingVoxels {
  public:
   explicit MergingVoxels(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
 
-  // `voxel`: of the finest size.
+  // `voxel`: a voxel of the finest size.
   void add(const CellCoord& voxel, float probability) {
     raise({voxel[0] >> doublings_, voxel[1] >> doublings_, voxel[2] >> doublings_}, probability);
     while (bytes_ > most_bytes_ && doublings_ < kMostDoublings) merge();
@@ -71,14 +71,14 @@ CellGrid finest_lattice(int exponent, const Eigen::Vector3d& middle) {
   return CellGrid::around(middle, std::clamp(exponent, std::max(digit, -500), 500));
 }
 
-// The lattice with the coordinates that the voxels get in the end.
+// Returns the lattice with the coordinates that the voxels get in the end.
 CellGrid final_lattice(CellGrid grid, int doublings) {
   grid.shift = doublings;
   for (double& origin : grid.origin) origin += std::ldexp(shift_of(doublings), doublings);
   return grid;
 }
 
-// The voxel of each point in `box`. Voxels without end have no place in a grid of OpenVDB.
+// Returns the voxel of each point in `box`. Voxels without end have no place in a grid of OpenVDB.
 std::vector<ProbabilityVoxel> voxels_of(const std::vector<StoredPoint>& points,
                                         const std::vector<float>& probabilities, const CellGrid& grid,
                                         const Eigen::AlignedBox3d& box) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results of every point of a thinned scan: those of its representative.
+// Results of every point of a thinned scan: each point has the results of its representative.
 #pragma once
 
 #include "engine/model/detection.hpp"

@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint64_t kBlock = 1 << 16;  // ids of a block of the sample, which is ordered in memory
 constexpr double kBoundaryWeight = 3;      // added to a weight of 1 at the probability 1
 
-// Uniform in (0, 1), by the mixer of SplitMix64 (Steele, Lea, Flood, 2014).
+// Returns a number that is uniform in (0, 1), by the mixer of SplitMix64 (Steele, Lea, Flood, 2014).
 double drawn_from(PointId id) {
   std::uint64_t bits = value(id) + 0x9e3779b97f4a7c15;
   bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9;
@@ -34,12 +34,12 @@ double key_of(PointId id, const Evaluation& e) {
   return key < std::numeric_limits<double>::max() ? key : std::numeric_limits<double>::max();
 }
 
-// Sixteen bins for each power of two: the order of positive numbers is that of their bits.
+// Each power of two has sixteen bins: positive numbers have the order of their bits.
 std::uint32_t bin_of(double key) {
   return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(key) >> 48);
 }
 
-// In ascending id. All ids are in one block.
+// Orders the sample in ascending id. All ids are in one block.
 void order(std::vector<StoredSample>& samples) {
   std::vector<LocalIndex> places(kBlock, kNoIndex);
   for (LocalIndex i = 0; i < samples.size(); ++i) places[value(samples[i].point.id) % kBlock] = i;
@@ -57,7 +57,7 @@ void ScanSample::KeyBins::take(std::vector<DrawnPoint>& points, std::uint64_t mo
   std::erase_if(points, [&](const DrawnPoint& point) { return bin_of(point.key) > last; });
   for (const DrawnPoint& point : points) ++counts[bin_of(point.key)];
   keys += points.size();
-  // A bin goes where those before it are enough.
+  // A bin is removed where the bins before it are enough.
   while (!counts.empty() && keys - counts.rbegin()->second >= most_points) {
     keys -= counts.rbegin()->second;
     counts.erase(std::prev(counts.end()));
@@ -81,7 +81,7 @@ void ScanSample::emit(const EvaluatedTile& tile, TileOutput& output) {
   output.add(kDrawnPoints, points);
 }
 
-// The largest key of the sample. Only the keys of the last bin are to be ordered.
+// Returns the largest key of the sample. Only the keys of the last bin have to be ordered.
 double ScanSample::last_key(const TileOutputs& outputs, std::size_t tiles, Job& job) const {
   KeyBins bins;
   for (std::size_t t = 0; t < tiles; ++t) {
@@ -95,7 +95,7 @@ double ScanSample::last_key(const TileOutputs& outputs, std::size_t tiles, Job& 
       if (bin_of(point.key) == bins.last) of_last_bin.add(point.key);
     }
   }
-  // All of several equal keys are in the sample, or none.
+  // Several equal keys are in the sample all together, or not at all.
   const double first_of_bin = std::bit_cast<double>(std::uint64_t{bins.last} << 48);
   double last = std::nextafter(first_of_bin, -1), key_before = last;
   std::uint64_t taken = bins.keys - of_last_bin.size();  // all of the bins before

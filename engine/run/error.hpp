@@ -21,13 +21,13 @@ class LACUNA_API UsageError : public Error {
   using Error::Error;
 };
 
-// The input is read twice; it was not the same. `how`: what shows it.
+// Fails because the input is read twice and was not the same. `how`: what shows it.
 [[noreturn]] inline void fail_changed(const std::string& how) {
   throw Error("the input changed while it was read: " + how);
 }
 
-// The data of two steps do not agree. That is a fault of the program or of the machine. `how` says what shows
-// it.
+// Fails because the data of two steps do not agree. That is a fault of the program or of the machine. `how`
+// says what shows the fault.
 [[noreturn]] inline void fail_inconsistent(const std::string& how) {
   throw Error("the run contradicts itself: " + how + "; please report this");
 }

@@ -19,7 +19,7 @@ constexpr std::uint64_t kMiB = 1 << 20;
 // The program, its libraries, threads' stacks, buffers of readers and writers: measured 28 MiB.
 constexpr std::uint64_t kProgram = 36 * kMiB;
 
-// A tile at work takes these, whatever its points.
+// A tile at work takes these bytes, whatever its points.
 constexpr std::uint64_t kTileBytes = kMiB / 4;
 
 double now() {
@@ -31,8 +31,8 @@ std::uint64_t bytes_per_tile_point(const Config& config) {
   return 420 + 12 * static_cast<std::uint64_t>(config.neighbourhood.k) + (config.normals.orient ? 80 : 0);
 }
 
-// Points that a tile may have. With fewer, the tables with entries for every tile do not fit in memory. With
-// more, a tile does not fit, or its neighbours cannot be numbered in 32 bits.
+// The limits of the points of a tile. With fewer, the tables with entries for every tile do not fit in
+// memory. With more, a tile does not fit, or its neighbours cannot be numbered in 32 bits.
 struct TileSizes {
   std::uint64_t least, most;
 };
@@ -51,7 +51,7 @@ TileSizes tile_sizes(const Memory& memory, std::uint64_t points, const Config& c
 Memory Memory::share(std::uint64_t limit) {
   if (limit == 0) limit = machine_memory() / 2;
   const std::uint64_t rest = limit > kProgram + 16 * kMiB ? limit - kProgram : 16 * kMiB;
-  // Tiles and the global stage are not at work at the same time. What is left over is for what the
+  // Tiles and the global stage are not at work at the same time. The remaining share is for memory that the
   // allocator cannot give back at once.
   return {.limit = limit,
           .cells = rest / 6,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every pass over the scan shares: settings, threads, memory, the workspace and the progress.
+// The data that all passes over the scan share: settings, threads, memory, the workspace and the progress.
 #pragma once
 
 #include "engine/config/config.hpp"
@@ -14,15 +14,15 @@
 
 namespace lacuna {
 
-// How the memory limit is shared out. Nothing of the scan's size is held outside of these, save a few
-// bits a point (active, coherent, on a loop).
+// The shares of the memory limit. All data of the scan's size is within these shares, save a few bits a point
+// (active, coherent, on a loop).
 struct Memory {
   std::uint64_t limit;    // all of it; where the config has none, half of what the process may have
   std::uint64_t cells;    // survey and index
   std::uint64_t tiles;    // all tiles at work together
   std::uint64_t spills;   // buffers of all lists on their way to disk
   std::uint64_t global;   // spanning graph and loops, sorts
-  std::uint64_t reading;  // what a reader of the scan holds of it; survey and index are apart
+  std::uint64_t reading;  // the part that a reader of the scan holds; survey and index are apart
 
   static Memory share(std::uint64_t limit);
 };
@@ -41,14 +41,14 @@ struct Job {
   // Returns freed memory to the system, if more than `share` of the limit is in use. Call it at the end of
   // each phase, between steps that need much, and within a phase where the limit is near.
   void trim(double share = 0.5) const;
-  // A temporary file.
+  // Returns the path of a temporary file.
   std::filesystem::path file(std::string_view name) const { return workspace / name; }
-  // Points per tile: as the config has it, or enough tiles for all threads; never fewer or more than memory
-  // allows. Throws `Error` where so many points can never fit.
+  // Returns the points per tile: as the config has it, or enough tiles for all threads. They are never fewer
+  // or more than memory allows. Throws `Error` where so many points can never fit.
   std::uint64_t tile_points(std::uint64_t points) const;
-  // Points in a cell of the index, so that all cells fit in memory.
+  // Returns the points in a cell of the index, so that all cells fit in memory.
   std::uint64_t cell_points(std::uint64_t points) const;
-  // Bytes that a tile with so many points takes while it is evaluated.
+  // Returns the bytes that a tile with so many points takes while it is evaluated.
   std::uint64_t tile_bytes(std::uint64_t points) const;
 };
 

@@ -43,7 +43,7 @@ ResidentMemory resident_memory() {
   return {all * page, mapped * page};
 }
 
-// Not by getrusage, which counts the process that started this one, too.
+// This does not use getrusage, which counts the process that started this one, too.
 std::uint64_t peak_memory() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);) {
@@ -66,7 +66,7 @@ std::uint64_t group_memory(const fs::path& groups, const fs::path& root) {
     if (!is_unified && controllers != "memory") continue;
     const fs::path top = is_unified ? root : root / "memory";
     const char* const file = is_unified ? "memory.max" : "memory.limit_in_bytes";
-    // What holds for a group holds for all within it. In a container, only the last may exist.
+    // The limits of a group hold for all groups within it. In a container, only the last may exist.
     for (fs::path group = fs::path(line.substr(second + 1)).relative_path();; group = group.parent_path()) {
       least = std::min(least, read_limit(top / group / file));
       if (group.empty()) break;

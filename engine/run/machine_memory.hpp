@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much memory the process may have, and has.
+// Finds how much memory the process may have, and has.
 #pragma once
 
 #include <cstdint>
@@ -7,21 +7,22 @@
 
 namespace lacuna {
 
-// Bytes of memory in the machine, or fewer where a control group (a container, a batch system) allows fewer.
+// Returns the memory in the machine in bytes, or fewer where a control group (a container, a batch system)
+// allows fewer.
 std::uint64_t machine_memory();
 
-// The least that the control groups of a process allow, of either version; 2^64 - 1: they set no limit.
-// `groups` is as /proc/self/cgroup, `root` as /sys/fs/cgroup.
+// Returns the least that the control groups of a process allow, of either version. 2^64 - 1: they set no
+// limit. `groups` is as /proc/self/cgroup, `root` as /sys/fs/cgroup.
 std::uint64_t group_memory(const std::filesystem::path& groups, const std::filesystem::path& root);
 
-// Bytes of the process that are in memory now; `mapped`: those of files, the program and its libraries
+// Bytes of the process that are in memory now. `mapped`: bytes of files, the program and its libraries
 // included. Zeros where the system does not say. Cost: one system call.
 struct ResidentMemory {
   std::uint64_t all, mapped;
 };
 ResidentMemory resident_memory();
 
-// The most bytes of this process that were in memory so far; 0 where the system does not say.
+// Returns the most bytes of this process that were in memory so far; 0 where the system does not say.
 std::uint64_t peak_memory();
 
 }  // namespace lacuna

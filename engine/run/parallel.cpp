@@ -26,8 +26,8 @@ std::size_t resolve(std::size_t threads) {
   return threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
 }
 
-// oneTBB ends the program where a thread of its own cannot start the next one. As many are tried here, at the
-// same time, where it can still be an error.
+// oneTBB ends the program where a thread of its own cannot start the next one. So this starts as many threads
+// at the same time, where a failure can still be an error.
 void require_threads(std::size_t count) {
   std::latch tried(1);
   std::vector<std::jthread> started;  // joined when `tried` is over
@@ -66,7 +66,7 @@ class FirstError {
   std::atomic<bool> is_set_ = false;
 };
 
-// Hands out indices in ascending order while the sum of what the running ones need stays within the budget.
+// Hands out indices in ascending order while the needs of the running ones stay within the budget.
 class Admission {
  public:
   Admission(std::span<const std::uint64_t> needs, std::uint64_t budget, const FirstError& error)
@@ -117,9 +117,9 @@ std::size_t TaskArena::threads() const {
   return static_cast<std::size_t>(arena_->arena.max_concurrency());
 }
 
-// Isolated: a body may use its arena itself. While it blocks, oneTBB could give its thread the loop that the
-// body is part of. The thread would start another body, or block for ever on memory that its own body holds.
-// Isolation of the body alone is not enough, since entering the arena ends it.
+// The body is isolated, since it may use its arena itself. While it blocks, oneTBB could give its thread the
+// loop that the body is part of. The thread would start another body, or block for ever on memory that its
+// own body holds. Isolation of the body alone is not enough, since entering the arena ends it.
 void TaskArena::in_arena(const std::function<void()>& work) const {
   arena_->arena.execute([&] { tbb::this_task_arena::isolate(work); });
 }
@@ -176,7 +176,8 @@ std::size_t threads_here() {
   return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
 }
 
-// Not isolated: a thread within in_arena takes no tasks of another isolation, and would not help here.
+// This loop is not isolated: a thread within in_arena takes no tasks of another isolation, and would not help
+// here.
 void for_each_here(std::size_t count, const std::function<void(std::size_t)>& body) {
   FirstError error;
   const auto work = [&](std::size_t i) { error.run([&] { body(i); }); };

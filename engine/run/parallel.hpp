@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All threading of Lacuna, in oneTBB. A body writes only what its index owns, so that nothing depends on
-// the order in which threads come by.
+// All threading of Lacuna, in oneTBB. A body writes only what its index owns, so that nothing depends on the
+// order of threads.
 #pragma once
 
 #include <cstddef>
@@ -20,12 +20,13 @@ class TaskArena {
 
   std::size_t threads() const;
 
-  // body(i) for every i in [0, count), in any order. An exception in a body ends the loop and is rethrown.
+  // Calls body(i) for every i in [0, count), in any order. An exception in a body ends the loop and is
+  // rethrown.
   void for_each(std::size_t count, const std::function<void(std::size_t)>& body) const;
 
   // Runs body i for each of `needs` with bounded memory: it needs `needs[i]` bytes while it runs. Bodies are
-  // started in ascending order. Those that run together never need more than `budget`, except one alone that
-  // does.
+  // started in ascending order. Bodies that run together never need more than `budget`. A body that needs
+  // more than `budget` runs alone.
   void for_each_within_budget(std::span<const std::uint64_t> needs, std::uint64_t budget,
                               const std::function<void(std::size_t)>& body) const;
 
@@ -42,11 +43,11 @@ class TaskArena {
   std::unique_ptr<Arena> arena_;
 };
 
-// The threads of the arena that the calling thread works in, for code that is called by a body and knows no
-// arena.
+// Returns the threads of the arena that the calling thread works in, for code that runs in a body and knows
+// no arena.
 std::size_t threads_here();
-// As `for_each`, in that arena. A thread that waits here may run another body of the outer loop in the
-// meantime. So the caller holds no lock and no share of a budget.
+// Does the same as `for_each`, in that arena. A thread that blocks here may run another body of the outer
+// loop in the meantime. So the caller holds no lock and no share of a budget.
 void for_each_here(std::size_t count, const std::function<void(std::size_t)>& body);
 
 }  // namespace lacuna

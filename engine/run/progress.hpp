@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reports of how far a run is. The engine reports; the terminal decides what to show.
+// Reports of how far a run is. The engine reports, and the terminal decides what to show.
 #pragma once
 
 #include "engine/export.hpp"
@@ -15,12 +15,12 @@ class LACUNA_API Progress {
   virtual ~Progress() = default;
   // A new phase begins: `total` points (or edges) will pass through it; 0: not known.
   virtual void begin(std::string_view phase, std::uint64_t total) = 0;
-  // `count` more have passed. May be called from any thread, and from several at a time.
+  // `count` more have passed. Any thread may call this, and several may do so at a time.
   virtual void advance(std::uint64_t count) = 0;
   virtual void end() noexcept = 0;
 };
 
-// Says nothing.
+// A progress that reports nothing.
 class NoProgress final : public Progress {
  public:
   void begin(std::string_view, std::uint64_t) override {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tiles to visit, again and again until nothing changes.
+// Rounds over tiles. They repeat until nothing changes.
 #pragma once
 
 #include "engine/model/tiling.hpp"
@@ -13,14 +13,14 @@
 
 namespace lacuna {
 
-// In the first round all tiles; in each further one those that were requested in the one before.
+// The first round has all tiles. Each further round has the tiles that were requested in the round before.
 class Rounds {
  public:
   explicit Rounds(std::size_t tiles) : tiles_(tiles) {
     std::iota(tiles_.begin(), tiles_.end(), TileIndex{0});
   }
 
-  std::span<const TileIndex> tiles() const { return tiles_; }  // none: there are no more rounds
+  std::span<const TileIndex> tiles() const { return tiles_; }  // empty: there are no more rounds
 
   // From any thread.
   void request(std::span<const TileIndex> tiles) {

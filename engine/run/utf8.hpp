@@ -7,8 +7,8 @@
 
 namespace lacuna {
 
-// Bytes of the character that `text` begins with; 0 where it begins with none. Overlong forms, surrogates and
-// values above U+10FFFF are no characters.
+// Returns the bytes of the character that `text` begins with, and 0 where it begins with no character.
+// Overlong forms, surrogates and values above U+10FFFF are no characters.
 inline std::size_t utf8_length(std::string_view text) {
   const auto byte = [text](std::size_t i) {
     return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
@@ -27,7 +27,8 @@ inline std::size_t utf8_length(std::string_view text) {
   return is_valid && follows(2) && follows(3) ? 4 : 0;
 }
 
-// Whether a character is a control character: C0, DEL or C1, which is U+0080 to U+009F, C2 80 to C2 9F.
+// Returns whether a character is a control character: C0, DEL or C1, which is U+0080 to U+009F, C2 80 to C2
+// 9F.
 inline bool is_control(std::string_view character) {
   const auto last = static_cast<unsigned char>(character.back());
   if (character.size() == 1) return last < 0x20 || last == 0x7f;

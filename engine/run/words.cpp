@@ -7,7 +7,7 @@
 namespace lacuna {
 namespace {
 
-// Number of characters to insert, remove or replace to turn one word into the other.
+// Returns the number of characters to insert, remove or replace to turn one word into the other.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});

@@ -8,10 +8,10 @@
 
 namespace lacuna {
 
-// "k, eps, eps_fraction"
+// Returns a list such as "k, eps, eps_fraction".
 std::string listed(const std::vector<std::string_view>& words);
 
-// " (did you mean "k"?)" where one of the words is close to this one, else nothing.
+// Returns " (did you mean "k"?)" where one of the words is close to this one, else an empty string.
 std::string suggestion(std::string_view word, const std::vector<std::string_view>& words);
 
 }  // namespace lacuna

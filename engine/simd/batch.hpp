@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers of several points side by side: what a kernel reads and writes, whatever the width of its vectors.
+// Numbers of several points side by side. Kernels read and write them, whatever the width of their vectors.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@ struct alignas(kSize * sizeof(Number)) Batch {
   Number at[kSize];
 };
 
-// visit(first) for first = 0, 8, 16, ... below `count`, while `batch` holds item(i) for the eight i from
-// `first` on, or those left.
+// Calls visit(first) for first = 0, 8, 16, ... below `count`. Meanwhile `batch` holds item(i) for the eight i
+// from `first` on, or for those left.
 template <class Item, class MakeItem, class Visit>
 void for_each_batch(std::size_t count, std::vector<Item>& batch, MakeItem&& item, Visit&& visit) {
   for (std::size_t first = 0; first < count; first += kBatchSize) {

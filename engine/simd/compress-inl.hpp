@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers of chosen lanes, one after the other.
+// Returns the numbers of chosen lanes, one after the other.
 //
 // Highway 1.0.3 does one thing badly with GCC. Without AVX-512, each call of its Compress copies the table of
 // shuffles (1 KiB) to the stack, which makes the search eight times slower. Here the table is static.
@@ -21,7 +21,7 @@ HWY_INLINE V compress(V numbers, MaskOf<V> chosen) {
   return hn::Compress(numbers, chosen);
 }
 #else
-// By the bits of the mask: which lanes are chosen, in ascending order.
+// By the bits of the mask: the chosen lanes, in ascending order.
 template <std::size_t kNumbers>
 struct ChosenLanes {
   alignas(kNumbers) std::uint8_t of[1 << kNumbers][kNumbers];
@@ -38,7 +38,7 @@ struct ChosenLanes {
 template <std::size_t kNumbers>
 inline constexpr ChosenLanes<kNumbers> kChosenLanes;
 
-// Beyond the chosen ones: the first, again and again.
+// The first chosen number fills the lanes beyond the chosen ones.
 template <class V>
 HWY_INLINE V compress(V numbers, MaskOf<V> chosen) {
   const TagOf<V> d;

@@ -17,7 +17,7 @@ struct Pair {
   V first, second;
 };
 
-// Numbers `at` and `at + 1` of as many points as there are lanes.
+// Returns numbers `at` and `at + 1` of as many points as there are lanes.
 #if HWY_TARGET == HWY_SCALAR
 template <class D>
 HWY_INLINE Pair<hn::Vec<D>> load_pair(D d, const double* const* points, std::size_t at) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // exp, atan2, sine and cosine from + - * / and bits alone: the same bytes from every instruction set, and on
-// every machine. Those of the C library choose their instructions by machine, and those of Highway
-// (hwy/contrib/math) use MulAdd, which is fused on some targets only.
+// every machine. The functions of the C library choose their instructions by machine. The functions of
+// Highway (hwy/contrib/math) use MulAdd, which is fused on some targets only.
 #if defined(LACUNA_SIMD_MATHS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LACUNA_SIMD_MATHS_INL
 #undef LACUNA_SIMD_MATHS_INL
@@ -17,7 +17,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace lacuna::HWY_NAMESPACE {
 
-// The first coefficient is that of the highest power. Horner's rule.
+// The first coefficient belongs to the highest power. Horner's rule.
 template <class V, class... Coefficients>
 HWY_INLINE V polynomial(V z, double first, Coefficients... others) {
   V sum = all<V>(first);
@@ -25,7 +25,7 @@ HWY_INLINE V polynomial(V z, double first, Coefficients... others) {
   return sum;
 }
 
-// exp(x) for -600 <= x <= 0, to 1e-14; 0 from -700 down.
+// Returns exp(x) for -600 <= x <= 0, to 1e-14; 0 from -700 down.
 template <class V>
 HWY_INLINE V exponential(V x) {
   const hn::RebindToSigned<TagOf<V>> bits;
@@ -44,8 +44,8 @@ HWY_INLINE V exponential(V x) {
   return hn::IfThenElseZero(x > all<V>(-700), (even + odd * r) * power);
 }
 
-// The angle of the direction (x, y) in [-pi, pi], to 2 units in the last place; (0, 0) gives 0.
-// After Moshier, Cephes (atan.c): one reduction to |t| <= tan(pi / 8) and a rational function.
+// Returns the angle of the direction (x, y) in [-pi, pi], to 2 units in the last place; (0, 0) gives 0. After
+// Moshier, Cephes (atan.c): one reduction to |t| <= tan(pi / 8) and a rational function.
 template <class V>
 HWY_INLINE V angle_of(V y, V x) {
   constexpr double kPi = std::numbers::pi;
@@ -69,7 +69,7 @@ HWY_INLINE V angle_of(V y, V x) {
   return hn::IfThenElse(y < zero, hn::Neg(angle), angle);
 }
 
-// Sine and cosine of 0 <= x <= pi / 3, to 1e-16.
+// Returns sine and cosine of 0 <= x <= pi / 3, to 1e-16.
 template <class V>
 struct SineAndCosine {
   V sine, cosine;

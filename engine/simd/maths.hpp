@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions of maths-inl.hpp for one number, of the same bytes: for code outside of kernels, in place of
-// the C library's.
+// The functions of maths-inl.hpp for one number. They give the same bytes. Code outside of kernels uses them
+// in place of the C library's.
 #pragma once
 
 namespace lacuna {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sorting batches of numbers lane by lane, without a branch: the same comparisons whatever the numbers.
+// Sorts batches of numbers lane by lane, without a branch: the same comparisons whatever the numbers.
 #if defined(LACUNA_SIMD_SORT_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LACUNA_SIMD_SORT_INL
 #undef LACUNA_SIMD_SORT_INL
@@ -17,9 +17,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace lacuna::HWY_NAMESPACE {
 
-// visit(low, high): the comparisons after which `batches` batches are in ascending order, if each puts the
-// smaller number into batch `low`. Batcher's odd-even merge exchange (Knuth, The Art of Computer Programming
-// 3, 5.2.2, algorithm M).
+// Calls visit(low, high) for the comparisons that bring `batches` batches into ascending order. Each has to
+// put the smaller number into batch `low`. Batcher's odd-even merge exchange (Knuth, The Art of Computer
+// Programming 3, 5.2.2, algorithm M).
 template <class Visit>
 constexpr HWY_INLINE void for_each_comparison(std::size_t batches, Visit&& visit) {
   std::size_t top = 1;  // half of the batches, rounded up to a power of two
@@ -63,8 +63,8 @@ HWY_INLINE void put_in_order(V& low, V& high) {
   high = hn::Max(a, b);
 }
 
-// kBatches batches, or one less, of as many lanes as a vector holds. All comparisons are written out, so that
-// the batches stay in registers.
+// Sorts kBatches batches, or one less, of as many lanes as a vector holds. All comparisons are written out,
+// so that the batches stay in registers.
 template <std::size_t kBatches, class D, class Batch>
 void sort_in_registers(D d, Batch* batches, std::size_t count, std::size_t lane) {
   static constexpr Comparisons<kBatches> kAll;
@@ -106,7 +106,7 @@ void sort_in_memory(D d, Batch* batches, std::size_t count, std::size_t lane) {
   });
 }
 
-// As many lanes as a vector holds. Not for NaN.
+// Sorts as many lanes as a vector holds. Not for NaN.
 template <class D, class Batch>
 HWY_INLINE void sort_lanes(D d, Batch* batches, std::size_t count, std::size_t lane) {
   if (count < 2) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sorting batches of numbers lane by lane.
+// Sorts batches of numbers lane by lane.
 #pragma once
 
 #include "engine/simd/batch.hpp"

@@ -8,5 +8,6 @@
 // (ApproximateReciprocal). Min and Max never decide between numbers that are not ordered.
 #pragma once
 
-// Left out: what adds little to a neighbour in the list, and vectors whose size is not known at compile time.
+// Some targets are left out: they add little to a neighbour in the list, or their vectors' size is not known
+// at compile time.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)

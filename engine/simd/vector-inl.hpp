@@ -67,7 +67,7 @@ HWY_INLINE Vector<V> select(MaskOf<V> mask, Vector<V> a, Vector<V> b) {
   return {hn::IfThenElse(mask, a.x, b.x), hn::IfThenElse(mask, a.y, b.y), hn::IfThenElse(mask, a.z, b.z)};
 }
 
-// Two directions at right angles to a normal and to each other, counterclockwise about it.
+// Returns two directions at right angles to a normal and to each other, counterclockwise about it.
 template <class V>
 struct Frame {
   Vector<V> u, v;

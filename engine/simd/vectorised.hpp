@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plain loop that the compiler vectorises automatically, compiled for several instruction sets within plain
-// code. Only for whole numbers and for what has one exact result: such a loop is no kernel of Highway.
+// Compiles a plain loop for several instruction sets within plain code. The compiler vectorises it
+// automatically. Only for whole numbers and for operations that have one exact result: such a loop is no
+// kernel of Highway.
 #pragma once
 
 // The sanitizers are not there yet where the loader chooses one of them.

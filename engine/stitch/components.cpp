@@ -8,7 +8,7 @@
 namespace lacuna {
 namespace {
 
-// Components that no crossing edge leaves.
+// Counts the components that no crossing edge leaves.
 std::uint64_t count_closed(UnionFind& connected, LocalIndex vertices,
                            std::span<const LocalIndex> part_of_root, bool single_vertices_count) {
   std::vector<std::uint8_t> is_component(vertices);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Components of the boundary graph across tiles: union-find within each tile, then one global union-find over
-// the ends of the edges that cross.
+// Components of the boundary graph across tiles. They come from a union-find within each tile, then one
+// global union-find over the ends of the edges that cross.
 #pragma once
 
 #include "engine/model/tiling.hpp"
@@ -22,8 +22,8 @@ struct CrossingEdge {
   Row own, foreign;
 };
 
-// An open part: a component of a tile's part of the graph that crossing edges leave. It goes by one of its
-// own ends of these, a row that no other open part has.
+// An open part: a component of a tile's part of the graph that crossing edges leave. One of its own ends of
+// crossing edges names it, a row that no other open part has.
 struct OpenPart {
   Row name;
   std::uint64_t records;  // of the tile in this part
@@ -39,24 +39,25 @@ class Components {
  public:
   Components(std::size_t tiles, const Job& job);
 
-  // The open parts of a tile; their `records` are for the caller to count. `connected`: of all `vertices` of
+  // Returns the open parts of a tile. The caller counts their `records`. `connected`: of all `vertices` of
   // the tile's part of the graph. Counts the closed components with an edge, or all of them. From any thread,
   // once for each tile.
   TileOpenParts open_parts(TileIndex tile, UnionFind& connected, LocalIndex vertices,
                            std::span<const CrossingEdge> crossings, bool single_vertices_count);
   void add(TileIndex tile, const TileOpenParts& open) { parts_.append(tile, open.parts); }
 
-  // All tiles are added. Joins open parts to components, and groups these to batches of at most
+  // Joins open parts to components, once all tiles are added. Groups components to batches of at most
   // `most_records` each. A component with more has a batch of its own.
   struct Batches {
     std::vector<std::uint64_t> records;        // of each batch
     std::span<const std::uint32_t> batch_of;   // by component
-    std::span<const LocalIndex> component_of;  // by open part, those of tile t from first_part[t] on
+    std::span<const LocalIndex> component_of;  // by open part; the open parts of tile t begin at
+                                               // first_part[t]
     std::vector<std::uint64_t> first_part;
   };
   Batches join(std::uint64_t most_records, Scratch& scratch);
 
-  // Components with an edge. Final after `join`.
+  // Returns the number of components with an edge. It is final after `join`.
   std::uint64_t count() const { return count_; }
 
  private:

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // stitch: the boundary graph across tiles, component by component. Both methods use this one global stage.
 //
-// A tile adds its part of the graph. Loops that lie wholly inside are finished in the tile. For the open
-// components, those that leave the tile, it passes on records: boundary edges, in whatever form the method
-// needs to find loops. The records are grouped by component, in batches that fit in memory; a component
-// larger than that is handed out from disk.
+// A tile adds its part of the graph. Loops that lie wholly inside are finished in the tile. For open
+// components, which leave the tile, the tile passes on records. Records are boundary edges, in whatever form
+// the method needs to find loops. They are grouped by component, in batches that fit in memory. A component
+// larger than memory is handed out from disk.
 #pragma once
 
 #include "engine/run/error.hpp"
@@ -42,7 +42,7 @@ class Stitch {
         components_(tiles, job),
         open_(job.file("open-records"), tiles, job.memory.spills / 8) {}
 
-  // From any thread, once for each tile.
+  // Adds the part of a tile. From any thread, once for each tile.
   void add(TileIndex tile, const GraphPart<Record>& part) {
     UnionFind connected(part.links);
     TileOpenParts open =
@@ -59,12 +59,12 @@ class Stitch {
     open_.append(tile, members);
   }
 
-  // visit(record) for each record of a component, as often as wanted.
+  // Calls visit(record) for each record of a component, as often as wanted.
   using ForEachRecord = std::function<void(const std::function<void(const Record&)>&)>;
 
-  // All tiles are added. `in_memory(records)` gets those of one component, in any order, and is called for
-  // several components at a time. `on_disk(for_each, count)` gets one component whose records do not fit in
-  // memory, one at a time.
+  // Goes through the components once all tiles are added. `in_memory(records)` gets the records of one
+  // component, in any order, and is called for several components at a time. `on_disk(for_each, count)` gets
+  // one component whose records do not fit in memory, one at a time.
   void for_each_component(const std::function<void(std::span<const Record>)>& in_memory,
                           const std::function<void(const ForEachRecord&, std::uint64_t count)>& on_disk) {
     const std::uint64_t fits = job_.memory.global / 2 / record_bytes_;
@@ -90,7 +90,7 @@ class Stitch {
     Record record;
   };
 
-  // Whole components in each: at most `most_records` records, save for one component of more.
+  // Groups whole components: a batch has at most `most_records` records, save for one component of more.
   AppendLists<Member> make_batches(std::uint64_t most_records) {
     Scratch scratch(job_.workspace, job_.memory.global / 3);
     const Components::Batches batches = components_.join(most_records, scratch);

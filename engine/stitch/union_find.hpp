@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Disjoint sets over [0, n): union by index, so that a set's root is its smallest element.
+// Disjoint sets over [0, n). Union is by index, so a set's root is its smallest element.
 #pragma once
 
 #include "engine/model/ids.hpp"
@@ -9,7 +9,7 @@
 
 namespace lacuna {
 
-// Over memory of the caller's, one zero per element. Cost: near constant per call (path halving).
+// The sets are in memory of the caller's, one zero per element. Cost: near constant per call (path halving).
 class UnionFind {
  public:
   explicit UnionFind(std::span<LocalIndex> links) : links_(links) {}
@@ -23,7 +23,7 @@ class UnionFind {
     return x;
   }
 
-  // False if they were one set already.
+  // Returns false if they were one set already.
   bool unite(LocalIndex a, LocalIndex b) {
     a = find(a);
     b = find(b);

@@ -43,8 +43,8 @@ std::uint64_t AppendBytes::size(std::size_t list) const {
   return lists_[list].size;
 }
 
-// take_tail(place, bytes): what is in memory, under the lock; then take_extent(place, extent) for each
-// extent, the last first, without it.
+// Calls take_tail(place, bytes) with the bytes in memory, under the lock. Then it calls take_extent(place,
+// extent) for each extent, the last first, without the lock.
 template <class TakeTail, class TakeExtent>
 void AppendBytes::walk(std::size_t index, TakeTail&& take_tail, TakeExtent&& take_extent) const {
   std::uint64_t end;  // of what is not taken yet

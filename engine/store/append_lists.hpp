@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many append-only lists of records, which together may be larger than memory: one per tile, mostly.
+// Many append-only lists of records, mostly one per tile. Together they may be larger than memory.
 //
 // Each list has a buffer in memory. When all buffers together reach the budget, the fullest are written to
 // the end of the one file, until half of the budget is free. Each becomes an extent of its list. So the file
@@ -31,21 +31,21 @@ class AppendBytes {
 
   // Adds empty lists behind the others. May be called while other threads append.
   void add_lists(std::size_t count);
-  // May be called from any thread; the bytes of one call stay together.
+  // Appends bytes to a list. May be called from any thread; the bytes of one call stay together.
   void append(std::size_t list, std::span<const std::byte> bytes);
   std::uint64_t size(std::size_t list) const;  // bytes appended so far
   std::size_t lists() const { return lists_.size(); }
-  // Not while others append to the same list. to: `size(list)` bytes.
+  // Reads a list, not while others append to it. `to` has `size(list)` bytes.
   void read(std::size_t list, std::byte* to) const;
-  // Reads a list piece by piece, in any order: visit(bytes) when so many of `part` are filled.
+  // Reads a list piece by piece, in any order. Calls visit(bytes) when so many bytes of `part` are filled.
   void for_each_part(std::size_t list, std::span<std::byte> part,
                      const std::function<void(std::size_t)>& visit) const;
-  // Frees the list's buffer; what it held is gone.
+  // Frees the list's buffer; its contents are gone.
   void drop(std::size_t list);
 
  private:
   struct Extent {
-    std::uint64_t offset = 0, size = 0;  // size 0: none
+    std::uint64_t offset = 0, size = 0;  // size 0: no extent
   };
   struct List {
     std::vector<std::byte> buffer;  // empty, or space for an Extent and then what was appended
@@ -88,7 +88,7 @@ class AppendLists {
     bytes_.read(list, reinterpret_cast<std::byte*>(records.data()));
     return records;
   }
-  // visit(record) for each, in any order, with only some of them in memory.
+  // Calls visit(record) for each record, in any order, with only some of them in memory.
   template <class Visit>
   void for_each(std::size_t list, Visit&& visit) const {
     constexpr std::uint64_t kPart = 1 << 14;

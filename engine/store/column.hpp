@@ -26,14 +26,14 @@ class Column {
   void write(std::uint64_t row, std::span<const Record> records) {
     file_.write(row * sizeof(Record), std::as_bytes(records));
   }
-  // Writes behind all that was appended before; returns the row of the first. A column is appended to or
-  // written by row, not both.
+  // Writes behind all records that were appended before, and returns the row of the first new one. A column
+  // is either appended to or written by row.
   std::uint64_t append(std::span<const Record> records) {
     return file_.append(std::as_bytes(records)) / sizeof(Record);
   }
   std::uint64_t size() const { return file_.size() / sizeof(Record); }  // rows, up to the last one written
 
-  // Rows below `size()`; those in between that were never written are zeros.
+  // Reads rows below `size()`. Rows in between that were never written are zeros.
   void read(std::uint64_t row, std::span<Record> records) const {
     file_.read(row * sizeof(Record), std::as_writable_bytes(records));
   }
@@ -49,7 +49,7 @@ class Column {
   StoreFile file_;
 };
 
-// Records of rows in mostly ascending order, read in runs: for a few here and there.
+// Reads records of rows in mostly ascending order, in runs: for a few here and there.
 template <class Record>
 class ColumnReader {
  public:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fills many runs of a column's rows at once, each from its first row on. Records come in any order of runs.
-// What was written for a run so far is contiguous on disk, so that the full run is one read.
+// The written records of a run are contiguous on disk, so that one read loads the full run.
 //
-// Each run has a piece of memory of the same size; what arrives is gathered there and written when the piece
-// is full. Pieces together stay within the memory given, and none is larger than makes a write cheaper.
+// Each run has a piece of memory of the same size. It gathers the records, and is written when it is full.
+// Pieces together stay within the memory given. No piece is larger than makes a write cheaper.
 #pragma once
 
 #include "engine/store/column.hpp"
@@ -28,7 +28,7 @@ class ColumnFiller {
                                       1, kLongestWrite / sizeof(Record))),
         pieces_(std::make_unique_for_overwrite<Record[]>(piece_ * next_rows_.size())) {}
 
-  // From any thread, but not two at a time for the same run.
+  // Appends records to a run. From any thread, but not two at a time for the same run.
   void append(std::size_t run, std::span<const Record> records) {
     while (!records.empty()) {
       const std::size_t count = std::min<std::size_t>(records.size(), piece_ - gathered_[run]);
@@ -39,7 +39,7 @@ class ColumnFiller {
     }
   }
 
-  // Writes what is still in memory.
+  // Writes the records that are still in memory.
   void finish() {
     for (std::size_t run = 0; run < next_rows_.size(); ++run) write(run);
   }

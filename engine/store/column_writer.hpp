@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records appended to a column one at a time.
+// Appends records to a column one at a time.
 #pragma once
 
 #include "engine/store/column.hpp"
@@ -9,7 +9,7 @@
 
 namespace lacuna {
 
-// Writes some thousands together; the last ones with `finish`, which is to be called.
+// Writes some thousand records together. The last ones are written by `finish`, which has to be called.
 template <class Record>
 class ColumnWriter {
  public:

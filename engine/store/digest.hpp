@@ -11,7 +11,7 @@
 
 namespace lacuna {
 
-// XXH3 of 128 bits (Collet): of what a part was made from, and of its bytes.
+// XXH3 of 128 bits (Collet). It covers what a part was made from, or its bytes.
 using Digest = std::array<std::uint64_t, 2>;
 class Hash {
  public:

@@ -13,11 +13,11 @@
 namespace lacuna {
 
 // For sources that are slower to read than a file of plain numbers. The first pass reads the source and
-// writes 24 bytes a point, 48 with normals; later passes read these, and never the source. Points have the
-// ids of the source, which must count from 0 without gaps.
+// writes 24 bytes a point, 48 with normals. Later passes read these bytes, and never the source. Points have
+// the ids of the source, which must count from 0 without gaps.
 class KeptScan final : public PointSource {
  public:
-  // `scan` must outlive it. `file`: a name in the workspace that is free.
+  // `scan` must outlive this object. `file`: a name in the workspace that is free.
   KeptScan(PointSource& scan, const std::filesystem::path& file);
 
   void rewind() override;

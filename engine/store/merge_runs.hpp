@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sorting what is nearly sorted.
+// Sorts records that are nearly sorted.
 #pragma once
 
 #include <algorithm>

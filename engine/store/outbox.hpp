@@ -11,7 +11,7 @@
 namespace lacuna {
 
 // Gathers records by the tile that they are for: a list takes few long runs better than many short ones. Not
-// from several threads at once; several may write to the same lists. Memory: that of 16,384 records.
+// from several threads at once; several outboxes may write to the same lists. Memory: 16,384 records.
 template <class Record>
 class Outbox {
  public:
@@ -23,7 +23,7 @@ class Outbox {
     if (++gathered_ == kMost) send();
   }
 
-  // What is gathered; at the end, the rest.
+  // Sends the gathered records, and at the end the rest.
   void send() {
     for (const auto& [to, records] : outbox_) lists_.append(to, records);
     outbox_.clear();

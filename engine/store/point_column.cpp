@@ -9,7 +9,7 @@
 namespace lacuna {
 namespace {
 
-// So many at a time are turned into the other kind, in the cache.
+// This many points at a time are turned into the other kind, in the cache.
 constexpr std::size_t kPart = 4096;
 
 }  // namespace

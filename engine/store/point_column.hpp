@@ -21,7 +21,7 @@ struct StoredPoint {
   Eigen::Vector3d position() const { return {x, y, z}; }
 };
 
-// Single: every coordinate is a number of single precision, every id below 2^32.
+// Single: every coordinate is a number of single precision, and every id is below 2^32.
 enum class Precision : std::uint8_t { kSingle, kDouble };
 
 // Reads and writes may come from several threads.
@@ -29,7 +29,8 @@ class PointColumn {
  public:
   PointColumn(StoreFile file, Precision precision);
 
-  // Throws `Error` where the precision would lose a digit: a scan that was surveyed has none such.
+  // Writes points. Throws `Error` where the precision would lose a digit. A scan that was surveyed has no
+  // such point.
   void write(std::uint64_t row, std::span<const StoredPoint> points);
   void read(std::uint64_t row, std::span<StoredPoint> points) const;
   std::vector<StoredPoint> read(std::uint64_t row, std::size_t count) const;

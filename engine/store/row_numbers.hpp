@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers for some of the rows: 0, 1, 2, ... in ascending order of rows.
+// Numbers some of the rows: 0, 1, 2, ... in ascending order of rows.
 #pragma once
 
 #include "engine/model/ids.hpp"
@@ -13,11 +13,12 @@
 namespace lacuna {
 
 // A bitmap over the range of the rows with a running count. A look-up is one cache line, and memory is an
-// eighth of a byte per row of the range. Where the rows are few and far between, a sorted list instead.
+// eighth of a byte per row of the range. Where the rows are few and far between, a sorted list takes its
+// place.
 class RowNumbers {
  public:
-  // for_each(add) calls add(row) for each row, repeats allowed, in any order; it is run twice. `about`: how
-  // many there are, roughly.
+  // for_each(add) calls add(row) for each row, in any order and with repeats allowed. It is run twice.
+  // `about`: roughly the number of rows.
   template <class ForEach>
   void collect(std::uint64_t about, ForEach&& for_each) {
     std::uint64_t first = UINT64_MAX, last = 0;
@@ -55,7 +56,7 @@ class RowNumbers {
            static_cast<LocalIndex>(std::popcount(w.bits & ((std::uint64_t{1} << value(row) % 64) - 1)));
   }
 
-  // Returns the number of any row; none if it was not collected.
+  // Returns the number of any row, and nothing if the row was not collected.
   std::optional<LocalIndex> find(Row row) const {
     if (!is_dense_) {
       const auto at = std::lower_bound(list_.begin(), list_.end(), row);

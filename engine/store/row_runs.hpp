@@ -11,8 +11,8 @@
 
 namespace lacuna {
 
-// visit(begin, end): runs of `rows`, which ascend. Rows between runs are not touched: most were never
-// written, and reading these, too, would fill the system's cache with zeros.
+// Calls visit(begin, end) for runs of `rows`, which ascend. Rows between runs are not touched. Most were
+// never written, and to read them would fill the system's cache with zeros.
 template <class Visit>
 void for_each_run(std::span<const Row> rows, Visit&& visit) {
   constexpr std::uint64_t kNear = 64;
@@ -22,13 +22,13 @@ void for_each_run(std::span<const Row> rows, Visit&& visit) {
   }
 }
 
-// The records from the first to the last of these rows, of one run.
+// Returns the records from the first to the last of the rows of one run.
 template <class Record>
 std::vector<Record> read_run(const Column<Record>& column, std::span<const Row> rows) {
   return column.read(value(rows.front()), value(rows.back()) + 1 - value(rows.front()));
 }
 
-// The records of rows that ascend and were written.
+// Returns the records of rows that ascend and were written.
 template <class Record>
 std::vector<Record> read_rows(const Column<Record>& column, std::span<const Row> rows) {
   std::vector<Record> records(rows.size());
@@ -40,7 +40,7 @@ std::vector<Record> read_rows(const Column<Record>& column, std::span<const Row>
   return records;
 }
 
-// Writes the records of rows that ascend. Rows between those of one run get zeros.
+// Writes the records of rows that ascend. Rows between the rows of one run get zeros.
 template <class Record>
 void write_rows(Column<Record>& column, std::span<const Row> rows, std::span<const Record> records) {
   for_each_run(rows, [&](std::size_t begin, std::size_t end) {

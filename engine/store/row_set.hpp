@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Some of the rows: a bitmap over all.
+// A set of rows: a bitmap over all rows.
 #pragma once
 
 #include "engine/model/ids.hpp"
@@ -16,7 +16,7 @@ class RowSet {
   explicit RowSet(std::uint64_t rows) : words_((rows + 63) / 64) {}
 
   bool contains(Row row) const { return (word(row).load(std::memory_order_relaxed) & bit(row)) != 0; }
-  // False if it was there.
+  // Inserts a row. Returns false if it was there.
   bool insert(Row row) { return (word(row).fetch_or(bit(row), std::memory_order_relaxed) & bit(row)) == 0; }
   void erase(Row row) { word(row).fetch_and(~bit(row), std::memory_order_relaxed); }
 

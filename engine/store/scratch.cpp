@@ -42,8 +42,8 @@ std::byte* Scratch::allocate(std::size_t bytes) {
   return address;
 }
 
-// All mapped pages at once: giving back a few at a time would be done again and again. Other mappings of the
-// process count, too, so the next time is half a budget later at the earliest.
+// All mapped pages are given back at once: a few at a time would be given back again and again. Other
+// mappings of the process count, too, so the next time is half a budget later at the earliest.
 void Scratch::release() {
   untrimmed_ = 0;
   if (mappings_.empty() || resident_memory().mapped < most_mapped_) return;

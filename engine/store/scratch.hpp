@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Flat arrays for the global stage: in memory while they are small, else mapped from files, so that
+// Flat arrays for the global stage. They are in memory while they are small, else mapped from files. So
 // algorithms have plain spans either way.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace lacuna {
 
-// All arrays of one computation. Zeroed; they live as long as this.
+// All arrays of one computation. They begin as zeros, and live as long as this object.
 class Scratch {
  public:
   // Arrays beyond `budget` bytes in total go to files in `folder`.
@@ -22,7 +22,7 @@ class Scratch {
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
 
-  // For other containers of the same algorithm.
+  // The folder is for other containers of the same algorithm.
   const std::filesystem::path& folder() const { return folder_; }
   std::uint64_t budget() const { return budget_; }
 
@@ -33,12 +33,12 @@ class Scratch {
   }
 
   // Gives mapped pages back to the system while they are more than the budget. Loops over the arrays call it;
-  // most calls are one subtraction. Their contents stay. `bytes`: what the loop has passed since the last
-  // call where it goes along an array; else one access may map a window of pages.
+  // most calls are one subtraction. The contents stay. `bytes`: what a loop along an array has passed since
+  // the last call. Without such a loop, one access may map a window of pages.
   void trim(std::uint64_t bytes = kWindow) {
     if ((untrimmed_ += bytes) >= between_looks_) release();
   }
-  // visit(element) for each in order.
+  // Calls visit(element) for each element in order.
   template <class T, class Visit>
   void for_each(std::span<T> array, Visit&& visit) {
     for (T& element : array) {
@@ -61,7 +61,7 @@ class Scratch {
   std::uint64_t budget_;
   std::uint64_t in_memory_ = 0;
   std::uint64_t most_mapped_ = 0;  // by the process, before pages are given back
-  std::uint64_t untrimmed_ = 0;    // bytes that may have become resident since the last look
+  std::uint64_t untrimmed_ = 0;    // bytes that may have become resident since the last check
   std::uint64_t between_looks_;
   std::vector<std::unique_ptr<std::byte[]>> blocks_;
   std::vector<Mapping> mappings_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a run in another's process puts aside what does not fit in its memory.
+// Where a run in another program's process keeps temporary data that does not fit in its memory.
 #pragma once
 
 #include "engine/config/config.hpp"
@@ -11,8 +11,8 @@
 
 namespace lacuna {
 
-// Files in memory, where they fit within half of the limit. Else a folder in `run.scratch`, or in that for
-// temporary files, which goes with this object.
+// Uses files in memory, where they fit within half of the limit. Else it uses a folder in `run.scratch`, or
+// in the system's folder for temporary files. The folder is removed with this object.
 class ScratchPlace {
  public:
   // Files in memory are taken from `run.memory_limit`. Throws `Error`.

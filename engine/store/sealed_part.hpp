@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sealed part: what a step of a run has found, as a file of a workspace that outlives the process.
+// A sealed part: a file of a workspace that outlives the process. It holds what a step of a run has found.
 //
 // A part consists of entries: records of one stream that belong to one key, such as a tile. The table of the
 // entries follows, and then the part's length, its checksum and the fingerprint of what it was made from. So
-// a part proves by itself that it is whole and what it is of. That a file has the name of a part proves
-// nothing. Its name is complete only once all of it is on the disk.
+// a part proves by itself that it is whole, and from what it was made. The name of a file proves nothing. Its
+// name is complete only once all of it is on the disk.
 #pragma once
 
 #include "engine/store/digest.hpp"
@@ -27,14 +27,15 @@ namespace lacuna {
 
 Digest digest_of(const StoreFile& file);  // of all of its bytes, read once
 
-// Writes entries in any order, from one thread at a time. Without `seal` nothing remains.
+// Writes entries in any order, from one thread at a time. Without `seal` no file remains.
 class PartWriter {
  public:
   explicit PartWriter(std::filesystem::path path);  // the final one
   ~PartWriter();
   PartWriter(PartWriter&&) noexcept;
 
-  // Several entries of one stream and key are read as one, in their order. Streams: up to 23 characters.
+  // Adds an entry. Several entries of one stream and key are read as one, in their order. Streams: up to 23
+  // characters.
   void add(std::string_view stream, std::uint64_t key, std::span<const std::byte> bytes);
   template <class Record>
   void add(std::string_view stream, std::uint64_t key, std::span<const Record> records) {
@@ -52,14 +53,14 @@ class PartWriter {
 // Reads may come from several threads.
 class PartReader {
  public:
-  // Whether the file ends as parts do. It may be damaged elsewhere.
+  // Returns whether the file ends as parts do. It may be damaged elsewhere.
   static bool is_part(const std::filesystem::path& path);
   enum class Check {
     kWhole,  // reads all of it once
     kTable,  // bytes may be damaged
   };
-  // None where there is no such part, or where it is not made from this, or is not whole. Without
-  // `made_from`, it may be made from anything.
+  // Opens a part. Returns nothing if the part is missing, not whole, or made from something other than
+  // `made_from`. Without `made_from`, it may be made from anything.
   static std::optional<PartReader> open(const std::filesystem::path& path,
                                         const std::optional<Digest>& made_from, Check check = Check::kWhole);
 
@@ -68,12 +69,13 @@ class PartReader {
   std::vector<std::uint64_t> keys() const;  // ascending
   std::vector<std::string> streams(std::uint64_t key) const;
   std::uint64_t size(std::string_view stream, std::uint64_t key) const;  // bytes; 0 where there is no entry
-  // to: `size` bytes.
+  // Reads an entry. `to` has `size` bytes.
   void read(std::string_view stream, std::uint64_t key, std::span<std::byte> to) const;
-  // Empty where there is no entry. Throws `Error` where the bytes are no whole number of records.
+  // Returns the records of an entry, and an empty vector where there is no entry. Throws `Error` where the
+  // bytes are no whole number of records.
   template <class Record>
   std::vector<Record> records(std::string_view stream, std::uint64_t key) const;
-  // visit(records) for one entry after the other.
+  // Calls visit(records) for one entry after the other.
   template <class Record, class Visit>
   void for_each(std::string_view stream, std::uint64_t key, Visit&& visit) const;
 

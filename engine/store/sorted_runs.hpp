@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sorts more records than fit in memory: sorted runs in one file, then a merge.
+// Sorts more records than fit in memory. It writes sorted runs to one file, and then merges them.
 #pragma once
 
 #include "engine/store/column.hpp"
@@ -16,9 +16,9 @@
 namespace lacuna {
 
 // `Less` must be a total order of the records that occur, so that the result does not depend on the runs.
-// Memory: `budget` bytes, and never less than 64 KiB, while adding and again while merging. Where the runs
-// are too many for that, they are merged into fewer and longer ones first, behind those in the file. Not for
-// use from several threads at once.
+// Memory: `budget` bytes, and never less than 64 KiB, while adding and again while merging. If the budget is
+// too small for all runs, runs are merged first into fewer and longer ones, behind the runs in the file. Not
+// for use from several threads at once.
 template <class Record, class Less = std::less<Record>>
 class SortedRuns {
   static_assert(sizeof(Record) <= 1024);  // some fit in the smallest block
@@ -39,7 +39,8 @@ class SortedRuns {
   }
   std::uint64_t size() const { return size_; }
 
-  // visit(record) in ascending order. May be called again; nothing may be added after the first call.
+  // Calls visit(record) in ascending order. It may be called again. Nothing may be added after the first
+  // call.
   template <class Visit>
   void for_each(Visit&& visit) {
     if (runs_.empty()) {
@@ -65,7 +66,7 @@ class SortedRuns {
     std::size_t at = 0;
   };
 
-  // One block is for what is written.
+  // One block is for the output.
   std::size_t most_fronts() const { return capacity_ * sizeof(Record) / kLeastBlock - 1; }
   std::size_t block(std::size_t fronts) const { return capacity_ / (fronts + 1); }
 

@@ -81,7 +81,7 @@ StoreFile::~StoreFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-// Before each write, too: one beyond the new end would turn what was cut off into zeros.
+// This check comes before each write, too: a write beyond the new end would turn what was cut off into zeros.
 void StoreFile::check_length() const {
   const std::uint64_t written = size_;
   struct stat status {};

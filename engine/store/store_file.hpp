@@ -17,8 +17,9 @@ std::string random_digits();  // 16 hexadecimal digits, drawn at random: no othe
 
 // Reads and writes may come from several threads.
 //
-// Throws `Error` when the disk is full or the file is shorter than what was written. It names the path at
-// which the file was created, and the place in it. So it never returns zeros in place of what was written.
+// Throws `Error` when the disk is full or the file is shorter than what was written. The error names the path
+// at which the file was created, and the place in it. So a read never returns zeros in place of what was
+// written.
 class StoreFile {
  public:
   enum class Name {
@@ -26,26 +27,26 @@ class StoreFile {
                // ends
     kKept,     // until it is sealed or closed
   };
-  // Creates an empty file. `path` must not exist. One without a folder is of a file in memory, which has no
-  // name.
+  // Creates an empty file. `path` must not exist. A path without a folder creates a file in memory, which has
+  // no name.
   explicit StoreFile(std::filesystem::path path, Name name = Name::kRemoved);
-  // Opens a sealed file, to be read only. None where there is no regular file. Throws `Error`.
+  // Opens a sealed file, to be read only. Returns nothing where there is no regular file. Throws `Error`.
   static std::optional<StoreFile> open_sealed(const std::filesystem::path& path);
   ~StoreFile();  // removes a file with a name that was not sealed
   StoreFile(StoreFile&& other) noexcept;
   StoreFile& operator=(StoreFile&&) = delete;
 
   void write(std::uint64_t offset, std::span<const std::byte> bytes);
-  // Writes behind all that was appended before; returns the offset. A file is appended to or written at
-  // offsets, not both.
+  // Writes behind all bytes that were appended before, and returns the offset. A file is either appended to
+  // or written at offsets.
   std::uint64_t append(std::span<const std::byte> bytes);
-  // Up to `size()`. Bytes in between that were never written read as 0.
+  // Reads up to `size()`. Bytes in between that were never written read as 0.
   void read(std::uint64_t offset, std::span<std::byte> bytes) const;
   std::uint64_t size() const { return size_; }                 // where the last write so far ends
   const std::filesystem::path& path() const { return path_; }  // where it was created
   // Reserves and maps `bytes` bytes of zeros, writable. The mapping outlives the file.
   std::byte* map(std::size_t bytes) const;
-  // Lets the system begin to bring what was written to the disk, so that sealing takes less time.
+  // Lets the system begin to bring the written bytes to the disk, so that sealing takes less time.
   void start_sync() const;
   // Brings all bytes of a file with a name to the disk, and then renames it. From then on it is only read.
   // A file of the new name is replaced.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Folders that this process makes for itself. They go when it ends, also by a signal, but not by SIGKILL.
+// Folders that this process makes for itself. They are removed when it ends, also by a signal, but not by
+// SIGKILL.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +15,7 @@ inline constexpr const char* kTemporaryPrefix = ".lacuna-";
 
 class TemporaryFolder {
  public:
-  // A new folder in `parent`, for this user alone: `prefix` and six random characters. Throws `Error`.
+  // Creates a folder in `parent`, for this user alone: `prefix` and six random characters. Throws `Error`.
   TemporaryFolder(const std::filesystem::path& parent, const std::string& prefix);
   ~TemporaryFolder();  // removes it with everything in it, if that is possible
   TemporaryFolder(const TemporaryFolder&) = delete;
@@ -34,7 +35,7 @@ struct RemainingFolder {
   std::string reason;
 };
 
-// Folders that could not be removed, after one more try each. For the end of a program, where no
+// Returns the folders that could not be removed, after one more try each. For the end of a program, where no
 // TemporaryFolder lives.
 std::vector<RemainingFolder> remaining_folders();
 
@@ -51,7 +52,7 @@ class RemovalPause {
   std::unique_lock<std::recursive_mutex> lock_;
 };
 
-// Folders in `parent` whose names begin with `prefix`, in order: earlier runs left them.
+// Returns the folders in `parent` whose names begin with `prefix`, in order: earlier runs left them.
 std::vector<std::filesystem::path> find_folders(const std::filesystem::path& parent,
                                                 const std::string& prefix);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tile store: every distinct point of the scan on disk, in cell order. So a tile is one read, and the
-// cells around it are a few.
+// The tile store: every distinct point of the scan on disk, in cell order. So one read loads a tile, and a
+// few reads load the cells around it.
 #pragma once
 
 #include "engine/model/tiling.hpp"
@@ -26,7 +26,7 @@ struct StoredNormal {
   double x, y, z;
 };
 
-// A point at the coordinates of another of the same tile, which has a lower id and represents it.
+// A point at the coordinates of another point of its tile. The other point has a lower id and represents it.
 struct Duplicate {
   PointId id;
   LocalIndex of;
@@ -38,14 +38,14 @@ struct StoreFiles {
   std::filesystem::path duplicates;  // a temporary file
 };
 
-// Filled and then put in order tile by tile while bucketing, read only from then on. Reads may come from
-// several threads.
+// The store is filled, and bucketing puts it in order tile by tile. From then on it is read only. Reads may
+// come from several threads.
 class TileStore {
  public:
-  // `tiles`: where raw points go at first; `most_tiles`: with those that are added later.
+  // `tiles`: where raw points go at first; `most_tiles`: the number of tiles with those that are added later.
   TileStore(StoreFiles files, std::vector<Tile> tiles, std::uint64_t most_tiles, Precision precision,
             bool with_normals, std::uint64_t duplicate_budget);
-  // A store that was finished before. `files`: sealed ones. Duplicates are added by the caller.
+  // Opens a store that was finished before. `files`: sealed ones. The caller adds the duplicates.
   TileStore(StoreFiles files, Tiling tiling, Precision precision, bool with_normals,
             std::uint64_t duplicate_budget);
 
@@ -64,32 +64,33 @@ class TileStore {
   }
   std::vector<StoredPoint> cell(std::uint32_t cell) const;
 
-  // Points of these cells, ascending and without repeats, with their rows.
+  // Reads the points of the cells and their rows. The cells ascend and do not repeat.
   void read_cells(std::span<const std::uint32_t> cells, std::vector<StoredPoint>& points,
                   std::vector<Row>& rows) const;
 
-  // Bucketing, first: all points of every tile, in any order; then those of a tile as they came.
+  // Bucketing fills the store first with all points of every tile, in any order. It then reads back the raw
+  // points of a tile.
   class Filler;
   std::vector<StoredPoint> raw_points(TileIndex tile) const;
   std::vector<StoredNormal> raw_normals(TileIndex tile) const;
-  // Then, in their place: distinct points of a tile in the order of its cells, whose rows are set here. From
-  // several threads, for different tiles.
+  // Puts distinct points of a tile in place of its raw points, in the order of its cells. It sets the rows of
+  // the cells. From several threads, for different tiles.
   void put(TileIndex tile, std::span<const StoredPoint> points, std::span<const StoredNormal> normals,
            std::vector<Cell> cells);
-  // Copies of a tile's points, once or in several goes. From any thread.
+  // Adds copies of a tile's points, once or in several goes. From any thread.
   void add_duplicates(TileIndex tile, std::span<const Duplicate> duplicates) {
     duplicates_.append(tile, duplicates);
   }
-  // The tile behind the last: what was never raw is `put` there. By one thread, while no other uses the
-  // store.
+  // Returns the tile behind the last one. Points that were never raw are `put` there. One thread calls it,
+  // while no other uses the store.
   TileIndex next_tile() const { return static_cast<TileIndex>(tiling_.tiles.size()); }
   void add_tile(std::span<const StoredPoint> points, std::span<const StoredNormal> normals,
                 std::vector<Cell> cells);
-  // All tiles are put: counts are final.
+  // Ends the filling once all tiles are put: counts are final.
   void finish();
 
   Precision precision() const { return points_.precision(); }
-  // To be sealed, once the store is finished.
+  // Returns the file for sealing, once the store is finished.
   StoreFile& points_file() { return points_.file(); }
   StoreFile& normals_file() { return normals_.file(); }
 
@@ -119,9 +120,10 @@ class TileStore::Filler {
  public:
   Filler(TileStore& store, std::uint64_t memory);
 
-  // Normals: one per point where the store has them, else none. Throws `Error` where the tile is full.
+  // Adds points to a tile. Normals: one per point where the store has them, else an empty span. Throws
+  // `Error` where the tile is full.
   void append(TileIndex tile, std::span<const StoredPoint> points, std::span<const StoredNormal> normals);
-  // All points are there. Throws `Error` where a tile is not full.
+  // Ends the filling once all points are there. Throws `Error` where a tile is not full.
   void finish();
 
  private:

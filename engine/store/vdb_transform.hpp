@@ -7,12 +7,12 @@
 
 namespace lacuna {
 
-// OpenVDB refuses voxels with a volume below 3e-15. The coordinates of such a grid, and of one whose volumes
-// overflow, are in units of its cells.
+// OpenVDB refuses voxels with a volume below 3e-15. The coordinates of a grid with such voxels, or with
+// volumes that overflow, are in units of its cells.
 bool is_in_world_units(const CellGrid& grid);
 
-// A voxel of an OpenVDB grid is the cell with the same coordinates. OpenVDB takes the place of a voxel as its
-// middle.
+// Returns the transform under which a voxel is the cell with the same coordinates. OpenVDB takes the middle
+// of a voxel as its place.
 openvdb::math::Transform::Ptr vdb_transform(const CellGrid& grid);
 
 }  // namespace lacuna

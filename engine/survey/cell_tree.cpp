@@ -36,7 +36,7 @@ std::uint64_t points_in(std::span<const Leaf* const> leaves) {
   return points;
 }
 
-// visit(leaves, points) for each region. Its leaves follow each other in the tree.
+// Calls visit(leaves, points) for each region. Its leaves follow each other in the tree.
 template <class Visit>
 void for_each_region(const Tree& tree, Visit&& visit) {
   const auto region_of = [](const Leaf& leaf) { return leaf.origin() & openvdb::Int32(~(Region::DIM - 1)); };
@@ -66,7 +66,7 @@ CellTree::~CellTree() = default;
 CellTree::CellTree(CellTree&&) noexcept = default;
 CellTree& CellTree::operator=(CellTree&&) noexcept = default;
 
-// All counts are located before any changes: the cache misses of points in random order overlap.
+// All counts are located before any of them changes: the cache misses of points in random order overlap.
 void CellTree::add(std::span<const CellRun> runs, int doublings) {
   struct Place {
     Leaf* leaf;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points per cell in an OpenVDB tree.
+// Counts points per cell in an OpenVDB tree.
 #pragma once
 
 #include "engine/model/cell_grid.hpp"
@@ -17,7 +17,7 @@ struct CellRun {
   std::int32_t points = 0;
 };
 
-// Where counting stops: such a cell is divided anyway.
+// Counting stops at this number: such a cell is divided anyway.
 inline constexpr std::uint64_t kMostCounted = (std::uint64_t{1} << 31) - 1;
 
 // Leaves hold 8^3 cells, as in OpenVDB's standard tree. Above them are three levels of 4^3 nodes, since each
@@ -29,21 +29,21 @@ class CellTree {
   CellTree(CellTree&&) noexcept;
   CellTree& operator=(CellTree&&) noexcept;
 
-  // `doublings`: from the size of the runs' cells to that of the tree's. Counts end at `kMostCounted`.
+  // `doublings`: from the cell size of the runs to the cell size of the tree. Counts end at `kMostCounted`.
   void add(std::span<const CellRun> runs, int doublings);
-  // Returns these points in cells of twice the size. Cost: linear in cells.
+  // Returns the same points in cells of twice the size. Cost: linear in cells.
   CellTree merged() const;
 
   std::uint64_t cells() const { return cells_; }
   std::uint64_t leaves() const { return leaves_; }
   std::uint64_t bytes() const;  // of all nodes
-  // Cells that are not alone in their leaf. Those of outliers are.
+  // Returns the number of cells that share their leaf with others. Cells of outliers are alone in their leaf.
   std::uint64_t cells_in_company() const;
 
-  // Every cell, with its count, in an order that depends on the cells alone. A cell is far where its region
-  // of 128^3 cells holds fewer than `few` points.
+  // Returns every cell, with its count, in an order that depends on the cells alone. A cell is far where its
+  // region of 128^3 cells holds fewer than `few` points.
   std::vector<CountedCell> counted_cells(std::uint64_t few) const;
-  // Bytes of OpenVDB's standard tree with the cells that are not far.
+  // Returns the bytes of OpenVDB's standard tree with the cells that are not far.
   std::uint64_t standard_bytes(std::uint64_t few) const;
 
  private:

@@ -18,10 +18,10 @@ namespace {
 constexpr int kMinExponent = -500;
 constexpr int kMaxExponent = 500;
 
-// Taken for a scan of an unknown number of points: rather too fine than too coarse.
+// A scan of an unknown number of points counts as this many: cells are rather too fine than too coarse.
 constexpr std::uint64_t kUnknownPoints = 1 << 24;
 
-// Counts take at most so much memory, even where more is allowed. The cells of surfaces take 12 bytes for
+// Counts take at most this much memory, even where more is allowed. The cells of surfaces take 12 bytes for
 // each point at most. Where outliers or clusters need more, passes over their many small cells would take
 // most of the time.
 constexpr std::uint64_t kFewBytes = std::uint64_t{32} << 20, kBytesPerPoint = 8;
@@ -33,7 +33,7 @@ bool finite(const Eigen::Vector3d& p) {
   return p.allFinite();
 }
 
-// Where most points are.
+// The place and the extent of most points.
 struct Whereabouts {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // median along each axis
   double extent = 0;                                 // twice the widest distance between quartiles
@@ -64,22 +64,22 @@ Whereabouts whereabouts_of(const PointBatch& batch) {
 
 constexpr std::size_t kMostRuns = 256;
 
-// visit(some): runs that are counted at a time.
+// Calls visit(some) with the runs that are counted at a time.
 template <class Visit>
 void for_each_part(std::span<const CellRun> runs, Visit&& visit) {
   for (; !runs.empty(); runs = runs.subspan(std::min(runs.size(), kMostRuns)))
     visit(runs.first(std::min(runs.size(), kMostRuns)));
 }
 
-// Whether most cells, or leaves, did not merge when the size doubled: of a surface a quarter is left, of a
-// line the half. Below `kEnough` nothing follows.
+// Returns whether most cells, or leaves, did not merge when the size doubled. A surface keeps a quarter of
+// them, a line keeps half. Below `kEnough` cells nothing follows.
 bool lie_apart(std::uint64_t before, std::uint64_t after) {
   constexpr std::uint64_t kEnough = 64;
   return before >= kEnough && 4 * after > 3 * before;
 }
 
-// A region of 128^3 cells with fewer points is far from the others: a surface that passes through one has
-// hundreds of thousands there.
+// A region of 128^3 cells with fewer points is far from the others. A surface that passes through a region
+// has hundreds of thousands of points there.
 std::uint64_t few_points(std::uint64_t points) {
   return std::min<std::uint64_t>(256, points / 1024);
 }
@@ -156,7 +156,8 @@ void Survey::choose_cell_size(const PointBatch& batch) {
   int finest = std::clamp(std::ilogb(std::max(edge, 1e-300)), std::max(digit, kMinExponent), kMaxExponent);
   scan_.grid = CellGrid::around(place.middle, finest);
 
-  // Cells as much larger as the batch is thinner than the scan, then as many times more as they divide into.
+  // Cells grow by the factor by which the batch is thinner than the scan, and again by the number of their
+  // parts.
   const double thinner = std::max(points / static_cast<double>(batch.size()), 1.0);
   int doublings = std::ilogb(thinner) / 2;
   const std::vector<CellRun> runs = count_cells(batch, scan_.grid).runs;
@@ -184,7 +185,7 @@ void Survey::take(CellTree merged) {
   ++scan_.grid.shift;
 }
 
-// count(tree): the number of things of which most have to merge, else nothing does.
+// Merges cells of the tree, unless most of the things that `count(tree)` counts would not merge.
 template <class Count>
 bool Survey::merge_unless_apart(Count&& count) {
   CellTree merged = counts_.merged();
@@ -208,7 +209,7 @@ void Survey::add(const CellCounts& counts) {
     counts_.add(runs, scan_.grid.shift);
     while (needs_too_much() && can_merge()) take(counts_.merged());
     while (is_too_fine() && can_merge()) {
-      // Leaves, since in random order cells have few points at first, and hardly merge.
+      // It counts leaves: in random order cells have few points at first, and hardly merge.
       if (merge_unless_apart([](const CellTree& counts) { return counts.leaves(); })) continue;
       apart_ = counts_.leaves();
       break;
@@ -222,11 +223,11 @@ bool Survey::needs_too_much() const {
 
 bool Survey::is_too_fine() const {
   if (grid_ != nullptr || counts_.leaves() <= 2 * apart_) return false;
-  // Even with all points to come in the same cells, these would hold too few in the end. A scan of an unknown
+  // Even if all points to come lie in the same cells, the cells hold too few in the end. A scan of an unknown
   // number of points may have more than its cells were made for.
   const std::uint64_t points = std::max(scan_.points, is_expected_ ? expected_points_ : 4 * expected_points_);
-  // In random order leaves are touched before their cells are: a surface fills about 50 cells of those that
-  // it passes through.
+  // In random order, points touch leaves before they fill the cells. A surface fills about 50 cells of each
+  // leaf that it passes through.
   constexpr std::uint64_t kSurelyFilled = 24;
   const std::uint64_t most = std::max<std::uint64_t>(points / kPointsPerCell, 1024);
   return counts_.cells() > most || counts_.leaves() * kSurelyFilled > most;

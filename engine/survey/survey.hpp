@@ -37,23 +37,24 @@ struct CellCounts {
   std::uint64_t ids = 0;
   bool is_single = true;
 };
-// Throws `Error` where a point is so far away that squared distances could overflow.
+// Counts the points per cell. Throws `Error` where a point is so far away that squared distances could
+// overflow.
 CellCounts count_cells(const PointBatch& batch, const CellGrid& grid);
 
 // Counts in an OpenVDB tree. The first batch sets a fine cell size. The size doubles, and counts merge,
 // whenever the cells need more than `memory` bytes or hold too few points each. At the end they merge until a
 // cell holds about `kPointsPerCell` points on average, and until OpenVDB's standard tree of the near cells
-// fits. Cells that would hardly merge stay: they are those of outliers, and larger ones would be too large
-// for the other points. Cost: one access of the tree for each run of points in the same cell.
+// fits. Cells that would hardly merge stay: they hold outliers, and larger ones would be too large for the
+// other points. Cost: one access of the tree for each run of points in the same cell.
 class Survey {
  public:
-  // `expected_points`: 0 where not known. `grid`: to count in; null: chosen as above. Its cells merge only
-  // where memory does not suffice.
+  // `expected_points`: 0 where not known. `grid`: the grid of the cells; null: chosen as above. Cells of a
+  // given grid merge only where memory does not suffice.
   Survey(std::uint64_t memory, std::uint64_t expected_points, const CellGrid* grid = nullptr);
 
   void add(const PointBatch& batch);
-  // Adding may take two steps, of which the first may run in other threads: `add(count_cells(batch,
-  // finest()))`. A batch with a finite point must have been added before.
+  // Adding may take two steps: `add(count_cells(batch, finest()))`. The inner one may run in other threads. A
+  // batch with a finite point must have been added before.
   bool is_sized() const { return sized_; }
   CellGrid finest() const { return {.finest = scan_.grid.finest, .origin = scan_.grid.origin}; }
   void add(const CellCounts& counts);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// survey, over the whole scan: where the points are.
+// survey, over the whole scan: finds where the points are.
 #pragma once
 
 #include "engine/model/points.hpp"
@@ -8,7 +8,8 @@
 
 namespace lacuna {
 
-// Streams the scan once and counts its points per cell. `grid`: of the cells; null: chosen. Throws `Error`.
+// Streams the scan once and counts its points per cell. `grid`: the grid of the cells; null: chosen. Throws
+// `Error`.
 SurveyedScan survey_scan(PointSource& scan, Job& job, const CellGrid* grid = nullptr);
 
 }  // namespace lacuna

@@ -31,19 +31,19 @@ class OccupiedCells {
     for (LocalIndex p = 0; p < points_.size(); ++p) add(p);
   }
 
-  // visit(index) for each point that represents its cell.
+  // Calls visit(index) for each point that represents its cell.
   template <class Visit>
   void for_each_representative(Visit&& visit) const {
     for (const Cell& cell : cells_) visit(cell.representative);
   }
 
   std::span<const StoredPoint> points() const { return points_; }
-  // Null where no point is in the cell of this one.
+  // Returns null where no point is in the cell of this one.
   const StoredPoint* representative_of(const StoredPoint& point) const {
     const std::uint32_t slot = slots_[slot_of(place_of(point))];
     return slot == 0 ? nullptr : &points_[cells_[slot - 1].representative];
   }
-  // Whether one of the points comes before this one in its cell.
+  // Returns whether one of the points comes before this one in its cell.
   bool has_better(const StoredPoint& point) const {
     const LatticePlace place = place_of(point);
     const std::uint32_t slot = slots_[slot_of(place)];
@@ -75,7 +75,7 @@ class OccupiedCells {
     return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
   }
 
-  // The slot with this cell, or the empty one where it belongs.
+  // Returns the slot with this cell, or the empty slot where it belongs.
   std::size_t slot_of(const LatticePlace& place) const {
     std::size_t slot = (place.hash >> 32) & (slots_.size() - 1);
     while (slots_[slot] != 0 && cells_[slots_[slot] - 1].cell != place.cell)
@@ -96,10 +96,10 @@ class OccupiedCells {
   double edge_;
   std::vector<StoredPoint> points_;
   std::vector<Cell> cells_;
-  std::vector<std::uint32_t> slots_;  // one more than a cell's index; 0: none. A power of two
+  std::vector<std::uint32_t> slots_;  // one more than a cell's index; 0: no cell. A power of two
 };
 
-// Two points of one cell lie within its diagonal of each other, and what rounding adds to that.
+// Two points of one cell are no farther apart than its diagonal and the error of rounding.
 double squared_reach(const Eigen::AlignedBox3d& box, double edge) {
   const double farthest = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
   const double side = edge * (1 + 1e-12) + farthest * 1e-15;
@@ -111,7 +111,7 @@ class Chooser {
   Chooser(const TileStore& store, double edge, ChosenPoints& chosen)
       : store_(store), tiling_(store.tiling()), edge_(edge), lattice_(edge), chosen_(chosen) {}
 
-  // First, each tile by itself.
+  // First, each tile chooses alone.
   void choose_within(TileIndex t) {
     const Tile& tile = tiling_.tiles[t];
     OccupiedCells(store_.points(t), edge_).for_each_representative([&](LocalIndex p) {
@@ -130,7 +130,7 @@ class Chooser {
     });
   }
 
-  // How many are left in each cell of the store; returns their sum.
+  // Counts how many points are left in each cell of the store; returns their sum.
   std::uint64_t count(TileIndex t) {
     const Tile& tile = tiling_.tiles[t];
     std::uint64_t sum = 0;
@@ -143,7 +143,7 @@ class Chooser {
     return sum;
   }
 
-  // Last: which point represents each of the tile's, and their copies.
+  // Last, it finds which point represents each of the tile's points, and their copies.
   void send_represented(TileIndex t) {
     std::vector<StoredPoint> points = store_.points(t);
     const std::size_t owned = points.size();
@@ -167,7 +167,7 @@ class Chooser {
     for (std::uint64_t row = first; row < first + tiling_.cells[cell].points; ++row) visit(Row{row});
   }
 
-  // visit(row, point) for those of a tile that are chosen so far.
+  // Calls visit(row, point) for points of a tile that are chosen so far.
   template <class Visit>
   void for_each_chosen(TileIndex t, Visit&& visit) const {
     LocalIndex owned = 0;
@@ -177,7 +177,7 @@ class Chooser {
     });
   }
 
-  // Chosen points of other tiles that may lie in cells of this one's points.
+  // Returns chosen points of other tiles that may lie in cells of this tile's points.
   std::vector<StoredPoint> others_in_cells_of(TileIndex t) const {
     const Tile& tile = tiling_.tiles[t];
     Eigen::AlignedBox3d box;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// choose: one point for each occupied cell of a lattice.
+// choose: chooses one point for each occupied cell of a lattice.
 #pragma once
 
 #include "engine/run/job.hpp"
@@ -13,7 +13,7 @@
 
 namespace lacuna {
 
-// A point of the input and the one that represents it: itself, at times.
+// A point of the input and the point that represents it. A point may represent itself.
 struct Represented {
   PointId representative;
   PointId id;
@@ -26,16 +26,16 @@ struct ChosenPoints {
   RowSet rows;
   std::vector<std::uint32_t> in_cell;  // how many of each cell of the store
   std::uint64_t count = 0;
-  // By block of the representative's id: all stored points and their copies. Only where wanted.
+  // By block of the representative's id: all stored points and their copies. Empty where nobody wants it.
   std::optional<AppendLists<Represented>> represented;
 };
 
-// The point nearest to the middle of a cell represents it. Of several, it is the one with the lowest
-// coordinates, by x first. So the choice depends on the points alone, and parts of a scan may be thinned
-// apart, and their representatives again. Each tile chooses among its points. Then those chosen in other
-// tiles are compared, where they lie in the same cells. Throws `Error` where a coordinate is too large for
-// the edge. Cost: linear; memory: that of the tiles at work, a bit a row and 4 bytes a cell.
-// `represented_ids`: where all ids are below; 0: nobody wants to know which point represents which.
+// The point nearest to the middle of a cell represents it. Among equally near points, the point with the
+// lowest coordinates is chosen, by x first. So the choice depends on the points alone. Parts of a scan may be
+// thinned apart, and then their representatives again. Each tile chooses among its points. Then the chosen
+// points of different tiles are compared, where they lie in the same cells. Throws `Error` where a coordinate
+// is too large for the edge. Cost: linear. Memory: the tiles at work, a bit a row and 4 bytes a cell.
+// `represented_ids`: all ids are below it; 0: nobody wants to know which point represents which.
 ChosenPoints choose_points(const TileStore& store, double edge, std::uint64_t represented_ids, Job& job);
 
 }  // namespace lacuna

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lattice of a level: cubes of one edge, counted from the origin of the coordinates. So the cell of a
-// point depends on that point alone.
+// The lattice of a level consists of cubes of one edge, counted from the origin of the coordinates. So the
+// cell of a point depends on that point alone.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ class Lattice {
  public:
   explicit Lattice(double edge) : per_length_(1 / edge) {}  // edge: above 0
 
-  // A place whose cell is not finite where the coordinates are too large for the edge.
+  // Returns the place of a point. Its cell is not finite where the coordinates are too large for the edge.
   LatticePlace place_of(const Eigen::Vector3d& position) const;
 
  private:

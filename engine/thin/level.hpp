@@ -26,7 +26,7 @@ struct Level {
   SurveyedScan survey;               // of the whole scan
   double extent = 0;                 // the largest distance between points of the scan
   TileGuide guide;                   // how the points of the scan are cut into tiles
-  TileJoin join;                     // how those tiles, or those of the level below, are put together
+  TileJoin join;                     // how those tiles, or the tiles of the level below, are put together
   TileStore store;                   // distinct points
   std::string evaluation;            // what its tiles are evaluated from; empty: no workspace is kept
   std::vector<std::uint64_t> input;  // of the first level: `PointSource::pass_counts`
@@ -36,7 +36,7 @@ struct Level {
   std::uint64_t tile_points() const { return edge > 0 ? join.tile_points : guide.tile_points; }
 };
 
-// So many levels at most: a level of 2^64 points has few left after so many.
+// A run has at most this many levels: a level of 2^64 points has few left after them.
 inline constexpr std::size_t kMostLevels = 128;
 
 }  // namespace lacuna

@@ -11,7 +11,7 @@
 namespace lacuna {
 namespace {
 
-// How many points are left in each node.
+// Counts how many points are left in each node.
 std::vector<std::uint64_t> count_nodes(const Tiling& below, const ChosenPoints& chosen) {
   std::vector<std::uint64_t> counts(below.nodes.size());
   for (std::size_t n = below.nodes.size(); n-- > 0;) {  // children stand behind their parents
@@ -35,7 +35,7 @@ TileIndex end_of(const TileJoin& join, std::size_t t, const Tiling& below) {
   return t + 1 < join.first.size() ? join.first[t + 1] : static_cast<TileIndex>(below.tiles.size());
 }
 
-// The cells of the store below that become one. All are of one tile below.
+// The cells of the store below that become one cell. All belong to one tile below.
 struct JoinedCells {
   std::uint32_t first, last;
   std::uint64_t points;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// store: the chosen points of a store, as a store of their own.
+// store: writes the chosen points of a store to a store of their own.
 #pragma once
 
 #include "engine/run/job.hpp"
@@ -11,22 +11,23 @@
 
 namespace lacuna {
 
-// How tiles of the store below are put together.
+// The way in which tiles of the store below are put together.
 struct TileJoin {
   std::vector<TileIndex> first;   // of each tile, its first tile below; it has all up to the next one's first
   std::uint64_t tile_points = 0;  // the most in a tile, where none below has more; twice as many in an update
   std::uint64_t cell_points = 0;  // the most in a cell, where none below has more
 };
 
-// A node of the tree over the tiles below becomes one tile where it has at most `tile_points` chosen points.
+// Joins tiles: a node of the tree over the tiles below becomes one tile if it has at most `tile_points`
+// chosen points.
 TileJoin join_tiles(const Tiling& below, const ChosenPoints& chosen, std::uint64_t tile_points,
                     std::uint64_t cell_points);
-// Whether the join of an earlier run may be used again, so that tiles keep their numbers. It must be of these
-// tiles, and none may become twice as large as was wanted.
+// Returns whether the join of an earlier run may be used again, so that tiles keep their numbers. It must
+// have the tiles of `below`, and no tile may become twice as large as was wanted.
 bool suits(const TileJoin& join, const Tiling& below, const ChosenPoints& chosen);
 
-// The chosen points in the order that they have below, so that nothing is sorted. `files`: empty ones for the
-// store. Cost: reads all points below once.
+// Stores the chosen points in the order that they have below, so that nothing is sorted. `files`: empty ones
+// for the store. Cost: reads all points below once.
 TileStore store_chosen(const TileStore& below, const ChosenPoints& chosen, const TileJoin& join,
                        StoreFiles files, Job& job);
 

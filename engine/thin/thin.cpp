@@ -12,7 +12,7 @@
 namespace lacuna {
 namespace {
 
-// As the tiles were put together before an update, if that suits these points.
+// Puts tiles together as before an update, if that suits these points.
 TileJoin join_for(std::optional<TileJoin> earlier, const Tiling& below, const ChosenPoints& chosen,
                   const Job& job) {
   if (earlier && job.tile_bytes(2 * earlier->tile_points) <= job.memory.tiles &&
@@ -21,7 +21,7 @@ TileJoin join_for(std::optional<TileJoin> earlier, const Tiling& below, const Ch
   return join_tiles(below, chosen, job.tile_points(chosen.count), job.cell_points(chosen.count));
 }
 
-// The chosen points as a level.
+// Makes a level of the chosen points.
 Level level_of(ChosenPoints chosen, const Level& below, std::size_t number, double edge, LevelPlace place,
                Job& job) {
   TileJoin join = join_for(std::move(place.join), below.store.tiling(), chosen, job);
@@ -36,7 +36,7 @@ Level level_of(ChosenPoints chosen, const Level& below, std::size_t number, doub
 }
 
 // Cells as large as the scan leave too few points to have neighbours. A scan of few points, or of one place,
-// has no more at any resolution.
+// has no more points at any resolution.
 void refuse_too_coarse(std::uint64_t left, const SurveyedScan& survey, const Config& config) {
   const std::uint64_t finite = survey.points - survey.dropped;
   const auto k = static_cast<std::uint64_t>(config.neighbourhood.k);
@@ -53,14 +53,14 @@ void refuse_too_coarse(std::uint64_t left, const SurveyedScan& survey, const Con
   throw Error(message.str());
 }
 
-// The first power of sqrt 2 above a length.
+// Returns the first power of sqrt 2 above a length.
 double power_above(double length) {
   const double octave = std::ldexp(1.0, std::ilogb(length));
   return octave * std::numbers::sqrt2 > length ? octave * std::numbers::sqrt2 : 2 * octave;
 }
 
-// The share of the points that cells of this edge leave. Where a cell of a surface has n points on average,
-// that is about 1 / (1 + n / 2).
+// Returns the share of the points that cells of this edge leave. Where a cell of a surface has n points on
+// average, the share is about 1 / (1 + n / 2).
 double share_left(const LengthBins& distances, double edge) {
   constexpr double kCellsOfSurface = 1.3;  // to cover one cell's area, as surfaces are tilted
   double left = 0, all = 0;
@@ -74,7 +74,7 @@ double share_left(const LengthBins& distances, double edge) {
 
 constexpr double kWantedLeft = 0.6, kMostLeft = 0.9;
 
-// The first edge above a length that leaves as few points as a level is to have; 0 where no point has a
+// Returns the first edge above a length that leaves as few points as a level may have; 0 where no point has a
 // neighbour.
 double edge_above(const LengthBins& distances, double length) {
   if (distances.counts.empty()) return 0;

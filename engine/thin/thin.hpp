@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// thin: a level on a lattice, made from the points of the level below, without the input.
+// thin: makes a level on a lattice from the points of the level below, without the input.
 #pragma once
 
 #include "engine/config/config.hpp"
@@ -24,15 +24,15 @@ struct LevelPlace {
 // `Error` where too few points are left to have neighbours.
 Level thin_to_first(const Level& all, LevelPlace place, Job& job);
 
-// The level above: one point for each cell of a lattice. Edges are powers of sqrt 2, so that lattices do not
-// depend on the scan. The edge is the first one that leaves about six in ten points. None where too few are
-// left for a hole. `distances`: mean distances to the neighbours, of all points of the level below. `place`
-// is called once the points are chosen.
+// Makes the level above, with one point for each cell of a lattice. Edges are powers of sqrt 2, so lattices
+// do not depend on the scan. The edge is the first one that leaves about six in ten points. Returns nothing
+// where too few points are left for a hole. `distances`: mean distances to the neighbours, of all points of
+// the level below. `place` is called once the points are chosen.
 std::optional<Level> thin_above(const Level& below, const LengthBins& distances,
                                 const std::function<LevelPlace()>& place, Job& job);
 
-// Whether a run with this config has levels above the first one: unless the config names one level, or the
-// method is the paper's.
+// Returns whether a run with this config has levels above the first one. It has them unless the config names
+// one level, or the method is the paper's.
 bool has_levels(const Config& config);
 
 }  // namespace lacuna

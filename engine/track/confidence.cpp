@@ -10,15 +10,15 @@
 namespace lacuna {
 namespace {
 
-// What all levels say. Fitted by bench/accuracy/calibrate.py.
+// The evidence of all levels. Fitted by bench/accuracy/calibrate.py.
 double tracked(const TrackEvidence& e) {
   constexpr double kMostOctaves = 2;  // more say nothing more
   return 11.24 * e.surface * e.best - 1.84 * e.surface * e.surface / (e.roundness + 0.1) +
          0.93 * std::min(e.persistence, kMostOctaves) - 7.44 * e.sampling_gap - 0.4;
 }
 
-// A small hole cannot persist. So at the first level its own loop may say enough, the more so the more even
-// the sampling.
+// A small hole cannot persist. So at the first level its own loop may be evidence enough. Its weight grows
+// with the evenness of the sampling.
 bool may_say_enough(const TrackEvidence& e) {
   constexpr double kWidest = 8, kLeastRound = 0.2;
   return e.is_first_level && e.width <= kWidest && e.roundness >= kLeastRound;

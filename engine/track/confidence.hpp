@@ -16,11 +16,11 @@ struct TrackEvidence {
   bool is_first_level;  // the loop was found at the first level
 };
 
-// Small for scribbles and slits of the sampling: the area over that of the circle with the same perimeter. A
-// long hole has up to a half, which it has from a width of eight spacings on.
+// Small for scribbles and slits of the sampling: the loop's area over the area of the circle with the same
+// perimeter. A long hole has up to a half. It reaches its full value at a width of eight spacings.
 double roundness(double perimeter, double area, double width);
 
-// The logarithm of the odds.
+// Returns the logarithm of the odds.
 double log_odds(const TrackEvidence& evidence);
 
 double probability_of(double log_odds);

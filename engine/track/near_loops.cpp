@@ -36,11 +36,11 @@ struct SharedCell {
 using CellSort = SortedRuns<LoopCell>;
 using SharedSort = SortedRuns<SharedCell>;
 
-// An edge of a loop is drawn in so many steps at most: to a far outlier it may be as long as the scan.
+// An edge of a loop is drawn in at most this many steps: to a far outlier it may be as long as the scan.
 constexpr double kMostSteps = 16;
 
-// visit(cell) for each cell that the closed loop passes through at steps of an edge or less; some several
-// times.
+// Calls visit(cell) for each cell that the closed loop passes through at steps of an edge or less. Some cells
+// are visited several times.
 template <class Visit>
 void draw(const Loops& loops, std::size_t loop, double edge, Visit&& visit) {
   std::optional<CellOfLattice> last;
@@ -74,7 +74,7 @@ void add_cells(const LevelLoops& level, std::uint32_t first, double edge, CellSo
     draw(level.loops, i, edge, [&](const CellOfLattice& cell) { cells.add({cell, first + i}); });
 }
 
-// All cells of all loops, each once, in order.
+// Returns all cells of all loops, each once, in order.
 Column<LoopCell> sorted_cells(CellSort& cells, std::filesystem::path path) {
   Column<LoopCell> sorted(std::move(path));
   ColumnWriter<LoopCell> writer(sorted);
@@ -87,14 +87,14 @@ Column<LoopCell> sorted_cells(CellSort& cells, std::filesystem::path path) {
   return sorted;
 }
 
-// The cells of one row of the lattice, at a fixed offset from the current cell. It moves on as that cell
-// does.
+// The cells of one row of the lattice, at a fixed offset from the current cell. The row moves on as the
+// current cell does.
 class RowOfCells {
  public:
   RowOfCells(const Column<LoopCell>& cells, double x, double y)
       : cells_(cells), size_(cells.size()), x_(x), y_(y) {}
 
-  // visit(loop) for each loop that passes through one of the three cells in this row.
+  // Calls visit(loop) for each loop that passes through one of the three cells in this row.
   template <class Visit>
   void for_each_near(const CellOfLattice& at, Visit&& visit) {
     const CellOfLattice low{at[0] + x_, at[1] + y_, at[2] - 1}, high{low[0], low[1], at[2] + 1};
@@ -110,8 +110,8 @@ class RowOfCells {
   double x_, y_;
 };
 
-// Goes along the cells in order, with the nine rows around. Counts the cells of each loop. A pair counts
-// where one of its loops is of the coarse level.
+// Goes along the cells in order, with the nine rows around. It counts the cells of each loop. A pair counts
+// where one of its loops belongs to the coarse level.
 void add_shared(const Column<LoopCell>& cells, std::uint32_t first_coarse,
                 std::vector<std::uint32_t>& own_cells, SharedSort& shared) {
   std::vector<RowOfCells> rows;

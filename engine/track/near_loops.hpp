@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// near_loops: which loops of neighbouring levels run along each other.
+// near_loops: finds loops of neighbouring levels that run along each other.
 //
-// Both loops are drawn in the cells of a lattice, that of the coarser level. A cell is near a loop if it or
-// one of the 26 around it is a cell of that loop. The shares of near cells say how much the loops have in
-// common. They are ratios of whole numbers, so neither order nor rounding matters.
+// Both loops are drawn in the cells of one lattice, the lattice of the coarser level. A cell is near a loop
+// if it or one of the 26 cells around it is a cell of that loop. The shares of near cells say how much the
+// loops have in common. They are ratios of whole numbers, so neither order nor rounding matters.
 #pragma once
 
 #include "engine/run/job.hpp"
@@ -34,7 +34,7 @@ struct NearLoops {
 // least half of its cells near the other. Pairs ascend. Cost: a sort of the loops' cells on disk.
 std::vector<NearLoops> near_loops(std::span<const LevelLoops> levels, const Job& job);
 
-// A hole may be missing at so many levels between two at which it is found.
+// A hole may be missing at up to this many levels between two levels at which it is found.
 inline constexpr std::size_t kBridged = 1;
 
 }  // namespace lacuna

@@ -10,7 +10,7 @@
 namespace lacuna {
 namespace {
 
-// Each loop as its own level has it: the only one of its track.
+// Makes a track for each loop, with this loop as its only one.
 std::vector<TrackedLoop> loops_of(std::span<const LevelLoops> levels) {
   std::vector<TrackedLoop> loops;
   for (std::uint32_t l = 0; l < levels.size(); ++l) {
@@ -30,8 +30,8 @@ std::vector<TrackedLoop> loops_of(std::span<const LevelLoops> levels) {
   return loops;
 }
 
-// Follows each hole up to its last level, and down to its first one. Pairs ascend, and levels with them: one
-// pass each way.
+// Follows each hole up to its last level, and down to its first one. Pairs and their levels ascend, so each
+// way takes one pass.
 void follow(std::span<const NearLoops> pairs, std::vector<TrackedLoop>& loops) {
   std::vector<double> above(loops.size()), below(loops.size());
   for (std::size_t i = 0; i < loops.size(); ++i) above[i] = below[i] = loops[i].evidence.best;
@@ -55,14 +55,14 @@ void follow(std::span<const NearLoops> pairs, std::vector<TrackedLoop>& loops) {
   for (std::size_t i = 0; i < loops.size(); ++i) loops[i].evidence.best = std::max(above[i], below[i]);
 }
 
-// The logarithm to the base 2, by straight lines between powers of two: within 0.09, and the same on every
-// machine.
+// Returns the logarithm to the base 2, by straight lines between powers of two: within 0.09, and the same on
+// every machine.
 double octaves(double ratio) {
   const int power = std::ilogb(ratio);
   return power + std::ldexp(ratio, -power) - 1;
 }
 
-// 0: it ends at all points, or before the spacing.
+// 0: the track ends at all points, or before the spacing.
 double persistence(double last_edge, double spacing) {
   return last_edge > spacing ? octaves(last_edge / spacing) : 0;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// track_all: each hole followed through the levels, and how sure it is that each loop surrounds one
+// track_all: follows each hole through the levels, and finds how sure it is that each loop surrounds a hole
 // (method.md, D).
 #pragma once
 
@@ -22,8 +22,8 @@ struct TrackedLoop {
   double log_odds = 0;
 };
 
-// All loops, level by level, in their order there: as `near_loops` numbers them. `pairs`: from it. Cost: one
-// pass over the loops' points.
+// Returns all loops, level by level, in their order there: as `near_loops` numbers them. `pairs`: the result
+// of `near_loops`. Cost: one pass over the loops' points.
 std::vector<TrackedLoop> track_all(std::span<const LevelLoops> levels, std::span<const NearLoops> pairs,
                                    Job& job);
 

@@ -14,7 +14,7 @@
 namespace lacuna {
 namespace {
 
-// By loop: those of the highest rank are chosen first.
+// By loop: the loops of the highest rank are chosen first.
 std::vector<double> ranks_of(std::span<const LevelLoops> levels, std::span<const TrackedLoop> loops) {
   constexpr double kSure = 2;         // log-odds from which on loops are equally good
   constexpr double kLevelCost = 0.4;  // of a level, in log-odds: fine curves are closer to the hole
@@ -26,8 +26,8 @@ std::vector<double> ranks_of(std::span<const LevelLoops> levels, std::span<const
   return ranks;
 }
 
-// From the highest rank on: a loop stands unless it is at the place of one that does. At a place are the
-// loops that run along half of it, and those that run along loops of the same hole.
+// Goes down from the highest rank. A loop is chosen unless a chosen loop is at the same place. At the same
+// place are loops that run along half of it, and loops that run along loops of the same hole.
 std::vector<std::uint32_t> choose(std::span<const NearLoops> pairs, std::span<const double> ranks) {
   struct Neighbour {
     std::uint32_t loop;
@@ -72,7 +72,7 @@ std::vector<std::uint32_t> choose(std::span<const NearLoops> pairs, std::span<co
   return chosen;
 }
 
-// All of them stand.
+// All of them are chosen.
 TrackedLoops all_loops(std::vector<LevelLoops> levels) {
   TrackedLoops tracked;
   const auto count = static_cast<std::uint32_t>(levels.front().loops.size());
@@ -92,7 +92,7 @@ TrackedLoops track_loops(std::vector<LevelLoops> levels, Job& job) {
   std::vector<std::uint32_t> chosen = choose(pairs, ranks_of(levels, loops));
   const double min_confidence = job.config.selection.min_confidence;
   std::erase_if(chosen, [&](std::uint32_t i) { return probability_of(loops[i].log_odds) < min_confidence; });
-  // At most one of several loops with the same points stands.
+  // At most one of several loops with the same points is chosen.
   std::sort(chosen.begin(), chosen.end(), [&](std::uint32_t x, std::uint32_t y) {
     return compare_points(levels[loops[x].level].loops, loops[x].loop, levels[loops[y].level].loops,
                           loops[y].loop) < 0;

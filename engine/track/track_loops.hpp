@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// track: the same hole through the levels, how sure it is one, and which of its loops stands (method.md, D).
+// track: follows the same hole through the levels, rates its loops and chooses one of them (method.md, D).
 #pragma once
 
 #include "engine/loops/loops.hpp"
@@ -10,15 +10,15 @@
 
 namespace lacuna {
 
-// The loops that stand, and what tracking found of each.
+// The chosen loops, and what tracking found of each.
 struct TrackedLoops {
   ChosenLoops loops;
   std::vector<LoopTrack> tracks;
 };
 
-// For each hole the loop that stands, if it is as sure as the config wants. `levels`: from fine to coarse.
-// The choice does not depend on what is wanted, so a higher confidence gives a subset. The paper's loops, of
-// one level, all stand. Cost: a sort of the loops' cells on disk.
+// Returns the chosen loop of each hole, if it is as sure as the config wants. `levels`: from fine to coarse.
+// The choice does not depend on what is wanted, so a higher confidence gives a subset. All loops of the
+// paper, which has one level, are chosen. Cost: a sort of the loops' cells on disk.
 TrackedLoops track_loops(std::vector<LevelLoops> levels, Job& job);
 
 }  // namespace lacuna

@@ -12,8 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// With more, a stop would lose more; with less, there would be too many files. A part may take longer in a
-// run that has taken long. Units of a run are many, and each loses its own tiles only.
+// Larger parts would lose more at a stop, and smaller ones would be too many files. A part may take longer in
+// a run that has taken long. Units of a run are many, and each loses its own tiles only.
 constexpr std::uint64_t kPartBytes = std::uint64_t{256} << 20;
 constexpr std::chrono::seconds kLeastAge{10}, kLeastAgeOfUnit{300};
 constexpr int kPartsOfRun = 64;

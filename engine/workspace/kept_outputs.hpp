@@ -2,8 +2,8 @@
 // The outputs of a level's tiles in a workspace.
 //
 // Outputs gather in a part, which is sealed from time to time. So a run that is stopped loses the tiles of
-// the last seconds. Parts have names that no other process gives to one, so several processes may evaluate
-// tiles of one level at a time. Two outputs of one tile do no harm: they are the same.
+// the last seconds. No other process gives the same name to a part. So several processes may evaluate tiles
+// of one level at a time. Two outputs of one tile do no harm: they are the same.
 #pragma once
 
 #include "engine/model/tiling.hpp"
@@ -32,28 +32,28 @@ class KeptOutputs {
     std::span<const std::byte> bytes;
   };
 
-  // Finds the sealed outputs of a level that are whole and made from this. `earlier`: what the outputs of the
-  // run before an update were made from; empty: there are none. `check`: the table suffices where no output
-  // is read.
+  // Finds the sealed outputs of a level that are whole and made from `made_from`. `earlier`: what the outputs
+  // of the run before an update were made from; empty: there are none. `check`: the table suffices where no
+  // output is read.
   KeptOutputs(std::size_t level, std::size_t tiles, const std::string& made_from, const std::string& earlier,
               PartReader::Check check, const Workspace& workspace);
 
   std::vector<TileIndex> missing() const;  // tiles without a sealed output, ascending
 
-  // From any thread. `content`: the fingerprint of all that the output depends on.
+  // Adds the output of a tile. From any thread. `content`: the fingerprint of all that the output depends on.
   void add(TileIndex tile, const Digest& content, std::span<const Stream> streams);
-  // Adds the output of the run before, if it has one with this content.
+  // Adds the output of the run before, if it has one with this content. Returns whether it has one.
   bool add_earlier(TileIndex tile, const Digest& content);
   // Seals the last outputs. After that, outputs are read, from any thread.
   void finish();
 
-  // Bytes of a stream; 0 where the tile has none.
+  // Returns the bytes of a stream; 0 where the tile has no such stream.
   std::uint64_t size(std::string_view stream, TileIndex tile) const;
   void read(std::string_view stream, TileIndex tile, std::span<std::byte> to) const;  // all of them
 
  private:
   using Clock = std::chrono::steady_clock;
-  // By tile: the part that has its output; null: none.
+  // By tile: the part that has its output; null: there is no output.
   using PartOfTile = std::vector<std::shared_ptr<const PartReader>>;
 
   std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder) const;
@@ -71,7 +71,7 @@ class KeptOutputs {
   std::filesystem::path open_path_;                                     // of the open part
   std::optional<PartWriter> open_;
   Clock::time_point start_ = Clock::now();
-  Clock::time_point begun_;    // when the open part was
+  Clock::time_point begun_;    // when the open part was begun
   Clock::duration least_age_;  // of a part, unless it is large
 };
 

@@ -42,7 +42,7 @@ struct StoredLevel {
   std::uint64_t points, dropped, ids, is_single;
   double extent, edge;
   std::uint64_t tile_points, cell_points, joined_tile_points, joined_cell_points, has_normals;
-  std::uint64_t represented;  // lists; 0: none
+  std::uint64_t represented;  // lists; 0: no lists
   std::uint64_t points_bytes, normals_bytes;
   Digest points_digest, normals_digest;
 };
@@ -106,7 +106,7 @@ Tiling tiling_of(const PartReader& part) {
   return tiling;
 }
 
-// for_each(visit): the records, of which some thousands are in memory at a time.
+// for_each(visit) visits the records, of which some thousands are in memory at a time.
 template <class Record, class ForEach>
 void add_in_blocks(PartWriter& part, std::string_view stream, std::uint64_t key, ForEach&& for_each) {
   constexpr std::size_t kTogether = 1 << 14;
@@ -133,14 +133,14 @@ std::optional<AppendLists<Represented>> represented_of(const StoredLevel& stored
   return represented;
 }
 
-// A file that is as it was sealed.
+// Opens a file that is as it was sealed.
 std::optional<StoreFile> open_file(const fs::path& path, std::uint64_t bytes, const Digest& digest) {
   std::optional<StoreFile> file = StoreFile::open_sealed(path);
   if (file && (file->size() != bytes || digest_of(*file) != digest)) return std::nullopt;
   return file;
 }
 
-// The level of the run before an update.
+// Opens the level of the run before an update.
 std::optional<PartReader> open_earlier(std::size_t number, const Workspace& workspace) {
   if (workspace.earlier.empty()) return std::nullopt;
   return PartReader::open(level_path(workspace.earlier, number), std::nullopt);
@@ -175,7 +175,7 @@ void remove_other_columns(std::size_t number, Level& level, const Workspace& wor
   }
 }
 
-// What the tiles of a level are evaluated from, but for the outputs that a user wants of them.
+// Returns what the tiles of a level are evaluated from, except for the outputs that a user wants of them.
 std::string evaluation_of(const Digest& checksum, const Config& config) {
   return std::to_string(checksum[0]) + " " + std::to_string(checksum[1]) + "\n" +
          evaluation_parameters(config);
@@ -296,7 +296,7 @@ std::optional<TileJoin> find_join(std::size_t number, const Workspace& workspace
 std::optional<KeptOutputs> find_outputs(const Level& level, PartReader::Check check,
                                         const Workspace& workspace, const Config& config) {
   if (!workspace.is_kept()) return std::nullopt;
-  // Levels above the first one have no outputs but those of their loops.
+  // Levels above the first one have only the outputs of their loops.
   const std::string wanted = level.number == 0 ? output_parameters(config) : "";
   std::string earlier;
   if (const std::optional<PartReader> part = open_earlier(level.number, workspace))

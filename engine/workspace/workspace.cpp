@@ -26,7 +26,7 @@ constexpr std::string_view kLevel = "level-", kTiles = "tiles-";
 
 using Lines = std::vector<std::string>;
 
-// "key = value" of the parameters that are wanted.
+// Returns "key = value" of the parameters that are wanted.
 template <class Wanted>
 Lines parameter_lines(const Config& config, Wanted&& is_wanted) {
   Config copy = config;
@@ -65,7 +65,7 @@ Lines made_from(const Lines& identity, const Config& config) {
   return lines;
 }
 
-// The first line of `lines` that the others have not.
+// Returns the first line of `lines` that the others do not have.
 std::string first_other(const Lines& lines, const Lines& others) {
   for (const std::string& line : lines) {
     if (std::find(others.begin(), others.end(), line) == others.end()) return line;
@@ -97,7 +97,7 @@ bool is_workspace_name(const std::string& name) {
   return std::regex_match(name, parts);
 }
 
-// Files of others that have names of parts would be replaced.
+// Refuses files of others that have names of parts: they would be replaced.
 void refuse_others(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();

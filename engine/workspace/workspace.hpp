@@ -27,14 +27,14 @@ struct Workspace {
   bool is_kept() const { return !folder.empty(); }
 };
 
-// Opens the workspace that the config names, for this input. Removes what a stopped run has left unfinished;
-// a unit does not. Throws `Error` where the folder is not a workspace, or belongs to another input or other
-// parameters, with the first difference.
+// Opens the workspace that the config names, for this input. Removes unfinished files of a stopped run; a
+// unit does not. Throws `Error` where the folder is not a workspace, or belongs to another input or other
+// parameters. The error has the first difference.
 Workspace open_workspace(const PointSource& scan, const Config& config, bool is_unit = false);
 
-// Further parameters on which the evaluation of a tile depends, a line each.
+// Returns further parameters on which the evaluation of a tile depends, a line each.
 std::string evaluation_parameters(const Config& config);
-// Parameters that say which outputs of a tile are wanted.
+// Returns the parameters that say which outputs of a tile are wanted.
 std::string output_parameters(const Config& config);
 
 enum class WorkspaceNote {
@@ -42,41 +42,42 @@ enum class WorkspaceNote {
   kResults,  // the folder that has the results of the last complete run
 };
 
-// What a workspace knows of its run, so that another process can do a part of it.
+// The data of a run in its workspace, from which another process can do a part of the run.
 struct StoredRun {
   std::vector<std::string> names;  // `PointSource::names`
   std::string note;                // as `RunConfig::note` was
 };
-// Throws `Error` where the folder is no workspace.
+// Reads the data of the run. Throws `Error` where the folder is no workspace.
 StoredRun read_run(const std::filesystem::path& folder);
-// What the parts are made from, a line each. None where the part of the run is damaged: the run makes it
-// again.
+// Returns what the parts are made from, a line each. Returns nothing where the part of the run is damaged:
+// the run makes it again.
 std::optional<std::vector<std::string>> made_from_of(const std::filesystem::path& folder);
 
 // A line of text as a part of its own; none where there is no such part.
 void write_note(const std::filesystem::path& folder, WorkspaceNote note, const std::string& text);
 std::optional<std::string> read_note(const std::filesystem::path& folder, WorkspaceNote note);
 
-// An update: moves the parts into a folder of the workspace, from which the run that follows takes the tiles
-// that have not changed. `end_update` removes them. A folder that is there already, of an update that was
-// stopped, is completed.
+// Begins an update: moves the parts into a folder of the workspace. The run that follows takes the tiles that
+// have not changed from there. `end_update` removes the parts. If a stopped update has left such a folder,
+// the move is completed.
 void begin_update(const std::filesystem::path& folder);
 void end_update(const std::filesystem::path& folder);
 std::filesystem::path earlier_parts(const std::filesystem::path& folder);  // where they are, if they are
-// A folder for results of the run before, which `end_update` removes with the parts.
+// Returns a folder for results of the run before. `end_update` removes it with the parts.
 std::filesystem::path earlier_results(const std::filesystem::path& folder);
 
 bool is_workspace(const std::filesystem::path& folder);
 
-// Names of parts: the points of a level, and outputs of its tiles.
+// Return names of parts: the points of a level, and outputs of its tiles.
 std::filesystem::path level_path(const std::filesystem::path& folder, std::size_t level);
 std::filesystem::path tiles_prefix(const std::filesystem::path& folder, std::size_t level);
 
-// The level of which a file has the points, or outputs of tiles; none: it has other things.
+// Returns the level whose points, or outputs of tiles, a file has. Returns nothing if the file has other
+// things.
 std::optional<std::size_t> level_of_part(const std::filesystem::path& file);
 std::optional<std::size_t> level_of_outputs(const std::filesystem::path& file);
 
-// The files of a workspace, without others that lie in the folder; none where it is no workspace.
+// Returns the files of a workspace, without others in the folder. Returns nothing where it is no workspace.
 std::vector<std::filesystem::path> workspace_files(const std::filesystem::path& folder);
 
 // Removes one of the files.

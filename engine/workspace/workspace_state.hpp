@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a workspace has of a run.
+// Finds what a workspace has of a run.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,8 @@ struct WorkspaceState {
   bool is_update = false;   // which was stopped
 };
 
-// Reads the tables of the parts, and not whether the parts are whole. None where the folder is no workspace.
+// Reads the tables of the parts, and does not check that the parts are whole. Returns nothing where the
+// folder is no workspace.
 std::optional<WorkspaceState> state_of_workspace(const std::filesystem::path& folder);
 
 }  // namespace lacuna

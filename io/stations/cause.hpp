@@ -37,7 +37,7 @@ struct LoopCause {
   // nothing does.
   Eigen::Vector3d hidden_by = Eigen::Vector3d::Constant(kUnknown);
   double hidden_by_extent = kUnknown;
-  std::int32_t hidden_from = -1;  // number of the station that most of it is hidden from; -1: none
+  std::int32_t hidden_from = -1;  // number of the station that most of it is hidden from; -1: no station
   Eigen::Vector3d hidden_from_place = Eigen::Vector3d::Constant(kUnknown);  // of its scanner, at that time
 
   double share(Cause cause) const { return shares[static_cast<std::size_t>(cause)]; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loops of one component of the boundary graph, spanned with what all tiles have passed on.
+// Finds the loops of one component of the boundary graph. The component is spanned with the edges that all
+// tiles have passed on.
 #pragma once
 
 #include "engine/boundary/paper/loops.hpp"
@@ -16,7 +17,7 @@
 
 namespace lacuna::paper {
 
-// row_of(v): of a vertex of the graph.
+// row_of(v): the row of a vertex of the graph.
 template <class RowOf>
 void find_loops_of(const SpanningGraph& graph, RowOf&& row_of, Scratch& scratch, RawLoops& loops) {
   std::vector<Vertex> loop;
@@ -27,8 +28,8 @@ void find_loops_of(const SpanningGraph& graph, RowOf&& row_of, Scratch& scratch,
   });
 }
 
-// `edge_count`: of a whole component, in any order. `e`: an edge may close a loop of more than e edges.
-// `memory`: bytes, beyond which arrays are mapped from files.
+// `edge_count`: edges of the whole component, in any order. `e`: an edge may close a loop of more than e
+// edges. `memory`: bytes. Arrays beyond it are mapped from files.
 void find_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_edge, std::uint64_t edge_count,
                           std::int64_t e, std::uint64_t memory, const Job& job, RawLoops& loops);
 

@@ -8,7 +8,7 @@
 namespace lacuna::paper {
 namespace {
 
-// Which edges lie on a cycle.
+// Finds which edges lie on a cycle.
 class Cycles {
  public:
   Cycles(const SpanningGraph& graph, Scratch& scratch)
@@ -66,8 +66,8 @@ class Cycles {
 };
 
 // Returns the graph with two more vertices, last in number and in every list. They have an edge to each of
-// `open` and one to each other. Two, since an open vertex may have many edges outside: no way out is a
-// bridge.
+// `open` and one to each other. There are two, since an open vertex may have many edges outside: no way out
+// is a bridge.
 SpanningGraph add_outside(const SpanningGraph& graph, std::span<const LocalIndex> open, Scratch& scratch) {
   const std::size_t known = graph.size();
   const std::array<LocalIndex, 2> outside{graph.size(), graph.size() + 1};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// eligible_edges: which edges of the proximity graph may enter the spanning graph (paper, 5.1).
+// eligible_edges: finds which edges of the proximity graph may enter the spanning graph (paper, 5.1).
 #pragma once
 
 #include "engine/config/config.hpp"
@@ -12,15 +12,15 @@
 
 namespace lacuna::paper {
 
-// What an edge's weight needs to know of one of its ends.
+// The values of one end of an edge on which the edge's weight depends.
 struct Strength {
   double mean_distance;       // r_p
   float probability;          // Pi
-  std::uint32_t padding = 0;  // written to disk: no byte is left to chance
+  std::uint32_t padding = 0;  // zeros, so that every byte on disk is defined
 };
 
-// w_total of the edge where it is eligible, w_prob < max_prob_weight and w_total < max_total_weight; else
-// a negative number. Exact in double precision.
+// Returns w_total of an eligible edge: w_prob < max_prob_weight and w_total < max_total_weight. Returns a
+// negative number if the edge is not eligible. Exact in double precision.
 double eligible_weight(const Strength& a, const Strength& b, double distance, const SpanningConfig& config);
 
 using TileEdge = WeightedEdge;  // between owned points

@@ -27,7 +27,7 @@ class Search {
 
   bool is_on_loop(LocalIndex v) const { return reached_[v].is_on_loop != 0; }
 
-  // The loop through the origin; empty where there is none.
+  // Returns the loop through the origin, and an empty loop where there is none.
   std::span<const LocalIndex> loop_through(LocalIndex origin) {
     ++stamp_;
     loop_.clear();
@@ -59,7 +59,8 @@ class Search {
     LocalIndex is_on_loop;
   };
 
-  // From the origin down to v, then from w back up; turned to the canonical start and direction.
+  // The loop goes from the origin down to v, then from w back up. It is turned to the canonical start and
+  // direction.
   void trace(LocalIndex origin, LocalIndex v, LocalIndex w) {
     for (LocalIndex at = v; at != origin; at = reached_[at].parent) loop_.push_back(at);
     loop_.push_back(origin);

@@ -18,7 +18,7 @@ std::uint64_t steps(const WeightedEdge& edge) {
   return static_cast<std::uint64_t>(edge.weight * (1 / kProbabilityStep));
 }
 
-// Ascending by one digit of the weight; equal ones keep their order.
+// Sorts ascending by one digit of the weight; equal weights keep their order.
 void sort_by_digit(std::span<const WeightedEdge> from, std::span<WeightedEdge> to, int shift) {
   const auto digit = [&](const WeightedEdge& edge) { return steps(edge) >> shift & (kDigits - 1); };
   std::array<std::size_t, kDigits> next{};

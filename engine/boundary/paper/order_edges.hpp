@@ -9,8 +9,9 @@
 
 namespace lacuna::paper {
 
-// Ascending by (weight, lower id, higher id). Weights: multiples of kProbabilityStep, at least 0 and at most
-// 1e9. `ids`: of each vertex. Cost: linear but for edges of equal weight; as much memory again.
+// Sorts the edges ascending by (weight, lower id, higher id). Weights: multiples of kProbabilityStep, at
+// least 0 and at most 1e9. `ids`: the id of each vertex. Cost: linear except for edges of equal weight; as
+// much memory again.
 void order_edges(std::vector<WeightedEdge>& edges, std::span<const PointId> ids);
 
 }  // namespace lacuna::paper

@@ -22,17 +22,17 @@ constexpr std::uint64_t kBytesPerVertex = 280;
 
 // What a tile emits.
 constexpr RecordStream<LocalIndex> kBorder{"border"};      // points with foreign neighbours, ascending
-constexpr RecordStream<Strength> kStrengths{"strengths"};  // of these points
+constexpr RecordStream<Strength> kStrengths{"strengths"};  // of the border points
 constexpr RecordStream<TileEdge> kInside{"edges"};         // eligible ones
 constexpr RecordStream<StoredCrossing> kUndecided{"undecided crossings"};
 
-// Steps around the smallest hole that edges of neighbourhoods of K points do not cross.
+// Returns the steps around the smallest hole that edges of neighbourhoods of K points do not cross.
 std::int64_t minimum_loop(const SpanningConfig& config, double mean_neighbours) {
   return config.e > 0 ? config.e : std::llround(2 * std::sqrt(std::numbers::pi * mean_neighbours));
 }
 
-// The vertices that a tile knows of. First come its own ends of eligible edges, in ascending row, then those
-// of other tiles at the ends of its crossing edges.
+// The vertices that a tile knows. First come its own ends of eligible edges, in ascending row. Then come the
+// ends of its crossing edges in other tiles.
 class TileVertices {
  public:
   TileVertices(const Tile& tile, std::span<const StoredVertex> own,
@@ -61,7 +61,7 @@ class TileVertices {
 
  private:
   LocalIndex own_;
-  std::vector<LocalIndex> numbers_;  // of the tile's points; of those that are no vertex: any
+  std::vector<LocalIndex> numbers_;  // by the tile's points; a point that is no vertex may have any number
   std::vector<Row> rows_, foreign_;
   std::vector<PointId> ids_;
 };
@@ -96,8 +96,8 @@ void PaperBoundary::emit(const EvaluatedTile& tile, TileOutput& output) const {
     undecided.push_back({tile.vertex(c.owned), tile.vertex(c.foreign), strength(c.owned), c.distance});
   output.add(kUndecided, undecided);
 
-  // Ends of eligible edges. Another tile may find edges that cross the border, so all with foreign
-  // neighbours.
+  // These points are ends of eligible edges. Another tile may find edges that cross the border, so all points
+  // with foreign neighbours count.
   std::vector<std::uint8_t> is_end(tile.is_border.begin(), tile.is_border.end());
   for (const TileEdge& edge : edges.inside) is_end[edge.a] = is_end[edge.b] = 1;
   std::vector<StoredVertex> vertices;
@@ -127,7 +127,7 @@ void PaperBoundary::decide_crossings(const TileOutputs& outputs, TileIndex t) {
   std::vector<EligibleCrossing> here;
   for (const StoredCrossing& c : undecided) {
     const Strength& other = foreign[value(c.foreign.row)];
-    // Both tiles have the edge if both ends are strong: then that of the lower id decides.
+    // Both tiles have the edge if both ends are strong: then the tile of the lower id decides.
     if (is_strong(other.probability, config_) && c.foreign.id < c.own.id) continue;
     const double weight = eligible_weight(c.strength, other, c.distance, config_);
     if (weight < 0) continue;
@@ -138,7 +138,8 @@ void PaperBoundary::decide_crossings(const TileOutputs& outputs, TileIndex t) {
   crossings_.append(t, here);
 }
 
-// Finds the loops that nothing outside of the tile has to do with. What may matter elsewhere goes on.
+// Finds the loops that do not depend on anything outside of the tile. Edges that may matter elsewhere are
+// passed on.
 void PaperBoundary::span_tile(const TileOutputs& outputs, TileIndex t) {
   const Tile& tile = tiling_.tiles[t];
   std::vector<WeightedEdge> edges = outputs.read(kInside, t);

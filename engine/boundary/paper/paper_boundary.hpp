@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boundary edges of the paper are the eligible edges of G. The spanning graph admits those that close long
-// loops only (paper, 5.1). Loops are found in it by breadth-first search (5.2).
+// Boundary edges of the paper are the eligible edges of G. The spanning graph admits an edge within a tree
+// only if it closes a long loop (paper, 5.1). Breadth-first search finds the loops in this graph (5.2).
 #pragma once
 
 #include "engine/boundary/boundary_method.hpp"
@@ -34,9 +34,9 @@ struct EligibleCrossing {
   double weight;
 };
 
-// Each tile decides what it can: most edges, and the loops that lead to no other tile. What it passes on is
-// stitched by component, spanned again and searched. A component larger than memory is sorted on disk and
-// spanned in mapped arrays.
+// Each tile decides what it can: most edges, and the loops that lead to no other tile. It passes on the other
+// edges. They are stitched by component, spanned again and searched. A component larger than memory is sorted
+// on disk and spanned in mapped arrays.
 class PaperBoundary final : public BoundaryMethod {
  public:
   PaperBoundary(const Tiling& tiling, Job& job);

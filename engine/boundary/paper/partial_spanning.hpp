@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// span_partially: what of the spanning graph, and of its loops, a part of the eligible edges decides alone,
-// such as those of a tile.
+// span_partially: finds what a part of the eligible edges, such as a tile, decides alone of the spanning
+// graph and its loops.
 #pragma once
 
 #include "engine/boundary/paper/spanning.hpp"
@@ -25,16 +25,16 @@ struct PartVertices {
 
 struct PartialSpanning {
   SpanningGraph complete;  // whose loops are loops of the whole
-  // Passed on, in any order: edges that are in the graph for certain, and those that may be.
+  // Edges that are passed on, in any order. Taken edges are in the graph for certain, undecided edges may be.
   std::vector<WeightedEdge> taken, undecided;
-  std::span<LocalIndex> links;  // of a UnionFind: vertices that all edges of the part connect
+  std::span<LocalIndex> links;  // links of a UnionFind: vertices that all edges of the part connect
 };
 
-// `edges`: all that have an owned end, in any order; a: owned. `span_whole` joins the edges passed on with
-// those of other parts. That gives a graph whose loops are those of the whole, without the complete ones.
-// Most edges are certainly left out, and are not passed on. Trees, and cycles beyond a bridge, are not passed
-// on either: no loop needs them. Without foreign vertices nothing is passed on. The graph lives in `scratch`.
-// Cost: that of spanning the part.
+// `edges`: all edges that have an owned end, in any order; a: owned. `span_whole` joins the edges that all
+// parts pass on to one graph. The loops of that graph and the complete ones are all loops of the whole. Most
+// edges are certainly left out, and are not passed on. Trees, and cycles beyond a bridge, are not passed on
+// either: no loop needs them. Without foreign vertices nothing is passed on. The graph lives in `scratch`.
+// The cost is the cost of spanning the part.
 PartialSpanning span_partially(const PartVertices& vertices, std::vector<WeightedEdge> edges, std::int64_t e,
                                Scratch& scratch);
 

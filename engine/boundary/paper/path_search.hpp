@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a path of few edges joins two vertices.
+// Finds whether a path of few edges joins two vertices.
 #pragma once
 
 #include "engine/model/ids.hpp"
@@ -15,8 +15,9 @@ namespace lacuna::paper {
 // Two balls grow towards each other, the smaller front first. It keeps its memory for the next search.
 class PathSearch {
  public:
-  // Is there a path of at most `limit` edges? mark_of(v): a number of each vertex by reference, 0 before the
-  // first search. for_each_neighbour(v, visit): visit(w). Cost: the vertices within limit / 2 steps.
+  // Returns whether there is a path of at most `limit` edges. `mark_of(v)` is a number of vertex v, by
+  // reference. It is 0 before the first search. `for_each_neighbour(v, visit)` calls `visit(w)`. Cost: the
+  // vertices within limit / 2 steps.
   template <class MarkOf, class ForEachNeighbour>
   bool connects(LocalIndex a, LocalIndex b, std::int64_t limit, MarkOf&& mark_of,
                 ForEachNeighbour&& for_each_neighbour) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loops of the spanning graph as the search finds them: by their vertices alone.
+// Loops of the spanning graph as the search finds them. They consist of vertices alone.
 #pragma once
 
 #include "engine/evaluate/tile_outputs.hpp"

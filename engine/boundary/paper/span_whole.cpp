@@ -21,7 +21,7 @@ struct UndecidedEdge {
   }
 };
 
-// All passed edges by vertex, in both directions. Those that are not in the graph weigh infinitely.
+// All passed edges by vertex, in both directions. Edges that are not in the graph weigh infinitely.
 class WholeGraph {
  public:
   WholeGraph(std::span<const PointId> ids, const ForEachPassedEdge& for_each_edge, Scratch& scratch)
@@ -49,7 +49,7 @@ class WholeGraph {
     });
   }
 
-  // By way of edges before this one.
+  // Returns whether edges before this one connect its ends.
   bool connects(const UndecidedEdge& edge, std::int64_t limit) {
     const auto comes_before = [&](LocalIndex v, std::uint64_t at) {
       if (weights_[at] != edge.weight) return weights_[at] < edge.weight;
@@ -70,7 +70,7 @@ class WholeGraph {
     weight_of(edge.b, edge.a) = edge.weight;
   }
 
-  // What was not taken goes.
+  // Removes the edges that were not taken.
   SpanningGraph finish() {
     std::uint64_t begin = 0, end = 0;
     for (std::size_t v = 0; v < ids_.size(); ++v) {

@@ -7,8 +7,8 @@
 namespace lacuna::paper {
 namespace {
 
-// Half steps from an open vertex, or from the end of an undecided edge, to the middle of the unknown. Two of
-// them may be as near to each other as one edge.
+// Half steps from an open vertex, or from the end of an undecided edge, to the middle of the unknown. Two
+// such vertices may be one edge apart.
 constexpr std::int64_t kToUnknown = 1;
 
 }  // namespace
@@ -46,12 +46,12 @@ EdgeDecision Spanning::add(LocalEdge edge) {
   return EdgeDecision::taken;
 }
 
-// Can there be a path of fewer than e edges by way of what is not known?
+// Returns whether a path of fewer than e edges may lead through the unknown part of the graph.
 bool Spanning::may_connect_outside(LocalIndex a, LocalIndex b) const {
   return !nearness_.empty() && std::int64_t{nearness_[a]} + nearness_[b] >= horizon_;
 }
 
-// v is at least so near to what is not known, and with it those around it.
+// Notes that v is at least this near to the unknown part, and raises the nearness of the vertices around v.
 void Spanning::approach(LocalIndex v, std::int64_t nearness) {
   const auto raise = [&](LocalIndex w, std::int64_t to) {
     if (to <= nearness_[w]) return;

@@ -29,10 +29,10 @@ struct SpanningGraph {
 
 enum class EdgeDecision : std::uint8_t { taken, left_out, undecided };
 
-// Built edge by edge, in ascending order of (w_total, lower id, higher id). An edge between two trees joins
-// them. One within a tree is taken only if the loop that it closes has more than e edges. Then no path of
-// fewer than e edges joins its ends so far. The graph lives in `scratch`. Cost: per edge within a tree, the
-// vertices within e / 2 steps.
+// The graph is built edge by edge, in ascending order of (w_total, lower id, higher id). An edge between two
+// trees joins them. An edge within a tree is taken only if the loop that it closes has more than e edges.
+// Then no path of fewer than e edges joins its ends so far. The graph lives in `scratch`. Cost: per edge
+// within a tree, the vertices within e / 2 steps.
 //
 // `open`: vertices at which edges may be missing, since others know them. A decision is then made only if it
 // holds whatever is missing. An edge is left out for good, since more edges only make paths shorter. It is
@@ -44,18 +44,18 @@ class Spanning {
            std::span<const LocalIndex> open = {});
 
   EdgeDecision add(LocalEdge edge);
-  // An edge may be missing at v, or be undecided.
+  // Returns whether an edge may be missing at v, or is undecided.
   bool is_open(LocalIndex v) const;
   SpanningGraph finish();
 
  private:
-  // A vertex with its first neighbours inlined: most of the graph is chains and trees, and a search touches
+  // A vertex with its first neighbours inlined. Most of the graph is chains and trees, and a search touches
   // half a cache line per vertex.
   struct Node {
     static constexpr std::size_t kInline = 5;
     std::uint32_t mark;  // of the search that reached it last
     std::uint32_t degree;
-    std::uint32_t more;  // 1 + place of further neighbours; 0: none
+    std::uint32_t more;  // 1 + place of further neighbours; 0: no further ones
     std::array<LocalIndex, kInline> neighbours;
   };
   struct MoreNeighbours {
@@ -79,7 +79,8 @@ class Spanning {
   std::uint64_t half_edges_ = 0;
   PathSearch search_;
   std::vector<LocalIndex> approached_;
-  // By vertex, in half steps, how far below `horizon_` its way to what is not known is; empty: all is known.
+  // By vertex, in half steps: how far its distance to the unknown part is below `horizon_`. Empty: all is
+  // known.
   std::span<std::uint32_t> nearness_;
   std::int64_t horizon_;
 };

@@ -12,7 +12,7 @@
 namespace lacuna::tangential {
 namespace {
 
-// Memory is prefetched so many steps before its use: it is mostly not in the cache.
+// Memory is prefetched this many steps before its use: it is mostly not in the cache.
 constexpr std::size_t kAhead = 8;
 
 // Finds the points and measures their stars.
@@ -49,7 +49,7 @@ class TileStarFinder {
   }
 
  private:
-  // What has become of a point.
+  // The state of a point in the search.
   enum Mark : std::uint8_t {
     kHasSite = 1,  // it has a site, or is about to
     kWanted = 2,   // its star is found, or about to be, or is not found here
@@ -187,13 +187,14 @@ class TileStarFinder {
         });
   }
 
-  // The star of a vertex does not have its triangle with a and b, or may turn out not to.
+  // Returns whether the star of a vertex does not have its triangle with a and b, or may turn out not to have
+  // it.
   bool may_lack(LocalIndex vertex, LocalIndex a, LocalIndex b) const {
     if (is_measured(state(vertex))) return !found_.stars[vertex].has_triangle(a, b);
     return is_in_belt(state(vertex)) && !is_certain_;
   }
 
-  // Nothing is left to enter.
+  // Returns whether nothing is left to enter for the point.
   bool is_known(LocalIndex p) const {
     return (marks_[p] & kEntered) != 0 || (is_in_belt(state(p)) && (!is_certain_ || found_.is_active[p]));
   }

@@ -22,12 +22,12 @@
 namespace lacuna::tangential {
 
 // The stars of a tile's owned points, as far as the tile alone knows. Points that other tiles may make active
-// are measured or in the belt. From the belt on, the search takes each triangle for inconsistent that may
-// turn out so.
+// are measured or in the belt. After the belt, the search takes each triangle for inconsistent that may turn
+// out so.
 struct TileStars {
   std::vector<PointState> states;
   std::vector<std::uint8_t> is_active;  // for certain
-  // Measured ones, with the consistency of each triangle. Others are found for their samplings only.
+  // Measured stars, with the consistency of each triangle. Other stars are found for their samplings only.
   Stars<LocalIndex> stars;
   std::vector<Sampling>
       samplings;  // of measured and inner points, and of all their neighbours but border points

@@ -14,7 +14,7 @@
 namespace lacuna::tangential {
 namespace {
 
-// A tile's belt points, and the rows of these and of their neighbours.
+// A tile's belt points, and the rows of these points and their neighbours.
 class Belt {
  public:
   Belt(const TileOutputs& outputs, TileIndex t)

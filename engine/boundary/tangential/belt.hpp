@@ -9,14 +9,15 @@
 
 namespace lacuna::tangential {
 
-// Replaces the samples of a tile's border points. The sites of all rows of its belt are published.
+// Replaces the samples of a tile's border points. The tiles must have published the sites of all rows of its
+// belt.
 void sample_border(StarExchange& exchange, TileIndex tile, const TangentialConfig& config);
 
-// Adds the stars of a tile's belt to its open ones. Each sends its triangles to the tiles of its foreign link
-// vertices. The samples of all points of the belt's rows are known.
+// Adds the stars of a tile's belt to its open ones. Each star sends its triangles to the tiles of its foreign
+// link vertices. The samples of all points of the belt's rows must be known.
 void measure_belt(StarExchange& exchange, TileIndex tile, const TangentialConfig& config);
 
-// Memory that either takes.
+// Returns the memory that `sample_border` or `measure_belt` takes.
 std::uint64_t belt_bytes(const StarExchange& exchange, TileIndex tile);
 
 }  // namespace lacuna::tangential

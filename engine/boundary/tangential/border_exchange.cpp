@@ -12,7 +12,7 @@
 namespace lacuna::tangential {
 namespace {
 
-// A tile whose active points grow, or whose wedges are known then.
+// A tile whose active points grow, or whose wedges are then known.
 struct GrowingTile {
   GrowingTile(StarExchange& stars, TileIndex t, std::span<const std::uint8_t> is_measured)
       : open(stars.open_stars(t)),
@@ -29,7 +29,7 @@ struct GrowingTile {
   Growth growth;
 };
 
-// Those of `tiles` that are not marked.
+// Returns the tiles among `tiles` that are not marked.
 std::vector<TileIndex> without_marked(std::span<const TileIndex> tiles, std::span<const std::uint8_t> marks) {
   std::vector<TileIndex> unmarked;
   for (const TileIndex t : tiles) {
@@ -80,7 +80,7 @@ std::uint64_t BorderExchange::growing_bytes(TileIndex tile) const {
          stars_.tiling.tiles[tile].points * sizeof(LocalIndex);
 }
 
-// These tiles and all that they border on.
+// Returns these tiles and all tiles that they border on.
 std::vector<TileIndex> BorderExchange::with_neighbours(std::span<const TileIndex> tiles) const {
   std::set<TileIndex> all;
   for (const TileIndex t : tiles) all.insert(stars_.around[t].begin(), stars_.around[t].end());
@@ -113,7 +113,7 @@ bool BorderExchange::has_active_belt(TileIndex t) const {
   });
 }
 
-// Requests the tiles of points that become active, where another tile has to know of it.
+// Requests the tiles of points that become active, where another tile has to know of the point.
 void BorderExchange::grow(TileIndex t, Rounds& rounds) {
   const Tile& tile = stars_.tiling.tiles[t];
   GrowingTile growing(stars_, t, is_measured_);

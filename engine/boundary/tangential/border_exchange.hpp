@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stars of the belts, between tiles.
+// Exchanges the stars of the belts between tiles.
 #pragma once
 
 #include "engine/boundary/tangential/star_exchange.hpp"
@@ -14,12 +14,12 @@ class Rounds;
 
 namespace lacuna::tangential {
 
-// Finds the active points, and with them the wedges, that depend on several tiles.
+// Finds the active points and the wedges that depend on several tiles.
 //
 // Active points are a least fixed point (method.md, C.4). So tiles may grow them in any order, and again
-// while a neighbouring tile has new ones. A tile takes part once a point of its belt is active. Then its belt
-// is measured, after the borders of the tiles around it are sampled. Cost: the stars of these belts, and the
-// open stars once in each round.
+// while a neighbouring tile has new ones. A tile takes part once a point of its belt is active. Its belt is
+// measured after the borders of the tiles around it are sampled. Cost: the stars of the measured belts, and
+// the open stars once in each round.
 class BorderExchange {
  public:
   BorderExchange(const TileOutputs& outputs, const Tiling& tiling, Job& job);
@@ -27,7 +27,7 @@ class BorderExchange {
   // Finds all active points.
   void find_active_points();
 
-  // All wedges of a tile, in ascending row, once all active points are found. From any thread.
+  // Returns all wedges of a tile, in ascending row, once all active points are found. From any thread.
   std::vector<Wedge> wedges(TileIndex tile);
   std::uint64_t most_wedges(TileIndex tile) const;
   std::uint64_t growing_bytes(TileIndex tile) const;  // memory that finding them takes

@@ -13,8 +13,8 @@
 namespace lacuna::tangential {
 namespace {
 
-// An end by its boundary edge, which exactly one other end of that scale shares. Chain c has the ends 2c and
-// 2c + 1.
+// An end with its boundary edge, which exactly one other end of that scale shares. Chain c has the ends 2c
+// and 2c + 1.
 struct NumberedEnd {
   Row low, high;
   LocalIndex end;
@@ -50,7 +50,7 @@ class Partners {
     first_.reset();
   }
 
-  // All ends are added.
+  // Ends the search, once all ends are added.
   void finish() const {
     if (first_) fail();
   }

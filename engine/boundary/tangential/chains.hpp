@@ -28,7 +28,7 @@ struct OpenChain {
   std::array<ChainEnd, 2> ends;  // of its first and of its last point
 };
 
-// For each closed curve of whole components, with arrays of its own.
+// Receives each closed curve of whole components, with arrays of its own.
 using VisitCurve = std::function<void(std::span<const CurvePoint>, Scale, Scratch&)>;
 
 // Starts and directions of curves depend on the order of `chains`. Memory: `budget` bytes for the arrays of a
@@ -36,8 +36,8 @@ using VisitCurve = std::function<void(std::span<const CurvePoint>, Scale, Scratc
 void close_chains(std::span<const OpenChain> chains, const Column<CurvePoint>& points,
                   const std::filesystem::path& workspace, std::uint64_t budget, const VisitCurve& visit);
 
-// Does this for a component whose chains do not fit in memory: they are sorted on disk and followed in mapped
-// arrays. Memory: three times the budget.
+// Closes the chains of a component that do not fit in memory. It sorts them on disk and follows them in
+// mapped arrays. Memory: three times the budget.
 void close_many_chains(const Stitch<OpenChain>::ForEachRecord& for_each_chain, std::uint64_t count,
                        const Column<CurvePoint>& points, const std::filesystem::path& workspace,
                        std::uint64_t budget, const VisitCurve& visit);

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint32_t kNone = UINT32_MAX;
 
-// Bit 2 i: vertex i of the first kFewVertices is that point.
+// Bit 2 i is set where vertex i of the first kFewVertices is that point.
 HWY_INLINE std::uint32_t places_of(LocalIndex point, const LinkVertex<LocalIndex>* link) {
   constexpr hn::CappedTag<std::uint32_t, 2 * kFewVertices> kVertices;
   if constexpr (kLanes<decltype(kVertices)> == 2 * kFewVertices) {  // a point and a radius each
@@ -34,7 +34,7 @@ HWY_INLINE std::uint32_t places_of(LocalIndex point, const LinkVertex<LocalIndex
   }
 }
 
-// The vertex of a large link after which b follows a, or a follows b.
+// Returns the vertex of a large link after which b follows a, or a follows b.
 std::uint32_t find_in_large_link(const LinkVertex<LocalIndex>* link, std::uint32_t size, LocalIndex a,
                                  LocalIndex b) {
   for (std::uint32_t i = 0; i < size; ++i) {
@@ -44,8 +44,8 @@ std::uint32_t find_in_large_link(const LinkVertex<LocalIndex>* link, std::uint32
   return kNone;
 }
 
-// The link vertex at which the point's triangle with a and b begins; kNone: its star does not have it within
-// the coarse bound.
+// Returns the link vertex at which the point's triangle with a and b begins. Returns kNone where its star does
+// not have the triangle within the coarse bound.
 HWY_INLINE std::uint32_t find_triangle(const StarTable& stars, LocalIndex point, LocalIndex a, LocalIndex b) {
   const auto [begin, size, bound] = stars.places[point];
   const LinkVertex<LocalIndex>* const link = stars.vertices + begin;
@@ -95,8 +95,9 @@ HWY_EXPORT(compare_triangles);
 
 namespace {
 
-// The triangles in the stars of active points [first, last), each in the star of its lowest active point, to
-// `queries`: returns how many. Without a branch: processors cannot predict which star that is.
+// Writes the triangles in the stars of active points [first, last), each in the star of its lowest active
+// point, to `queries`. Returns how many. It works without a branch: processors cannot predict which star that
+// is.
 std::size_t list_triangles(const Stars<LocalIndex>& stars, std::span<const PointState> states,
                            LocalIndex first, LocalIndex last, TriangleQuery* queries) {
   const auto is_lower_active = [&](LocalIndex p, LocalIndex q) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// consistency: which triangles of measured stars the stars of all their active vertices have.
+// consistency: finds which triangles of measured stars the stars of all their active vertices have.
 #pragma once
 
 #include "engine/boundary/tangential/stars.hpp"
@@ -10,7 +10,7 @@
 
 namespace lacuna::tangential {
 
-// Links that are compared in one step have no more vertices; as many are readable beyond the last link.
+// Links with at most this many vertices are compared in one step. As many are readable beyond the last link.
 inline constexpr std::uint32_t kFewVertices = 8;
 
 // Fills `consistencies`. A triangle is undecided where a vertex is active in the belt or may become active,

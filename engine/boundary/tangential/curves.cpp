@@ -14,12 +14,12 @@
 namespace lacuna::tangential {
 namespace {
 
-// Place i of the curve as it is read from `start` on, in either direction.
+// Returns place i of the curve as it is read from `start` on, in either direction.
 std::size_t place(std::size_t start, std::size_t i, bool forwards, std::size_t count) {
   return forwards ? (start + i) % count : (start + count - i) % count;
 }
 
-// The points that a curve passes more than once, ascending.
+// Returns the points that a curve passes more than once, ascending.
 std::span<const PointId> repeated_points(std::span<const CurvePoint> curve, Scratch& scratch) {
   SortedRuns<PointId> ids(scratch.folder() / "curve-ids", scratch.budget() / 4);
   scratch.for_each(curve, [&](const CurvePoint& p) { ids.add(p.id()); });
@@ -45,7 +45,7 @@ std::vector<WedgePartners> partners_of(std::span<const Wedge> wedges) {
   for (const Wedge& wedge : wedges) ++begins[points.number(wedge.row) + 1];
   std::partial_sum(begins.begin(), begins.end(), begins.begin());
 
-  // The wedge at `point` with an edge to `neighbour`: at each scale there is at most one.
+  // Returns the wedge at `point` with an edge to `neighbour`: at each scale there is at most one.
   const auto find = [&](Row point, Row neighbour, Scale scale) {
     const std::optional<LocalIndex> number = points.find(point);
     if (!number) return kNoIndex;
@@ -130,7 +130,7 @@ void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
     visit(whole);
     return;
   }
-  // For each repeated point: 1 + the place on the path, or 0 if it is not on it.
+  // For each repeated point, this is 1 + its place on the path, or 0 if it is not on the path.
   const std::span<std::uint32_t> places = scratch.array<std::uint32_t>(repeated.size());
   const auto place_of = [&](const CurvePoint& p) -> std::uint32_t* {
     const auto at = std::lower_bound(repeated.begin(), repeated.end(), p.id());

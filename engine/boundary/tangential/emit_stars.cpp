@@ -34,7 +34,7 @@ class TileRadii {
     return radii;
   }
 
-  // Mean surface share of a point's neighbours.
+  // Returns the mean surface share of a point's neighbours.
   float surface_around(LocalIndex p) const {
     const std::span<const LocalIndex> neighbours = tile_.neighbourhoods[p];
     float sum = 0;
@@ -59,7 +59,7 @@ class TileRadii {
   SamplingRadius radii_;
 };
 
-// Ascending.
+// Returns the seeds, ascending.
 std::vector<LocalIndex> seeds_of(const EvaluatedTile& tile, double seed_probability) {
   std::vector<LocalIndex> seeds;
   std::copy_if(tile.candidates.begin(), tile.candidates.end(), std::back_inserter(seeds),
@@ -67,7 +67,7 @@ std::vector<LocalIndex> seeds_of(const EvaluatedTile& tile, double seed_probabil
   return seeds;
 }
 
-// Marks points, by is_wanted(p) of the owned ones, and all of their neighbours.
+// Marks the owned points for which is_wanted(p) is true, and all of their neighbours.
 template <class Wanted>
 std::vector<std::uint8_t> with_neighbours(const EvaluatedTile& tile, Wanted&& is_wanted) {
   std::vector<std::uint8_t> marks(tile.points.size());
@@ -79,7 +79,7 @@ std::vector<std::uint8_t> with_neighbours(const EvaluatedTile& tile, Wanted&& is
   return marks;
 }
 
-// Wedges where all triangles are decided; else the star stays open.
+// Puts out wedges where all triangles are decided; else the star stays open.
 void emit_wedges(const EvaluatedTile& tile, const TileStars& found, TileRadii& radii,
                  const TangentialConfig& config, TileOutput& output) {
   const std::vector<Row>& rows = tile.points.rows;
@@ -117,7 +117,7 @@ void emit_wedges(const EvaluatedTile& tile, const TileStars& found, TileRadii& r
   output.add(kWedges, wedges);
 }
 
-// The belt, and the sites and samplings that its stars need, here and in other tiles.
+// Puts out the belt, and the sites and samplings that its stars need, here and in other tiles.
 void emit_belt(const EvaluatedTile& tile, const TileStars& found, TileRadii& radii, TileOutput& output) {
   const auto is_around = with_neighbours(tile, [&](LocalIndex p) { return is_in_belt(found.states[p]); });
   std::vector<LocalIndex> around;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// emit_stars: what one tile alone knows of the stars of its points.
+// emit_stars: finds what one tile alone knows of the stars of its points.
 #pragma once
 
 #include "engine/boundary/tangential/star_streams.hpp"
@@ -8,7 +8,7 @@
 
 namespace lacuna::tangential {
 
-// Finds the stars of the tile's active points, and of those that other tiles may make active. Puts out
+// Finds the stars of the tile's active points, and of points that other tiles may make active. Puts out
 // certain wedges, open stars and the belt.
 void emit_stars(const EvaluatedTile& tile, const TangentialConfig& config, TileOutput& output);
 

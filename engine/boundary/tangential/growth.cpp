@@ -49,7 +49,7 @@ void Growth::find_active_points(const std::function<void(Row)>& visit) {
   }
 }
 
-// Goes along the inconsistent triangles of an active point's star: true if a point became active.
+// Goes along the inconsistent triangles of an active point's star. Returns true if a point became active.
 bool Growth::follow(std::size_t s, const std::function<void(Row)>& visit) {
   bool found = false;
   const Star<Row> star = stars_[s];
@@ -83,12 +83,13 @@ std::vector<Wedge> Growth::wedges(const TangentialConfig& config) {
   return wedges;
 }
 
-// The triangle that begins at link vertex i of star s. Once it is inconsistent, it stays so.
+// Returns whether the triangle that begins at link vertex i of star s is inconsistent. Once it is, it stays
+// so.
 bool Growth::is_inconsistent(std::size_t s, std::size_t i) {
   return !stars_.consistencies_of(s)[i].at(Scale::kFine) || scale_of(s, i) != Scale::kFine;
 }
 
-// This is the scale of that triangle as far as the active points are known. More active points never lower
+// Returns the scale of that triangle as far as the active points are known. More active points never lower
 // the scale.
 Scale Growth::scale_of(std::size_t s, std::size_t i) {
   const Star<Row> star = stars_[s];
@@ -99,9 +100,9 @@ Scale Growth::scale_of(std::size_t s, std::size_t i) {
   return consistency.scale;
 }
 
-// The scale of the triangle with the point of star s and a third one, in the star of another point. A point
-// that is not active has every triangle. A star that might have an undecided triangle is among the open ones,
-// or its tile has sent the triangle.
+// Returns the scale of the triangle with the point of star s and a third one, in the star of another point. A
+// point that is not active has every triangle. A star that might have an undecided triangle is among the open
+// ones, or its tile has sent the triangle.
 Scale Growth::scale_in(Row point, std::size_t s, Row third) const {
   if (!active_.contains(point)) return Scale::kFine;
   if (!tile_.owns(point)) {

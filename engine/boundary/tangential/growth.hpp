@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// growth: active points and wedges among a tile's open stars, with what other tiles sent.
+// growth: grows active points among a tile's open stars, and finds their wedges, with what other tiles sent.
 #pragma once
 
 #include "engine/boundary/tangential/star_exchange.hpp"
@@ -13,23 +13,23 @@
 
 namespace lacuna::tangential {
 
-// Whether any star in another tile has a triangle with this point. `remote_triangles`: sorted.
+// Returns whether any star in another tile has a triangle with this point. `remote_triangles`: sorted.
 bool has_remote_triangle(std::span<const RemoteTriangle> remote_triangles, LocalIndex point);
 
-// Grows the active points of a tile along inconsistent triangles (method.md, C.4). The open stars are those
-// of all points that may become active; `remote_triangles` are sorted. A foreign star that is not measured
-// yet makes no triangle inconsistent: `is_measured`, by tile, are those whose stars sent their triangles.
+// Grows the active points of a tile along inconsistent triangles (method.md, C.4). All points that may become
+// active have an open star; `remote_triangles` are sorted. A foreign star that is not measured yet makes no
+// triangle inconsistent. `is_measured`, by tile, marks the tiles whose stars sent their triangles.
 class Growth {
  public:
   Growth(const Tiling& tiling, TileIndex tile, std::span<const std::uint8_t> is_measured, RowSet& active,
          const OpenStars& open, std::span<const RemoteTriangle> remote_triangles);
 
-  // Vertices of inconsistent triangles of active points become active, here and in other tiles, until there
+  // Makes vertices of inconsistent triangles of active points active, here and in other tiles, until there
   // are no more. It calls visit(row) for each point that was not active before. Several tiles may grow at
   // once.
   void find_active_points(const std::function<void(Row)>& visit);
 
-  // Each wedge of active points, in ascending row. All active points are known.
+  // Returns each wedge of active points, in ascending row. All active points must be known.
   std::vector<Wedge> wedges(const TangentialConfig& config);
 
  private:

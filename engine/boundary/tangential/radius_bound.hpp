@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// radius_bound: the largest circumradius of a triangle, from how points lie around the star's point
-// (method.md, C.2).
+// radius_bound: the largest circumradius of a triangle. It follows from how points lie around the star's
+// point (method.md, C.2).
 //
 // The circumradii of a star show how large the empty circles of the sampling are, and how much they differ.
 // On a grid all are 0.71 spacings; among points at random there are small and large ones. At a hole some are
@@ -18,7 +18,7 @@
 
 namespace lacuna::tangential {
 
-// Returns the samplings of stars as they are found, up to kBatchSize at a time. Zeros where a link is empty.
+// Returns the samplings of found stars, up to kBatchSize at a time. Returns zeros where a link is empty.
 std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars,
                                               const TangentialConfig& config);
 
@@ -28,18 +28,18 @@ struct PointAndNeighbours {
   std::span<const LocalIndex> neighbours;
 };
 
-// M is the median circumradius of a point and its neighbours, and S that of their spreads. Each is at most
-// half of the point's mean distance (`most_radius`). The fine bound is 1.5 M + S (`max_radius`), and the
-// coarse one twice that (`coarse_bound`). Points without a star, or with large triangles only, do not count;
-// where none counts, M and S are that half. The bounds of a point without a star are 0. A batch of points at
-// once: keeps its memory.
+// M is the median circumradius of a point and its neighbours, and S is the median of their spreads. Each is
+// at most half of the point's mean distance (`most_radius`). The fine bound is 1.5 M + S (`max_radius`), and
+// the coarse bound is twice as large (`coarse_bound`). Points without a star, or with large triangles only,
+// do not count. Where no point counts, M and S are half of the mean distance. The bounds of a point without a
+// star are 0. The class takes a batch of points at once and keeps its memory.
 class RadiusBounder {
  public:
   RadiusBounder(std::span<const Sampling> samplings, const TangentialConfig& config)
       : samplings_(samplings), config_(config) {}
 
-  // visit(i, bound) for each of `count` points; surroundings(i): of the i-th. A bound does not depend on the
-  // other points.
+  // Calls visit(i, bound) for each of `count` points. surroundings(i) returns the surroundings of point i. A
+  // bound does not depend on the other points.
   template <class Around, class Visit>
   void for_each(std::size_t count, Around&& surroundings, Visit&& visit) {
     for_each_batch(count, points_, surroundings, [&](std::size_t first) {

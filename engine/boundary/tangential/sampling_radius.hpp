@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // sampling_radius: how large the gaps of the sampling itself are around a point (method.md, C.6).
 //
-// The circumradii of a star's triangles show how large the empty circles between points are. Those of
-// triangles in a hole do not count. Nine in ten of the circumradii around a point, within a bound, do not
-// exceed its sampling radius. Unlike the median radius, it is large where points come in pairs, lines or
-// clusters.
+// The circumradii of a star's triangles show how large the empty circles between points are. Triangles in a
+// hole do not count. Nine in ten of the circumradii around a point, within a bound, do not exceed its
+// sampling radius. Unlike the median radius, it is large where points come in pairs, lines or clusters.
 #pragma once
 
 #include "engine/boundary/tangential/star.hpp"
@@ -19,7 +18,7 @@
 namespace lacuna::tangential {
 
 // The smallest circumradii of a star that do not lie in a hole (`hole_radius`), in units of
-// `Sampling::distance`. Where there are fewer, the last ones are infinite.
+// `Sampling::distance`. Where a star has fewer, the last ones are infinite.
 struct StarRadii {
   static constexpr std::size_t kMost = 8;
   std::array<float, kMost> radii;
@@ -35,8 +34,8 @@ class SamplingRadius {
   void clear() { radii_.clear(); }
   // Adds the circumradii of the point's star, or of a neighbour's.
   void add(const StarRadii& star, double distance);
-  // Nine in ten of the circumradii within a bound do not exceed this radius. It is rounded up to a 64th of
-  // the bound, and it is the bound where there are none. Cost: linear.
+  // Returns a radius that nine in ten of the circumradii within a bound do not exceed. It is rounded up to a
+  // 64th of the bound. Without any circumradius it is the bound. Cost: linear.
   double within(double bound);
 
  private:

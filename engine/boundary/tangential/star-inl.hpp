@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Formulas of the stars, for the points of a batch and for one point in the exact fallback.
+// Formulas of the stars. Batches of points use them, and so does the exact fallback for one point.
 #if defined(LACUNA_BOUNDARY_STAR_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LACUNA_BOUNDARY_STAR_INL
 #undef LACUNA_BOUNDARY_STAR_INL
@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lacuna::tangential::HWY_NAMESPACE {
 using namespace lacuna::HWY_NAMESPACE;
 
-// A neighbour in the tangent plane, inverted; or the way from one to another. NaN: undefined.
+// A neighbour in the tangent plane, inverted; or the vector from one neighbour to another. NaN: undefined.
 template <class V>
 struct View {
   V x, y;
@@ -32,12 +32,12 @@ HWY_INLINE View<V> view_of(Vector<V> offset, V weight, const Frame<V>& frame) {
   return {dot(offset, frame.u) * inverse, dot(offset, frame.v) * inverse};
 }
 
-// The circumradius of p and two neighbours, in units of `distance`. (x, y): the view
-// of one of them; (dx, dy): from there to the view of the other.
+// Returns the circumradius of p and two neighbours, in units of `distance`. (x, y) is the view of one
+// neighbour; (dx, dy) leads from there to the view of the other.
 template <class V>
 HWY_INLINE auto radius_at(V x, V y, V dx, V dy, V distance) {
-  // Both without a unit. From here on in single precision, as the result is kept: roots and quotients take a
-  // quarter of the time.
+  // Both values are without a unit. The rest is computed in single precision, as the result is kept so: roots
+  // and quotients take a quarter of the time.
   const hn::Rebind<float, TagOf<V>> single;
   const V unit = distance * distance;
   const auto squared_length = hn::DemoteTo(single, (dx * dx + dy * dy) * unit);

@@ -12,7 +12,7 @@
 
 namespace lacuna::tangential {
 
-// A point of the surface as the stars around it need it: its weighted site.
+// A point of the surface in the form that the stars around it need: its weighted site.
 struct alignas(64) Site {
   double position[3];
   double shift[3];   // to the plane through its neighbours: takes noise out
@@ -28,19 +28,19 @@ struct LinkVertex {
   float radius;  // in units of `Sampling::distance`
 };
 
-// How points lie around one.
+// How points lie around a point.
 struct Sampling {
   double distance = 0;  // harmonic mean of r over the point and its neighbours (strays, which are far from
                         // each other, count little); 0: the point has no star
   double median_radius = 0;  // median circumradius of its triangles that lie among points; 0: there are none
-  double spread = 0;         // and how far the smallest of these is below
+  double spread = 0;         // distance from the median down to the smallest of them
 };
 
-// The bound on the circumradius that a triangle keeps to. Curves are found at both (method.md, C.2 and C.6).
+// The circumradius bound that a triangle keeps to. Curves are found at both bounds (method.md, C.2 and C.6).
 enum class Scale : std::uint8_t {
   kFine,
-  kCoarse,  // not to the fine one
-  kNone,    // to neither: it is no triangle of the surface
+  kCoarse,  // it keeps to the coarse bound, not to the fine one
+  kNone,    // it keeps to neither: it is no triangle of the surface
 };
 inline constexpr std::array kScales{Scale::kFine, Scale::kCoarse};
 
@@ -54,7 +54,7 @@ struct RadiusBound {
   }
 };
 
-// Where a star's link is among the vertices of all. A star is measured once its bound is known.
+// Where a star's link is among the vertices of all links. A star is measured once its bound is known.
 struct StarPlace {
   std::uint32_t begin = 0, size = 0;
   RadiusBound bound;
@@ -70,7 +70,7 @@ struct Star {
   std::size_t next(std::size_t i) const { return i + 1 < link.size() ? i + 1 : 0; }
   // The bound that the triangle beyond link vertex i of a measured star keeps to.
   Scale scale_of(std::size_t i) const { return bound.scale_of(link[i].radius); }
-  // The bound of the triangle with a and b; kNone if the star does not have it.
+  // Returns the bound of the triangle with a and b, and kNone if the star does not have it.
   Scale scale_of(Name a, Name b) const {
     for (std::size_t i = 0; i < link.size(); ++i) {
       if (link[i].point != a) continue;

@@ -28,13 +28,13 @@ HWY_INLINE Count count(std::size_t number) {
 }
 
 // A view at most this far from an edge is on it. The unit is the edge's |x| + |y| times the distance of the
-// farthest view. That is 500 times what rounding can do.
+// farthest view. That is 500 times the possible rounding error.
 constexpr double kOnEdge = 1e-12;
 
-// What rounding can do at most, by a hundred times, in units of the square of that distance.
+// A hundred times the largest possible rounding error, in units of the square of that distance.
 constexpr double kRounding = 1e-13;
 
-// Comparisons of ranks depend on one another: as many at a time do not.
+// Comparisons of ranks depend on one another. This many at a time are independent.
 constexpr std::size_t kChains = 4;
 
 // The views of as many points as a vector holds, by rank.
@@ -44,7 +44,7 @@ struct Views {
   V distance;         // `Sampling::distance`
 };
 
-// What of a site the stars need.
+// The parts of a site that the stars need.
 struct Sites {
   Vector<V> position, shift;
   V closeness, weight;
@@ -63,7 +63,8 @@ HWY_INLINE Sites load_sites(const double* const (&sites)[kStep]) {
   return {{x, y, z}, {shift_x, shift_y, shift_z}, closeness, weight};
 }
 
-// Finds the views of points `first` and the next. A neighbour that a point has not is at an offset of 0.
+// Finds the views of point `first` and the next ones. A neighbour that a point does not have is at an offset
+// of 0.
 void find_views(const StarBatch& batch, std::size_t first, Views& views) {
   const double* points[kStep];
   double counts[kStep];
@@ -133,8 +134,9 @@ HullVertex first_vertex(const Views& views, V& squared_distance, Count& defined)
 // Ranks of some views: how many, and their sum.
 constexpr int kCountShift = 32;
 
-// The edge from a vertex such that no view is to its right. `back`: the edge before, turned; all views are to
-// its right by more than `margin` but those `on_edge`. Views nearer to a line than `rounding` are on it.
+// Finds the edge from a vertex such that no view is to its right. `back`: the edge before, turned. All views
+// except those `on_edge` are to its right by more than `margin`. Views nearer to a line than `rounding` are
+// on it.
 HWY_INLINE View<V> next_edge(const Views& views, const HullVertex& at, const View<V>& back, V margin,
                              V rounding, Count& on_edge) {
   const V least = hn::Neg(margin), right = hn::Neg(rounding);
@@ -192,7 +194,8 @@ void find_stars_from(std::size_t first, const Views& views, BatchStars& stars) {
     Count on_edge;
     const View<V> next = next_edge(views, at, back, margin, rounding, on_edge);
     if (step > 0) {
-      // Both ends of the edge before are on it. Any other: the way is not the hull's, or within rounding.
+      // Both ends of the edge before are on it. Any other view on it is not on the hull's way, or lies within
+      // rounding.
       const auto are_two = hn::ShiftRight<kCountShift>(on_edge) == count(2);
       ambiguous = hn::Or(ambiguous, hn::AndNot(are_two, is_open));
       is_open = hn::AndNot(ambiguous, is_open);
@@ -210,7 +213,7 @@ void find_stars_from(std::size_t first, const Views& views, BatchStars& stars) {
     margin = scale * (hn::Abs(next.x) + hn::Abs(next.y));
     back = {hn::Neg(next.x), hn::Neg(next.y)};
     before = at.rank;
-    // Where the edges lead, within rounding; the views on the edge show which rank that is.
+    // Moves to the end of the edge, within rounding. The views on the edge show which rank that is.
     at.x = at.x + next.x;
     at.y = at.y + next.y;
   }

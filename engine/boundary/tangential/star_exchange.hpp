@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What crosses tiles while the stars of their belts are measured.
+// The data that crosses tiles while the stars of their belts are measured.
 #pragma once
 
 #include "engine/boundary/tangential/star_streams.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a tile puts out of its stars, for the exchange between tiles.
+// The data of its stars that a tile puts out for the exchange between tiles.
 #pragma once
 
 #include "engine/boundary/tangential/sampling_radius.hpp"
@@ -14,7 +14,7 @@
 
 namespace lacuna::tangential {
 
-// A point of a tile's belt: it has neighbours in other tiles (border), or neighbours that have.
+// A point of a tile's belt: it has neighbours in other tiles (border), or a neighbour that has.
 struct BeltPoint {
   StoredLoopPoint point;
   LocalIndex owned;
@@ -66,7 +66,7 @@ struct OpenStars {
   }
 };
 
-// What the stars around a point need of it.
+// The data of a point that the stars around it need.
 struct StarSample {
   Sampling sampling;
   StarRadii radii;
@@ -74,11 +74,11 @@ struct StarSample {
 };
 
 inline constexpr RecordStream<LocalIndex> kActive{"active"};  // owned points, ascending
-inline constexpr RecordStream<Wedge> kWedges{"wedges"};  // those that the tile is sure of, in ascending row
+inline constexpr RecordStream<Wedge> kWedges{"wedges"};  // wedges of which the tile is sure, in ascending row
 inline constexpr RecordStream<OpenStar> kOpenStars{"open stars"};  // in ascending owned index
 inline constexpr RecordStream<OpenLinkVertex> kOpenVertices{"open vertices"};
 inline constexpr RecordStream<BeltPoint> kBelt{"belt"};     // in ascending owned index
-inline constexpr RecordStream<Row> kBeltRows{"belt rows"};  // of these points and their neighbours, ascending
+inline constexpr RecordStream<Row> kBeltRows{"belt rows"};  // of belt points and their neighbours, ascending
 // The neighbours of one belt point after the other, in neighbour order: places of rows.
 inline constexpr RecordStream<LocalIndex> kBeltNeighbours{"belt neighbours"};
 // Owned points among the rows of the belt, ascending; their sites and samples.

@@ -9,10 +9,10 @@
 namespace lacuna::tangential {
 namespace {
 
-// In units of r^2: far above rounding, far below the precision of a scanner.
+// The unit is r^2: far above rounding, far below the precision of a scanner.
 constexpr double kWeights = 1e-4;
 
-// A number in [0, 1) that looks random.
+// Returns a number in [0, 1) that looks random.
 double random_share(PointId id) {
   std::uint64_t mixed = (value(id) + 1) * 0x9e3779b97f4a7c15;
   mixed ^= mixed >> 29;
@@ -20,7 +20,7 @@ double random_share(PointId id) {
   return static_cast<double>(mixed >> 40) * 0x1p-24;
 }
 
-// The kernel's formulas, for one point.
+// These are the kernel's formulas, for one point.
 namespace formulas = HWY_NAMESPACE;
 using One = formulas::hn::Vec<formulas::hn::CappedTag<double, 1>>;
 
@@ -64,7 +64,7 @@ Views find_views(std::span<const Site> sites, const StarQuery& query) {
   return views;
 }
 
-// The convex hull, by Andrew's monotone chain; the last is the first again.
+// Returns the convex hull, by Andrew's monotone chain. Its last point is the first again.
 std::vector<View> hull_of(std::vector<View> views) {
   std::sort(views.begin(), views.end(), [](const View& a, const View& b) {
     return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.neighbour < b.neighbour;

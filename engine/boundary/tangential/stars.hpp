@@ -11,9 +11,9 @@
 //
 // A triangle is consistent if the stars of all its active vertices have it (active_points.hpp). Triangles of
 // one star never overlap, so consistent triangles are a surface with boundary whatever the noise. An edge has
-// at most two of them; around each point, fans of triangles and boundary wedges alternate. Each end of a
-// wedge is an edge with one triangle, and ends exactly one wedge at its other end: boundary curves are
-// closed.
+// at most two consistent triangles. Around each point, fans of triangles and boundary wedges alternate. Each
+// end of a wedge is an edge with one triangle, and ends exactly one wedge at its other end: boundary curves
+// are closed.
 #pragma once
 
 #include "engine/boundary/tangential/star.hpp"
@@ -46,7 +46,7 @@ struct ExactStar {
 };
 ExactStar find_star_exactly(std::span<const Site> sites, const StarQuery& query);
 
-// Link as above.
+// The link is as in `ExactStar`.
 class FoundStar {
  public:
   FoundStar() = default;
@@ -63,13 +63,13 @@ class FoundStar {
   double distance_ = 0;
 };
 
-// Finds the same stars, those of a batch at once: keeps its memory.
+// Finds the same stars for a batch of points at once. It keeps its memory.
 class StarFinder {
  public:
   explicit StarFinder(std::span<const Site> sites) : sites_(sites) {}
 
-  // visit(first, stars): the stars of queries `first` and the next, up to kBatchSize; query(i): the i-th of
-  // `count`. A star does not depend on the other queries.
+  // Calls visit(first, stars) with the stars of queries `first` and the next, up to kBatchSize. query(i)
+  // returns query i of `count`. A star does not depend on the other queries.
   template <class Query, class Visit>
   void for_each_batch(std::size_t count, Query&& query, Visit&& visit) {
     lacuna::for_each_batch(count, queries_, query, [&](std::size_t first) {
@@ -88,7 +88,7 @@ class StarFinder {
   std::array<FoundStar, kBatchSize> stars_;
 };
 
-// Stars of points 0, 1, 2, ...; `consistencies` of the triangles that begin at each link vertex.
+// Stars of points 0, 1, 2, ...; `consistencies` has a value for the triangle that begins at each link vertex.
 template <class Name>
 struct Stars {
   std::vector<StarPlace> places;

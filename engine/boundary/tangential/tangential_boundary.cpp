@@ -12,10 +12,10 @@
 namespace lacuna::tangential {
 namespace {
 
-// Measured: a wedge of a tile, its partners and its curve.
+// Measured for a wedge of a tile, its partners and its curve.
 constexpr std::uint64_t kBytesPerWedge = 240;
 
-// An open chain of a component, its ends and their partners.
+// The bytes of an open chain of a component, its ends and their partners.
 constexpr std::uint64_t kBytesPerChain = sizeof(OpenChain) + 64;
 
 // Wedges of one point, which are next to each other, connect the chains that they are on.
@@ -45,7 +45,7 @@ void TangentialBoundary::complete_edges(const TileOutputs& outputs) {
   exchange_->find_active_points();
 }
 
-// The loops along a closed curve.
+// Adds the loops along a closed curve.
 void TangentialBoundary::add_loops(std::span<const CurvePoint> curve, Scale scale, Scratch& scratch) {
   const auto least = static_cast<std::size_t>(config_.min_curve);
   if (curve.size() < least) return;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boundary edges of the default method: the edges of the weighted tangential Delaunay complex that have one
-// consistent triangle. A boundary wedge is a point with two such edges, between which there is no consistent
-// triangle around the point. Wedges chain to closed curves. That is done within a fine and a coarse bound on
-// the triangles at once, and the better of both curves stands.
+// Boundary edges of the default method are the edges of the weighted tangential Delaunay complex that have
+// one consistent triangle. A boundary wedge is a point with two such edges, between which there is no
+// consistent triangle around the point. Wedges chain to closed curves. Curves are found within a fine and a
+// coarse bound on the triangles at once, and the better of both curves is kept.
 #pragma once
 
 #include "engine/boundary/boundary_method.hpp"

@@ -14,7 +14,7 @@
 
 namespace lacuna::tangential {
 
-// What confidence needs of a wedge (method.md, C.6). Lengths are in units of the scan.
+// The evidence of a wedge, on which confidence depends (method.md, C.6). Lengths are in units of the scan.
 struct WedgeEvidence {
   double length = 0;           // of the curve at the point: half of its two boundary edges
   double sampling_radius = 0;  // of the point, at the scale of the wedge
@@ -38,12 +38,13 @@ void for_each_row(Wedge& record, Visit&& visit) {
   visit(record.to);
 }
 
-// 0 where the circumradius is no larger than the sampling radius, 1 from `clear_radius` times that on.
+// Returns 0 where the circumradius is no larger than the sampling radius, and 1 from `clear_radius` times
+// that on.
 inline float clearness(double radius, double sampling_radius, const TangentialConfig& config) {
   return static_cast<float>(std::clamp((radius / sampling_radius - 1) / (config.clear_radius - 1), 0.0, 1.0));
 }
 
-// The point of a star, as its wedges need it.
+// The point of a star, with the data that its wedges need.
 struct StarPoint {
   StoredLoopPoint point;
   Row row;
