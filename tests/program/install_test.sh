@@ -123,9 +123,9 @@ struct BrokenSource : lacuna::PointSource {
 };
 
 int main(int, char** arguments) {
-  lacuna::Config config;
+  lacuna::io::FilesConfig config;
   try {
-    lacuna::parameters(config).front().set("nonsense");
+    lacuna::io::parameters(config).front().set("nonsense");
   } catch (const lacuna::UsageError&) {
     std::printf("usage, ");
   }
