@@ -15,7 +15,7 @@ namespace {
 // whose distance bound holds more than both holds an outlier.
 constexpr std::uint64_t kFarPoints = 32'768, kFarShare = 64;
 
-// This many points are searched together. A tile of fewer points takes the memory for as many.
+// Cells that are searched together may hold about this many points, even in a tile of fewer points.
 constexpr std::uint64_t kGroupPoints = kFarPoints / 4;
 
 // Border cells to be searched together, and all cells within their distance bounds.

@@ -18,7 +18,6 @@ namespace lacuna {
 // ranked side by side, in single precision, relative to the run. Few queries are ambiguous: the radius holds
 // too few points or too many, or two distances are too near to each other. Distances in double precision
 // decide these, one query at a time.
-// a time.
 //
 // Exact: bounds err on the far side only, and no rank is left to rounding. Memory: 28 bytes a point.
 class BlockSearch {

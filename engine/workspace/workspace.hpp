@@ -53,7 +53,7 @@ StoredRun read_run(const std::filesystem::path& folder);
 // the run makes it again.
 std::optional<std::vector<std::string>> made_from_of(const std::filesystem::path& folder);
 
-// A line of text as a part of its own; none where there is no such part.
+// Write and read a line of text as a part of its own. The result is empty where there is no such part.
 void write_note(const std::filesystem::path& folder, WorkspaceNote note, const std::string& text);
 std::optional<std::string> read_note(const std::filesystem::path& folder, WorkspaceNote note);
 

@@ -44,8 +44,8 @@ std::uint32_t find_in_large_link(const LinkVertex<LocalIndex>* link, std::uint32
   return kNone;
 }
 
-// Returns the link vertex at which the point's triangle with a and b begins. Returns kNone where its star does
-// not have the triangle within the coarse bound.
+// Returns the link vertex at which the point's triangle with a and b begins. Returns kNone where its star
+// does not have the triangle within the coarse bound.
 HWY_INLINE std::uint32_t find_triangle(const StarTable& stars, LocalIndex point, LocalIndex a, LocalIndex b) {
   const auto [begin, size, bound] = stars.places[point];
   const LinkVertex<LocalIndex>* const link = stars.vertices + begin;

@@ -113,8 +113,8 @@ struct Consistency {
 };
 
 // Calls visit(first, last, radius) for each boundary wedge of a star's point at a scale. A wedge is given by
-// its first and last link vertex, with the largest circumradius between them. None where no triangle is
-// consistent.
+// its first and last link vertex, with the largest circumradius between them. There is no wedge where no
+// triangle is consistent.
 template <class Name, class Visit>
 void for_each_wedge(const Star<Name>& star, std::span<const Consistency> consistencies, Scale scale,
                     Visit&& visit) {
