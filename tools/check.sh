@@ -34,7 +34,7 @@ build() {  # FOLDER TARGET OPTION...
 # Runs tests of a folder, with further options for ctest, and counts them.
 run_tests() {  # FOLDER OPTION...
   local folder=$1 report=$PWD/$1/tests.xml status=0 failures
-  rm -f "$report"
+  rm -f "$report" "$folder/Testing/Temporary/LastTestsFailed.log"
   ctest --test-dir "$@" --parallel "$(nproc)" --no-tests=error --output-on-failure --output-junit "$report" || status=$?
   count() { grep --max-count=1 --only-matching --perl-regexp "^\s*$1=\"\K[0-9]+" "$report"; }
   failures=$(count failures)
