@@ -6,8 +6,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 cat <<'END'
 This installs what the build needs, builds the programs lacuna and lacuna-bench without their tests, makes a scan of
-400,000 points in demo/, finds its holes, and compares them with the true ones. On two cores the build takes about
-five minutes, the packages and all else about two.
+400,000 points in demo/, finds its holes, and compares them with the true ones. On two cores the build takes three
+to five minutes, the packages and all else about two.
 
 END
 tools/install.sh
