@@ -83,8 +83,8 @@ void ScanSample::emit(const EvaluatedTile& tile, TileOutput& output) {
 
 // Returns the largest key of the sample. Only the keys of the last bin have to be ordered.
 double ScanSample::last_key(const TileOutputs& outputs, std::size_t tiles, Job& job) const {
-  KeyBins bins;
-  for (std::size_t t = 0; t < tiles; ++t) {
+  KeyBins bins = bins_;  // as the tiles were evaluated
+  for (std::size_t t = 0; is_kept_ && t < tiles; ++t) {
     std::vector<DrawnPoint> points = outputs.read(kDrawnPoints, static_cast<TileIndex>(t));
     bins.take(points, most_points_);
   }
