@@ -11,6 +11,7 @@
 #include "engine/track/level_loops.hpp"
 #include "engine/track/near_loops.hpp"
 #include "engine/track/track_all.hpp"
+#include "io/options/options.hpp"
 #include "io/scan/file_scan.hpp"
 
 #include <cstdio>
@@ -82,7 +83,7 @@ void write_features(const fs::path& file, std::span<const LevelLoops> levels,
 }
 
 void run(const fs::path& scan_file, const fs::path& loops_file, const fs::path& features_file) {
-  Config config;
+  io::FilesConfig config;
   config.run.threads = 1;
   const TemporaryFolder workspace(fs::temp_directory_path(), "lacuna-track-features-");
   NoProgress quiet;
