@@ -23,7 +23,7 @@ LACUNA_API std::string print_parameters(const std::vector<Parameter>& all);
 // The text of a file. Throws `Error` where it cannot be read, or has more than 1 MiB.
 LACUNA_API std::string read_config_text(const std::filesystem::path& file);
 
-// Values of the file over those of a config, of the engine's or of another kind. Returns the file's keys.
+// Sets the values of the file in a config, the engine's or another kind. Returns the file's keys.
 // Throws `Error` as `read_parameters` does, and leaves the config as it was then.
 template <class AnyConfig>
 std::vector<std::string> read_config(const std::filesystem::path& file, AnyConfig& config) {

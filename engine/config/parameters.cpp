@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one list of the engine's parameters. The three of [output] share that section with those of files.
+// The one list of the engine's parameters. Three of them are in [output], with parameters of files.
 #include "engine/config/config.hpp"
 #include "engine/criteria/criteria.hpp"
 

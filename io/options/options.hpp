@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parameters of a run on files: those of the engine, and which files are read and written, and how.
+// The parameters of a run on files: the engine's parameters, and which files are read and written, and how.
 #pragma once
 
 #include "engine/config/config.hpp"
