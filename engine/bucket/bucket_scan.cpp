@@ -130,7 +130,9 @@ std::vector<std::uint32_t> cells_of(std::span<const StoredPoint> points, const C
 // Streams the scan: every finite point goes into its tile, or is set aside.
 void fill(TileStore& store, SetAside& aside, PointSource& scan, const Destinations& to, Job& job,
           Phase& phase) {
-  TileStore::Filler filler(store, job.memory.tiles / 2);
+  const MemoryLedger::Lease reading = job.ledger.take(job.memory.reading);
+  const MemoryLedger::Lease filling = job.ledger.take((job.memory.work - job.memory.reading) / 2);
+  TileStore::Filler filler(store, filling.bytes());
   std::vector<Scattered> batches(kBatches);
   scan.rewind();
   job.arena.pipeline([&](std::size_t slot) { return scan.next(batches[slot].batch); },
@@ -173,16 +175,16 @@ TileStore bucket_scan(PointSource& scan, TilePlan plan, const Eigen::AlignedBox3
   for (const CountedCell& cell : plan.cells) points += cell.points;
   for (const CountedCell& cell : plan.aside) points += cell.points;
   Phase phase(job, "bucket", 2 * points);
-  TileStore store(std::move(files), plan.tiles, plan.most_tiles(), precision, scan.has_normals(),
-                  job.memory.spills / 8);
-  SetAside aside(plan, bounds, job.file("aside"), job.memory.global / 3);
+  TileStore store(std::move(files), plan.tiles, plan.most_tiles(), precision, scan.has_normals(), job.lists);
+  const MemoryLedger::Lease sorting = job.ledger.take((job.memory.work - job.memory.reading) / 2);
+  SetAside aside(plan, bounds, job.file("aside"), sorting.bytes());
   Destinations to(plan);
   fill(store, aside, scan, to, job, phase);
   aside.store(store, plan.cell_points);
 
   std::vector<std::uint64_t> needs;
   for (const Tile& tile : plan.tiles) needs.push_back(tile.raw * 120);
-  job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t t) {
+  job.for_each_within(job.memory.tiles, needs, [&](std::size_t t) {
     const auto number = static_cast<TileIndex>(t);
     const Tile& tile = plan.tiles[t];
     const std::vector<StoredPoint> raw = store.raw_points(number);

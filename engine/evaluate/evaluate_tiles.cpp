@@ -165,7 +165,7 @@ void evaluate_tiles(const Level& level, std::span<const TileIndex> tiles, Append
     needs[i] =
         job.tile_bytes(tile.points) + foreign * 120 + ball_bytes(tiling, tile, eps, most_ball_bytes(job));
   });
-  job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t i) {
+  job.for_each_within(job.memory.tiles, needs, [&](std::size_t i) {
     const TileIndex index = tiles[i];
     const Tile& tile = tiling.tiles[index];
     std::vector<HaloEdge> inbox = halo.read(index);

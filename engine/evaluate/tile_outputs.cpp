@@ -29,7 +29,9 @@ Row from_stored_row(Row stored, const Tiling& tiling) {
 }
 
 TileOutputs::TileOutputs(const Tiling& tiling, std::optional<KeptOutputs> kept, const Job& job)
-    : tiling_(&tiling), kept_(std::move(kept)), lists_(job.file("outputs"), 0, job.memory.spills * 3 / 8) {}
+    : tiling_(&tiling),
+      kept_(std::move(kept)),
+      lists_(std::make_unique<AppendBytes>(job.file("outputs"), 0, job.lists)) {}
 
 std::vector<TileIndex> TileOutputs::missing() const {
   if (kept_) return kept_->missing();
@@ -41,7 +43,7 @@ std::vector<TileIndex> TileOutputs::missing() const {
 void TileOutputs::add(TileIndex tile, TileOutput output, const Digest& content) {
   if (!kept_) {
     for (const TileOutput::Stream& stream : output.streams_)
-      lists_.append(make_list(stream.name, tile), stream.bytes);
+      lists_->append(make_list(stream.name, tile), stream.bytes);
     return;
   }
   std::vector<KeptOutputs::Stream> stored;
@@ -66,14 +68,14 @@ std::size_t TileOutputs::make_list(std::string_view stream, TileIndex tile) {
   const std::lock_guard lock(*mutex_);
   if (const std::size_t list = list_of(stream, tile); list != kUnknown) return list;
   streams_.push_back(stream);
-  lists_.add_lists(tiling_->tiles.size());
+  lists_->add_lists(tiling_->tiles.size());
   return list_of(stream, tile);
 }
 
 std::uint64_t TileOutputs::record_count(std::string_view stream, TileIndex tile,
                                         std::size_t record_bytes) const {
   const std::size_t list = list_of(stream, tile);
-  const std::uint64_t bytes = kept_ ? kept_->size(stream, tile) : list == kUnknown ? 0 : lists_.size(list);
+  const std::uint64_t bytes = kept_ ? kept_->size(stream, tile) : list == kUnknown ? 0 : lists_->size(list);
   if (bytes % record_bytes != 0)
     fail_inconsistent("the stream " + std::string(stream) + " of a tile is not of whole records");
   return bytes / record_bytes;
@@ -84,7 +86,7 @@ void TileOutputs::read_bytes(std::string_view stream, TileIndex tile, std::span<
   if (kept_) {
     kept_->read(stream, tile, to);
   } else {
-    lists_.read(list_of(stream, tile), to.data());
+    lists_->read(list_of(stream, tile), to.data());
   }
 }
 

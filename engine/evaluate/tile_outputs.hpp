@@ -132,7 +132,7 @@ class TileOutputs {
   std::optional<KeptOutputs> kept_;
   // Without a workspace: a list for each stream and tile, stream by stream.
   std::vector<std::string_view> streams_;
-  AppendBytes lists_;
+  std::unique_ptr<AppendBytes> lists_;
   std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();  // of new streams
 };
 

@@ -287,10 +287,10 @@ AppendLists<HaloEdge> exchange_halo(const TileStore& store, std::span<const Tile
   Phase phase(job, "halo", tiling.points());
   std::vector<std::uint64_t> needs;
   for (const Tile& tile : tiling.tiles) needs.push_back(job.tile_bytes(std::max(tile.points, kGroupPoints)));
-  AppendLists<HaloEdge> inboxes(job.file("halo"), tiling.tiles.size(), job.memory.spills / 2);
+  AppendLists<HaloEdge> inboxes(job.file("halo"), tiling.tiles.size(), job.lists);
   if (tiles.empty()) return inboxes;
   const WantedTiles wanted(tiling, tiles);
-  job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t t) {
+  job.for_each_within(job.memory.tiles, needs, [&](std::size_t t) {
     const Tile& tile = tiling.tiles[t];
     const std::uint64_t group_points = std::max(tile.points, kGroupPoints);
     const BorderPlan plan(tiling, static_cast<TileIndex>(t), wanted, k, group_points);

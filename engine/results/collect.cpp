@@ -171,7 +171,8 @@ std::unique_ptr<Detection> collect_results(Findings findings, const TileOutputs&
   Column<StoredBoundary> boundary_points(job.file("boundary"));
   {
     Phase phase(job, "collect", tiling.points());
-    BoundarySort sorted(job.file("boundary-sort"), job.memory.global / 3);
+    const MemoryLedger::Lease sorting = job.ledger.take(job.memory.work / 3);
+    BoundarySort sorted(job.file("boundary-sort"), sorting.bytes());
     std::mutex mutex;
     job.arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
       const auto t = static_cast<TileIndex>(i);

@@ -61,9 +61,9 @@ std::vector<PointOnLoop> owned_points(std::vector<PointOnLoop> points, const Til
 LoopRows find_loop_rows(const ChosenLoops& loops, std::span<const std::size_t> selected,
                         const TileStore& store, Job& job) {
   const Tiling& tiling = store.tiling();
-  AppendLists<PointOnLoop> sent(job.file("points-of-loops"), tiling.tiles.size(), job.memory.spills / 4);
+  AppendLists<PointOnLoop> sent(job.file("points-of-loops"), tiling.tiles.size(), job.lists);
   send_points(loops, selected, tiling, sent);
-  LoopRows found{AppendLists<PointOnLoop>(job.file("loop-rows"), tiling.tiles.size(), job.memory.spills / 4),
+  LoopRows found{AppendLists<PointOnLoop>(job.file("loop-rows"), tiling.tiles.size(), job.lists),
                  RowSet(tiling.row_count())};
   std::atomic<std::uint64_t> count = 0;
   job.arena.for_each(tiling.tiles.size(), [&](std::size_t t) {

@@ -121,14 +121,16 @@ RowSet opposed_normals(const TileOutputs& outputs, const TileStore& store, Job& 
     const auto t = static_cast<TileIndex>(i);
     normals_by_row.write(value(tiling.tiles[t].first_row), outputs.read(kNormals, t));
   });
-  EdgeSort edges(job.file("orientation-edges"), job.memory.global / 3);
+  const MemoryLedger::Lease sorting = job.ledger.take(job.memory.work / 3);
+  EdgeSort edges(job.file("orientation-edges"), sorting.bytes());
   for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
     for (const OrientationEdge& edge : outputs.read(kForest, t)) edges.add(edge);
     add_crossings(outputs.read(kCrossings, t), normals_by_row, store, t, edges);
     phase.advance(tiling.tiles[t].points);
   }
 
-  Scratch scratch(job.workspace, job.memory.global / 2);
+  const MemoryLedger::Lease spanning = job.ledger.take(job.memory.work / 2);
+  Scratch scratch(job.workspace, spanning.bytes());
   const std::uint64_t rows = tiling.row_count();
   SignedUnionFind trees(rows, scratch);
   edges.for_each([&](const OrientationEdge& e) { trees.unite(value(e.low), value(e.high), e.opposed); });

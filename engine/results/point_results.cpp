@@ -39,12 +39,13 @@ PointResults::PointResults(const TileOutputs& outputs, std::uint64_t ids, const 
                            const Job& job)
     : store_(store),
       criteria_(criteria().size()),
-      lists_(job.file("results"), (ids + kResultBlock - 1) / kResultBlock, job.memory.spills / 8) {
+      lists_(std::make_unique<AppendBytes>(job.file("results"), (ids + kResultBlock - 1) / kResultBlock,
+                                           job.lists)) {
   const std::vector<Tile>& tiles = store.tiling().tiles;
   std::vector<std::uint64_t> needs;
   for (const Tile& tile : tiles) needs.push_back(tile.points * record_bytes());
-  job.arena.for_each_within_budget(needs, job.memory.tiles,
-                                   [&](std::size_t t) { take(outputs, static_cast<TileIndex>(t)); });
+  job.for_each_within(job.memory.tiles, needs,
+                      [&](std::size_t t) { take(outputs, static_cast<TileIndex>(t)); });
 }
 
 void PointResults::take(const TileOutputs& outputs, TileIndex tile) {
@@ -78,7 +79,7 @@ void PointResults::append(TileIndex tile, std::span<const std::byte> records,
     std::memcpy(&block[at + offsetof(StoredResult, row)], &row, sizeof row);
     const std::uint64_t number = value(id) / kResultBlock;
     if (i + 1 == copies.size() || value(copies[i + 1].id) / kResultBlock != number) {
-      lists_.append(number, block);
+      lists_->append(number, block);
       block.clear();
     }
   }

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -35,14 +36,14 @@ class PointResults {
   // Takes the results of all tiles. `ids`: points of the input.
   PointResults(const TileOutputs& outputs, std::uint64_t ids, const TileStore& store, const Job& job);
 
-  std::size_t blocks() const { return lists_.lists(); }
+  std::size_t blocks() const { return lists_->lists(); }
   // Calls visit(result, criteria), in any order.
   template <class Visit>
   void for_each(std::size_t block, Visit&& visit) const {
     constexpr std::size_t kTogether = 1 << 14;
     std::vector<std::byte> part(kTogether * record_bytes());
     std::vector<float> criteria(criteria_);
-    lists_.for_each_part(block, part, [&](std::size_t bytes) {
+    lists_->for_each_part(block, part, [&](std::size_t bytes) {
       for (std::size_t at = 0; at < bytes; at += record_bytes()) {
         StoredResult result;
         std::memcpy(&result, &part[at], sizeof result);
@@ -61,7 +62,7 @@ class PointResults {
 
   const TileStore& store_;
   std::size_t criteria_;  // of each point
-  AppendBytes lists_;
+  std::unique_ptr<AppendBytes> lists_;
 };
 
 }  // namespace lacuna

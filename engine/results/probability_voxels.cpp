@@ -112,8 +112,9 @@ ProbabilityGrid probability_voxels(const TileOutputs& outputs, double typical_di
   for (const Tile& tile : tiling.tiles) needs.push_back(tile.points * 64);
   std::mutex mutex;
   ProbabilityGrid grid{{}, Column<ProbabilityVoxel>(job.file("voxels"))};
-  MergingVoxels merging(std::min(kMostBytes, job.memory.global));
-  job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t i) {
+  const MemoryLedger::Lease tree = job.ledger.take(std::min(kMostBytes, job.memory.work / 8 * 7));
+  MergingVoxels merging(tree.bytes());
+  job.for_each_within(job.memory.work / 8, needs, [&](std::size_t i) {
     const auto t = static_cast<TileIndex>(i);
     const Tile& tile = tiling.tiles[t];
     const std::vector<ProbabilityVoxel> voxels =

@@ -36,10 +36,10 @@ PointResult loaded(const SpreadResult& r) {
 std::unique_ptr<Detection> spread_results(std::unique_ptr<Detection> detection,
                                           AppendLists<Represented> represented_points, const Job& job) {
   const auto represented = std::make_shared<const AppendLists<Represented>>(std::move(represented_points));
-  detection->for_each_result_block = [represented, file = job.file("spread"), budget = job.memory.spills / 4,
+  detection->for_each_result_block = [represented, file = job.file("spread"), lists = job.lists,
                                       of_representatives =
                                           std::move(detection->for_each_result_block)](const auto& visit) {
-    AppendLists<SpreadResult> spread(file, represented->lists(), budget);
+    AppendLists<SpreadResult> spread(file, represented->lists(), lists);
     Outbox<SpreadResult> outbox(spread);
     of_representatives([&](PointId first, std::span<const PointResult> block) {
       represented->for_each(value(first) / kResultBlock, [&](const Represented& r) {

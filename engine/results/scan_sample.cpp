@@ -89,7 +89,8 @@ double ScanSample::last_key(const TileOutputs& outputs, std::size_t tiles, Job& 
     bins.take(points, most_points_);
   }
   if (bins.keys <= most_points_) return std::numeric_limits<double>::max();
-  SortedRuns<double> of_last_bin(job.file("sample-last"), job.memory.spills / 8);
+  const MemoryLedger::Lease sorting = job.ledger.take(job.memory.work / 8);
+  SortedRuns<double> of_last_bin(job.file("sample-last"), sorting.bytes());
   for (std::size_t t = 0; t < tiles; ++t) {
     for (const DrawnPoint& point : outputs.read(kDrawnPoints, static_cast<TileIndex>(t))) {
       if (bin_of(point.key) == bins.last) of_last_bin.add(point.key);
@@ -111,7 +112,7 @@ Column<StoredSample> ScanSample::draw(const TileOutputs& outputs, std::uint64_t 
                                       Job& job) {
   Phase phase(job, "sample", 0);
   const std::size_t tiles = store.tiling().tiles.size();
-  AppendLists<StoredSample> blocks(job.file("sample-blocks"), ids / kBlock + 1, job.memory.spills / 8);
+  AppendLists<StoredSample> blocks(job.file("sample-blocks"), ids / kBlock + 1, job.lists);
   const double last = last_key(outputs, tiles, job);
   job.arena.for_each(tiles, [&](std::size_t i) {
     const auto t = static_cast<TileIndex>(i);
@@ -135,7 +136,7 @@ Column<StoredSample> ScanSample::draw(const TileOutputs& outputs, std::uint64_t 
     needs[b] = 2 * blocks.count(b) * sizeof(StoredSample) + kBlock * sizeof(LocalIndex);
   }
   Column<StoredSample> column(job.file("sample"));
-  job.arena.for_each_within_budget(needs, job.memory.global, [&](std::size_t b) {
+  job.for_each_within(job.memory.work, needs, [&](std::size_t b) {
     std::vector<StoredSample> samples = blocks.read(b);
     order(samples);
     column.write(first_rows[b], samples);

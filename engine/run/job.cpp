@@ -16,9 +16,6 @@ namespace {
 
 constexpr std::uint64_t kMiB = 1 << 20;
 
-// The program, its libraries, threads' stacks, buffers of readers and writers: measured 28 MiB.
-constexpr std::uint64_t kProgram = 36 * kMiB;
-
 // A tile at work takes these bytes, whatever its points.
 constexpr std::uint64_t kTileBytes = kMiB / 4;
 
@@ -41,32 +38,27 @@ TileSizes tile_sizes(const Memory& memory, std::uint64_t points, const Config& c
   constexpr std::uint64_t kTables = 1 << 10;  // bytes for each tile, in all tables that exist at a time
   const std::uint64_t neighbours =
       2 * static_cast<std::uint64_t>(config.neighbourhood.k);  // of a point, on average at most
-  return {.least = points / (memory.spills / kTables) + 1,
+  return {.least = points / (memory.lists / kTables) + 1,
           .most = std::min((memory.tiles - kTileBytes) / bytes_per_tile_point(config),
                            std::numeric_limits<std::uint32_t>::max() / neighbours)};
 }
 
 }  // namespace
 
-Memory Memory::share(std::uint64_t limit) {
-  if (limit == 0) limit = machine_memory() / 2;
-  const std::uint64_t rest = limit > kProgram + 16 * kMiB ? limit - kProgram : 16 * kMiB;
-  // Tiles and the global stage are not at work at the same time. The remaining share is for memory that the
-  // allocator cannot give back at once.
-  return {.limit = limit,
-          .cells = rest / 6,
-          .tiles = rest * 2 / 5,
-          .spills = rest / 8,
-          .global = rest * 3 / 5,
-          .reading = rest * 2 / 5};
-}
-
 Job::Job(const Config& config, std::filesystem::path workspace, Progress& progress)
     : config(config),
       workspace(std::move(workspace)),
       progress(progress),
       arena(static_cast<std::size_t>(config.run.threads)),
-      memory(Memory::share(config.run.memory_limit)) {}
+      memory(Memory::share(config.run.memory_limit)),
+      ledger(memory.work),
+      lists(std::make_shared<BufferPool>(memory.lists)) {}
+
+void Job::for_each_within(std::uint64_t bytes, std::span<const std::uint64_t> needs,
+                          const std::function<void(std::size_t)>& body) const {
+  const MemoryLedger::Lease lease = ledger.take(bytes);
+  arena.for_each_within_budget(needs, bytes, body);
+}
 
 std::uint64_t Job::tile_bytes(std::uint64_t points) const {
   return points * bytes_per_tile_point(config) + kTileBytes;

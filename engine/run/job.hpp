@@ -4,28 +4,19 @@
 
 #include "engine/config/config.hpp"
 #include "engine/model/detection.hpp"
+#include "engine/run/memory.hpp"
 #include "engine/run/parallel.hpp"
 #include "engine/run/progress.hpp"
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
 namespace lacuna {
-
-// The shares of the memory limit. All data of the scan's size is within these shares, save a few bits a point
-// (active, coherent, on a loop).
-struct Memory {
-  std::uint64_t limit;    // all of it; where the config has none, half of what the process may have
-  std::uint64_t cells;    // survey and index
-  std::uint64_t tiles;    // all tiles at work together
-  std::uint64_t spills;   // buffers of all lists on their way to disk
-  std::uint64_t global;   // spanning graph and loops, sorts
-  std::uint64_t reading;  // the part that a reader of the scan holds; survey and index are apart
-
-  static Memory share(std::uint64_t limit);
-};
 
 struct Job {
   Job(const Config& config, std::filesystem::path workspace, Progress& progress);
@@ -35,12 +26,18 @@ struct Job {
   Progress& progress;
   TaskArena arena;
   Memory memory;
+  mutable MemoryLedger ledger;        // of `memory.work`
+  std::shared_ptr<BufferPool> lists;  // results may outlive the job, and so do their lists
   std::vector<PhaseTime> phases;
   bool is_in_phase = false;
 
   // Returns freed memory to the system, if more than `share` of the limit is in use. Call it at the end of
   // each phase, between steps that need much, and within a phase where the limit is near.
   void trim(double share = 0.5) const;
+  // Runs bodies with bounded memory (`TaskArena::for_each_within_budget`), and takes that memory from the
+  // ledger.
+  void for_each_within(std::uint64_t bytes, std::span<const std::uint64_t> needs,
+                       const std::function<void(std::size_t)>& body) const;
   // Returns the path of a temporary file.
   std::filesystem::path file(std::string_view name) const { return workspace / name; }
   // Returns the points per tile: as the config has it, or enough tiles for all threads. They are never fewer

@@ -23,9 +23,9 @@ std::uint64_t count_closed(UnionFind& connected, LocalIndex vertices,
 
 Components::Components(std::size_t tiles, const Job& job)
     : tiles_(tiles),
-      parts_(job.file("open-parts"), tiles, job.memory.spills / 16),
-      ends_(job.file("crossing-ends"), tiles, job.memory.spills / 16),
-      joins_(job.file("joins"), tiles, job.memory.spills / 8) {}
+      parts_(job.file("open-parts"), tiles, job.lists),
+      ends_(job.file("crossing-ends"), tiles, job.lists),
+      joins_(job.file("joins"), tiles, job.lists) {}
 
 TileOpenParts Components::open_parts(TileIndex tile, UnionFind& connected, LocalIndex vertices,
                                      std::span<const CrossingEdge> crossings, bool single_vertices_count) {

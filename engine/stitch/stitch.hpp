@@ -40,7 +40,7 @@ class Stitch {
         record_bytes_(record_bytes),
         job_(job),
         components_(tiles, job),
-        open_(job.file("open-records"), tiles, job.memory.spills / 8) {}
+        open_(job.file("open-records"), tiles, job.lists) {}
 
   // Adds the part of a tile. From any thread, once for each tile.
   void add(TileIndex tile, const GraphPart<Record>& part) {
@@ -67,12 +67,12 @@ class Stitch {
   // one component whose records do not fit in memory, one at a time.
   void for_each_component(const std::function<void(std::span<const Record>)>& in_memory,
                           const std::function<void(const ForEachRecord&, std::uint64_t count)>& on_disk) {
-    const std::uint64_t fits = job_.memory.global / 2 / record_bytes_;
+    const std::uint64_t fits = job_.memory.work / 2 / record_bytes_;
     const AppendLists<Member> batches = make_batches(std::max<std::uint64_t>(fits / job_.arena.threads(), 1));
     std::vector<std::uint64_t> needs;
     for (std::size_t b = 0; b < batches.lists(); ++b)
       needs.push_back(batches.count(b) > fits ? 0 : batches.count(b) * record_bytes_);
-    job_.arena.for_each_within_budget(needs, job_.memory.global / 2, [&](std::size_t b) {
+    job_.for_each_within(job_.memory.work / 2, needs, [&](std::size_t b) {
       if (batches.count(b) <= fits) visit_batch(batches.read(b), in_memory);
     });
     for (std::size_t b = 0; b < batches.lists(); ++b) {
@@ -92,9 +92,10 @@ class Stitch {
 
   // Groups whole components: a batch has at most `most_records` records, save for one component of more.
   AppendLists<Member> make_batches(std::uint64_t most_records) {
-    Scratch scratch(job_.workspace, job_.memory.global / 3);
+    const MemoryLedger::Lease joining = job_.ledger.take(job_.memory.work / 3);
+    Scratch scratch(job_.workspace, joining.bytes());
     const Components::Batches batches = components_.join(most_records, scratch);
-    AppendLists<Member> lists(job_.file("batches"), batches.records.size(), job_.memory.spills / 4);
+    AppendLists<Member> lists(job_.file("batches"), batches.records.size(), job_.lists);
     job_.arena.for_each(tiles_, [&](std::size_t t) { distribute(t, batches, lists); });
     return lists;
   }

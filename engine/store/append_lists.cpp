@@ -6,26 +6,30 @@
 #include <cstring>
 
 namespace lacuna {
-namespace {
 
-constexpr std::uint64_t kLeastBudget = 1 << 16;
-
-}  // namespace
-
-AppendBytes::AppendBytes(std::filesystem::path path, std::size_t lists, std::uint64_t budget)
-    : file_(std::move(path)), budget_(budget) {
+AppendBytes::AppendBytes(std::filesystem::path path, std::size_t lists, std::shared_ptr<BufferPool> pool)
+    : pool_(std::move(pool)), file_(std::move(path)) {
+  pool_->enter(*this);
   add_lists(lists);
 }
 
+AppendBytes::~AppendBytes() {
+  pool_->leave(*this);
+}
+
 void AppendBytes::add_lists(std::size_t count) {
-  const std::lock_guard lock(*mutex_);
+  const std::lock_guard lock(mutex_);
   lists_.resize(lists_.size() + count);
-  const std::uint64_t table = count * sizeof(List);
-  budget_ = std::max(budget_ - std::min(table, budget_), kLeastBudget);
+  pool_->grow_table(*this, count * sizeof(List));
 }
 
 void AppendBytes::append(std::size_t index, std::span<const std::byte> bytes) {
-  const std::lock_guard lock(*mutex_);
+  add_to_buffer(index, bytes);
+  pool_->relieve();
+}
+
+void AppendBytes::add_to_buffer(std::size_t index, std::span<const std::byte> bytes) {
+  const std::lock_guard lock(mutex_);
   List& list = lists_[index];
   const std::size_t before = list.buffer.capacity();
   if (list.buffer.empty()) {
@@ -34,12 +38,11 @@ void AppendBytes::append(std::size_t index, std::span<const std::byte> bytes) {
   }
   list.buffer.insert(list.buffer.end(), bytes.begin(), bytes.end());
   list.size += bytes.size();
-  buffered_ += list.buffer.capacity() - before;
-  if (buffered_ > budget_) relieve();
+  pool_->grow(*this, list.buffer.capacity() - before);
 }
 
 std::uint64_t AppendBytes::size(std::size_t list) const {
-  const std::lock_guard lock(*mutex_);
+  const std::lock_guard lock(mutex_);
   return lists_[list].size;
 }
 
@@ -50,7 +53,7 @@ void AppendBytes::walk(std::size_t index, TakeTail&& take_tail, TakeExtent&& tak
   std::uint64_t end;  // of what is not taken yet
   Extent extent;
   {
-    const std::lock_guard lock(*mutex_);
+    const std::lock_guard lock(mutex_);
     const List& list = lists_[index];
     end = list.size - list.tail().size();
     extent = list.last;
@@ -93,31 +96,32 @@ void AppendBytes::for_each_part(std::size_t list, std::span<std::byte> part,
 }
 
 void AppendBytes::drop(std::size_t index) {
-  const std::lock_guard lock(*mutex_);
-  buffered_ -= lists_[index].buffer.capacity();
+  const std::lock_guard lock(mutex_);
+  pool_->shrink(*this, lists_[index].buffer.capacity());
   lists_[index] = List{};
 }
 
-void AppendBytes::write_out(List& list) {
-  std::memcpy(list.buffer.data(), &list.last, sizeof(Extent));
-  const std::uint64_t offset = file_.append(list.buffer);
-  list.last = {offset + sizeof(Extent), list.tail().size()};
-  buffered_ -= list.buffer.capacity();
-  std::vector<std::byte>().swap(list.buffer);
-}
-
-// Writes the fullest buffers until half of the budget is free.
-void AppendBytes::relieve() {
+void AppendBytes::write_half() {
+  const std::lock_guard lock(mutex_);
   std::vector<List*> fullest;
   for (List& list : lists_) {
     if (list.buffer.capacity() > 0) fullest.push_back(&list);
   }
   std::sort(fullest.begin(), fullest.end(),
             [](const List* a, const List* b) { return a->buffer.capacity() > b->buffer.capacity(); });
+  const std::uint64_t half = held() / 2;
   for (List* list : fullest) {
-    if (buffered_ <= budget_ / 2) break;
+    if (held() <= half) break;
     write_out(*list);
   }
+}
+
+void AppendBytes::write_out(List& list) {
+  std::memcpy(list.buffer.data(), &list.last, sizeof(Extent));
+  const std::uint64_t offset = file_.append(list.buffer);
+  list.last = {offset + sizeof(Extent), list.tail().size()};
+  pool_->shrink(*this, list.buffer.capacity());
+  std::vector<std::byte>().swap(list.buffer);
 }
 
 }  // namespace lacuna

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Many append-only lists of records, mostly one per tile. Together they may be larger than memory.
 //
-// Each list has a buffer in memory. When all buffers together reach the budget, the fullest are written to
-// the end of the one file, until half of the budget is free. Each becomes an extent of its list. So the file
-// is written in long runs, whatever the order of appends. On disk, each extent begins with the place of the
-// list's extent before it. So in memory a list is its buffer and 48 bytes, however many extents it has.
+// Each list has a buffer in memory. When the pool of all buffers is full, the fullest are written to the end
+// of the one file. Each becomes an extent of its list. So the file is written in long runs, whatever the
+// order of appends. On disk, each extent begins with the place of the list's extent before it. So in memory a
+// list is its buffer and 48 bytes, however many extents it has.
 //
-// The order of records within a list depends on threads and budget: a reader sorts them by what they hold.
+// The order of records within a list depends on threads and memory: a reader sorts them by what they hold.
 // Only where one thread at a time appends to a list, `read` returns them in the order of the calls.
 #pragma once
 
+#include "engine/run/memory.hpp"
 #include "engine/store/store_file.hpp"
 
 #include <algorithm>
@@ -25,9 +26,11 @@
 
 namespace lacuna {
 
-class AppendBytes {
+class AppendBytes final : BufferPool::Buffers {
  public:
-  AppendBytes(std::filesystem::path path, std::size_t lists, std::uint64_t budget);
+  // Memory: a part of the pool, and in any case 64 KiB.
+  AppendBytes(std::filesystem::path path, std::size_t lists, std::shared_ptr<BufferPool> pool);
+  ~AppendBytes();
 
   // Adds empty lists behind the others. May be called while other threads append.
   void add_lists(std::size_t count);
@@ -58,14 +61,14 @@ class AppendBytes {
   };
   template <class TakeTail, class TakeExtent>
   void walk(std::size_t list, TakeTail&& take_tail, TakeExtent&& take_extent) const;
+  void add_to_buffer(std::size_t index, std::span<const std::byte> bytes);
+  void write_half() override;
   void write_out(List& list);
-  void relieve();
 
+  std::shared_ptr<BufferPool> pool_;
   StoreFile file_;
-  std::uint64_t budget_;
-  std::uint64_t buffered_ = 0;
   std::vector<List> lists_;
-  std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();  // not held while extents are read
+  mutable std::mutex mutex_;  // not held while extents are read
 };
 
 template <class Record>
@@ -73,19 +76,18 @@ class AppendLists {
   static_assert(std::is_trivially_copyable_v<Record>);
 
  public:
-  // Memory: `budget` bytes, and never less than 64 KiB.
-  AppendLists(std::filesystem::path path, std::size_t lists, std::uint64_t budget)
-      : bytes_(std::move(path), lists, budget) {}
+  AppendLists(std::filesystem::path path, std::size_t lists, std::shared_ptr<BufferPool> pool)
+      : bytes_(std::make_unique<AppendBytes>(std::move(path), lists, std::move(pool))) {}
 
   void append(std::size_t list, std::span<const Record> records) {
-    if (!records.empty()) bytes_.append(list, std::as_bytes(records));
+    if (!records.empty()) bytes_->append(list, std::as_bytes(records));
   }
   void append(std::size_t list, const Record& record) { append(list, std::span(&record, 1)); }
-  std::uint64_t count(std::size_t list) const { return bytes_.size(list) / sizeof(Record); }
-  std::size_t lists() const { return bytes_.lists(); }
+  std::uint64_t count(std::size_t list) const { return bytes_->size(list) / sizeof(Record); }
+  std::size_t lists() const { return bytes_->lists(); }
   std::vector<Record> read(std::size_t list) const {
     std::vector<Record> records(count(list));
-    bytes_.read(list, reinterpret_cast<std::byte*>(records.data()));
+    bytes_->read(list, reinterpret_cast<std::byte*>(records.data()));
     return records;
   }
   // Calls visit(record) for each record, in any order, with only some of them in memory.
@@ -93,14 +95,14 @@ class AppendLists {
   void for_each(std::size_t list, Visit&& visit) const {
     constexpr std::uint64_t kPart = 1 << 14;
     std::vector<Record> part(std::min(kPart, count(list)));
-    bytes_.for_each_part(list, std::as_writable_bytes(std::span(part)), [&](std::size_t bytes) {
+    bytes_->for_each_part(list, std::as_writable_bytes(std::span(part)), [&](std::size_t bytes) {
       for (const Record& record : std::span(part).first(bytes / sizeof(Record))) visit(record);
     });
   }
-  void drop(std::size_t list) { bytes_.drop(list); }
+  void drop(std::size_t list) { bytes_->drop(list); }
 
  private:
-  AppendBytes bytes_;
+  std::unique_ptr<AppendBytes> bytes_;
 };
 
 }  // namespace lacuna

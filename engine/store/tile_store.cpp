@@ -21,18 +21,18 @@ std::vector<std::uint64_t> first_rows(const Tiling& tiling) {
 }  // namespace
 
 TileStore::TileStore(StoreFiles files, std::vector<Tile> tiles, std::uint64_t most_tiles, Precision precision,
-                     bool with_normals, std::uint64_t duplicate_budget)
+                     bool with_normals, std::shared_ptr<BufferPool> lists)
     : cells_(tiles.size()),
       has_normals_(with_normals),
       points_(std::move(files.points), precision),
       normals_(std::move(files.normals)),
-      duplicates_(std::move(files.duplicates), most_tiles, duplicate_budget) {
+      duplicates_(std::move(files.duplicates), most_tiles, std::move(lists)) {
   tiling_.tiles = std::move(tiles);
 }
 
 TileStore::TileStore(StoreFiles files, Tiling tiling, Precision precision, bool with_normals,
-                     std::uint64_t duplicate_budget)
-    : TileStore(std::move(files), {}, tiling.tiles.size(), precision, with_normals, duplicate_budget) {
+                     std::shared_ptr<BufferPool> lists)
+    : TileStore(std::move(files), {}, tiling.tiles.size(), precision, with_normals, std::move(lists)) {
   tiling_ = std::move(tiling);
   tiling_.build_tree();
 }

@@ -44,10 +44,10 @@ class TileStore {
  public:
   // `tiles`: where raw points go at first; `most_tiles`: the number of tiles with those that are added later.
   TileStore(StoreFiles files, std::vector<Tile> tiles, std::uint64_t most_tiles, Precision precision,
-            bool with_normals, std::uint64_t duplicate_budget);
+            bool with_normals, std::shared_ptr<BufferPool> lists);
   // Opens a store that was finished before. `files`: sealed ones. The caller adds the duplicates.
   TileStore(StoreFiles files, Tiling tiling, Precision precision, bool with_normals,
-            std::uint64_t duplicate_budget);
+            std::shared_ptr<BufferPool> lists);
 
   const Tiling& tiling() const { return tiling_; }
   bool has_normals() const { return has_normals_; }

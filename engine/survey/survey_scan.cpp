@@ -35,6 +35,7 @@ void count_points(Survey& survey, PointSource& scan, std::uint64_t expected, Job
 
 SurveyedScan survey_scan(PointSource& scan, Job& job, const CellGrid* grid) {
   const std::uint64_t expected = scan.expected_points().value_or(0);
+  const MemoryLedger::Lease reading = job.ledger.take(job.memory.reading);
   Survey survey(job.memory.cells, expected, grid);
   count_points(survey, scan, expected, job);
   return survey.finish();

@@ -219,13 +219,11 @@ ChosenPoints choose_points(const TileStore& store, double edge, std::uint64_t re
                       .in_cell = std::vector<std::uint32_t>(tiling.cells.size()),
                       .represented = {}};
   if (represented_ids > 0)
-    chosen.represented.emplace(job.file("represented"), represented_ids / kRepresentedBlock + 1,
-                               job.memory.spills / 8);
+    chosen.represented.emplace(job.file("represented"), represented_ids / kRepresentedBlock + 1, job.lists);
   std::vector<std::uint64_t> needs;
   for (const Tile& tile : tiling.tiles) needs.push_back(tile.points * kBytesPerPoint);
   const auto for_each_tile = [&](auto&& take) {
-    job.arena.for_each_within_budget(needs, job.memory.tiles,
-                                     [&](std::size_t t) { take(static_cast<TileIndex>(t)); });
+    job.for_each_within(job.memory.tiles, needs, [&](std::size_t t) { take(static_cast<TileIndex>(t)); });
   };
   Chooser chooser(store, edge, chosen);
   for_each_tile([&](TileIndex t) { chooser.choose_within(t); });

@@ -166,8 +166,8 @@ TileStore store_chosen(const TileStore& below, const ChosenPoints& chosen, const
   }
   const std::vector<JoinedCells> cells = Joiner(tiling, chosen, join.tile_points, join.cell_points).cells();
   TileStore store(std::move(files), std::move(tiles), join.first.size(), below.precision(),
-                  below.has_normals(), 0);
-  job.arena.for_each_within_budget(needs, job.memory.tiles, [&](std::size_t t) {
+                  below.has_normals(), job.lists);
+  job.for_each_within(job.memory.tiles, needs, [&](std::size_t t) {
     JoinedTile to;
     to.points.reserve(needs[t] / kBytesPerPoint);
     const TileIndex first = join.first[t], last = end_of(join, t, tiling);

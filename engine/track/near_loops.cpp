@@ -181,7 +181,8 @@ std::vector<NearLoops> near_loops(std::span<const LevelLoops> levels, const Job&
   std::vector<std::uint32_t> first = {0};
   for (const LevelLoops& level : levels)
     first.push_back(first.back() + static_cast<std::uint32_t>(level.loops.size()));
-  const std::uint64_t budget = job.memory.global / 4 / std::min(job.arena.threads(), levels.size());
+  const MemoryLedger::Lease sorting = job.ledger.take(job.memory.work / 2);
+  const std::uint64_t budget = sorting.bytes() / 2 / std::min(job.arena.threads(), levels.size());
   std::vector<std::vector<NearLoops>> pairs(levels.size());  // by the coarser level
   job.arena.for_each(levels.size(), [&](std::size_t coarse) {
     const auto file = [&](const char* name) { return job.file(name + std::to_string(coarse)); };

@@ -125,7 +125,7 @@ void add_in_blocks(PartWriter& part, std::string_view stream, std::uint64_t key,
 std::optional<AppendLists<Represented>> represented_of(const StoredLevel& stored, const PartReader& part,
                                                        const Job& job) {
   if (stored.represented == 0) return std::nullopt;
-  AppendLists<Represented> represented(job.file("represented"), stored.represented, job.memory.spills / 8);
+  AppendLists<Represented> represented(job.file("represented"), stored.represented, job.lists);
   for (std::uint64_t list = 0; list < stored.represented; ++list) {
     part.for_each<Represented>("represented", list,
                                [&](std::span<const Represented> some) { represented.append(list, some); });
@@ -250,7 +250,7 @@ std::optional<Level> open_level(std::size_t number, const std::string& made_from
                                                record.normals_bytes, record.normals_digest);
   if (!points || !normals) return std::nullopt;
   TileStore store({std::move(*points), std::move(*normals), job.file("duplicates")}, std::move(tiling),
-                  survey_of(record).precision(), record.has_normals != 0, job.memory.spills / 8);
+                  survey_of(record).precision(), record.has_normals != 0, job.lists);
   for (TileIndex t = 0; t < store.tiling().tiles.size(); ++t)
     part->for_each<Duplicate>(
         "duplicates", t, [&](std::span<const Duplicate> duplicates) { store.add_duplicates(t, duplicates); });

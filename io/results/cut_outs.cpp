@@ -155,7 +155,7 @@ void write_cut_outs(const Detection& detection, const FileScan& scan, const File
   if (!is_wanted) return;
 
   constexpr std::size_t kLeastBlock = 4096, kMostBlock = 65536;
-  const std::uint64_t memory = Memory::share(config.run.memory_limit).spills;
+  const std::uint64_t memory = Memory::share(config.run.memory_limit).lists;
   most_holes = std::clamp<std::uint64_t>(memory / (2 * kLeastBlock), 1, most_holes);
   const PointsPlan plan = plan_of(scan, config.output, format, local_offset(detection, config.output));
   const auto form = format == FileFormat::kCsv ? csv_form(plan) : ply_form(plan);

@@ -72,7 +72,7 @@ PaperBoundary::PaperBoundary(const Tiling& tiling, Job& job)
     : tiling_(tiling),
       job_(job),
       config_(job.config.spanning),
-      crossings_(job.file("crossings"), tiling.tiles.size(), job.memory.spills / 8),
+      crossings_(job.file("crossings"), tiling.tiles.size(), job.lists),
       strengths_(job.file("strengths")),
       loops_(job.file("raw-loops")) {}
 
@@ -179,8 +179,8 @@ void PaperBoundary::stitch(const TileOutputs& outputs, const Totals& totals) {
     needs[t] = (outputs.count(kInside, t) + crossings_.count(t)) * kBytesPerEdge +
                outputs.count(kVertices, t) * kBytesPerVertex + tiling_.tiles[t].points * sizeof(LocalIndex);
   }
-  job_.arena.for_each_within_budget(needs, job_.memory.global,
-                                    [&](std::size_t t) { span_tile(outputs, static_cast<TileIndex>(t)); });
+  job_.for_each_within(job_.memory.work, needs,
+                       [&](std::size_t t) { span_tile(outputs, static_cast<TileIndex>(t)); });
 }
 
 FoundLoops PaperBoundary::find_loops(const TileOutputs& outputs) {
@@ -193,7 +193,8 @@ FoundLoops PaperBoundary::find_loops(const TileOutputs& outputs) {
         find_component_loops(for_each_edge, edges.size(), minimum_loop_, kAsMuchAsItTakes, job_, loops_);
       },
       [&](const auto& for_each_edge, std::uint64_t count) {
-        find_component_loops(for_each_edge, count, minimum_loop_, job_.memory.global / 4 * 3, job_, loops_);
+        const MemoryLedger::Lease lease = job_.ledger.take(job_.memory.work / 4 * 3);
+        find_component_loops(for_each_edge, count, minimum_loop_, lease.bytes(), job_, loops_);
       });
   return {.loops = loops_.with_points(outputs, tiling_, job_),
           .edges = edges_,

@@ -18,7 +18,7 @@ struct WantedPoint {
 using WantedPoints = AppendLists<WantedPoint>;
 
 WantedPoints wanted_points(const Column<Vertex>& vertices, const Tiling& tiling, const Job& job) {
-  WantedPoints wanted(job.file("wanted-points"), tiling.tiles.size(), job.memory.spills / 4);
+  WantedPoints wanted(job.file("wanted-points"), tiling.tiles.size(), job.lists);
   Outbox<WantedPoint> outbox(wanted);
   ColumnReader<Vertex> reader(vertices);
   for (std::uint64_t place = 0; place < vertices.size(); ++place) {

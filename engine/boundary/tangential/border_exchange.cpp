@@ -129,7 +129,7 @@ void BorderExchange::for_each(std::span<const TileIndex> tiles, Bytes&& bytes, S
   std::vector<std::uint64_t> needs;
   needs.reserve(tiles.size());
   for (const TileIndex t : tiles) needs.push_back(bytes(t));
-  job_.arena.for_each_within_budget(needs, job_.memory.global, [&](std::size_t i) { step(tiles[i]); });
+  job_.for_each_within(job_.memory.work, needs, [&](std::size_t i) { step(tiles[i]); });
 }
 
 }  // namespace lacuna::tangential

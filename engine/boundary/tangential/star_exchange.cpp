@@ -20,9 +20,9 @@ StarExchange::StarExchange(const TileOutputs& outputs, const Tiling& tiling, con
       around(tiling.tiles.size()),
       sites(job.file("sites")),
       samples(job.file("samples")),
-      remote_triangles(job.file("remote-triangles"), tiling.tiles.size(), job.memory.spills / 8),
-      belt_stars_(job.file("belt-stars"), tiling.tiles.size(), job.memory.spills / 16),
-      belt_vertices_(job.file("belt-vertices"), tiling.tiles.size(), job.memory.spills / 16) {
+      remote_triangles(job.file("remote-triangles"), tiling.tiles.size(), job.lists),
+      belt_stars_(job.file("belt-stars"), tiling.tiles.size(), job.lists),
+      belt_vertices_(job.file("belt-vertices"), tiling.tiles.size(), job.lists) {
   job.arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
     const auto t = static_cast<TileIndex>(i);
     for (const LocalIndex p : outputs.read(kActive, t)) active.insert(tiling.tiles[t].row(p));

@@ -32,7 +32,7 @@ TangentialBoundary::TangentialBoundary(const Tiling& tiling, Job& job)
     : tiling_(tiling),
       job_(job),
       config_(job.config.tangential),
-      curve_budget_(job.memory.global / 8 / job.arena.threads()),
+      curve_budget_(job.memory.work / 8 / job.arena.threads()),
       chain_points_(job.file("chain-points")),
       loops_(job.file("loops")) {}
 
@@ -104,19 +104,22 @@ void TangentialBoundary::stitch(const TileOutputs&, const Totals&) {
   std::vector<std::uint64_t> needs(tiles);
   for (TileIndex t = 0; t < tiles; ++t)
     needs[t] = exchange_->growing_bytes(t) + exchange_->most_wedges(t) * kBytesPerWedge;
-  job_.arena.for_each_within_budget(needs, job_.memory.global,
-                                    [&](std::size_t t) { chain_tile(static_cast<TileIndex>(t)); });
+  const MemoryLedger::Lease curves = job_.ledger.take(job_.memory.work / 8);
+  job_.for_each_within(job_.memory.work - curves.bytes(), needs,
+                       [&](std::size_t t) { chain_tile(static_cast<TileIndex>(t)); });
   exchange_.reset();
 }
 
 FoundLoops TangentialBoundary::find_loops(const TileOutputs&) {
+  const MemoryLedger::Lease curves = job_.ledger.take(job_.memory.work / 8);
   const auto add = [&](auto curve, Scale scale, Scratch& scratch) { add_loops(curve, scale, scratch); };
   stitch_->for_each_component(
       [&](std::span<const OpenChain> chains) {
         close_chains(chains, chain_points_, job_.workspace, curve_budget_, add);
       },
       [&](const auto& for_each_chain, std::uint64_t count) {
-        close_many_chains(for_each_chain, count, chain_points_, job_.workspace, job_.memory.global / 4, add);
+        const MemoryLedger::Lease lease = job_.ledger.take(job_.memory.work / 4 * 3);
+        close_many_chains(for_each_chain, count, chain_points_, job_.workspace, lease.bytes() / 3, add);
       });
   loops_.sort();
   return {.loops = std::move(loops_), .edges = edges_, .components = stitch_->components()};

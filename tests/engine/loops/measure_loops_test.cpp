@@ -37,7 +37,7 @@ MeasuredLoops measured_loops(TiledScan& scan, std::uint64_t memory = 0) {
   ChosenLoops chosen;
   for (std::uint32_t loop = 0; loop < count; ++loop) chosen.chosen.push_back({0, loop});
   chosen.levels.push_back(std::move(found.loops));
-  if (memory > 0) scan.job.memory.global = memory;
+  if (memory > 0) scan.job.memory.work = memory;
   const std::vector<LoopTrack> tracks(count);
   return measure_loops(std::move(chosen), tracks, scan.totals(outputs).mean_edge_length(), scan.job);
 }

@@ -66,7 +66,7 @@ Stitched stitch(const std::vector<Edge>& edges, std::uint64_t tiles, std::uint64
   const Config config = tiled({}, 100, threads);
   NoProgress quiet;
   Job job(config, folder.path(), quiet);
-  job.memory.global = memory;
+  job.memory.work = memory;
   Stitch<Edge> stitch(tiles, sizeof(Edge), job);
   Stitched result;
   std::mutex mutex;

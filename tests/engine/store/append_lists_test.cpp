@@ -26,7 +26,8 @@ using test::ScratchFolder;
 TEST_CASE("lists beyond the budget read back all that was appended, each its own") {
   const ScratchFolder folder;
   constexpr std::size_t kLists = 37;
-  AppendLists<Record> lists(folder / "lists", kLists, 0);  // the least budget there is
+  AppendLists<Record> lists(folder / "lists", kLists,
+                            std::make_shared<BufferPool>(0));  // the least budget there is
   std::vector<std::vector<Record>> expected(kLists);
   Random random(2);
   std::vector<Record> batch;
@@ -58,7 +59,7 @@ TEST_CASE("lists beyond the budget read back all that was appended, each its own
 
 TEST_CASE("one thread's appends to a list stay in order") {
   const ScratchFolder folder;
-  AppendLists<std::uint64_t> lists(folder / "lists", 3, 0);
+  AppendLists<std::uint64_t> lists(folder / "lists", 3, std::make_shared<BufferPool>(0));
   for (std::uint64_t i = 0; i < 100'000; ++i) lists.append(i % 3, i);
   for (std::size_t list = 0; list < 3; ++list) {
     const std::vector<std::uint64_t> read = lists.read(list);
@@ -69,7 +70,7 @@ TEST_CASE("one thread's appends to a list stay in order") {
 
 TEST_CASE("appends from many threads lose nothing") {
   const ScratchFolder folder;
-  AppendLists<std::uint64_t> lists(folder / "lists", 5, 0);
+  AppendLists<std::uint64_t> lists(folder / "lists", 5, std::make_shared<BufferPool>(0));
   std::vector<std::thread> threads;
   for (std::uint64_t t = 0; t < 8; ++t) {
     threads.emplace_back([&lists, t] {
@@ -92,7 +93,7 @@ TEST_CASE("many lists on disk in many small pieces take no more memory than thei
   const ScratchFolder folder;
   const std::size_t before = heap_in_use();
   constexpr std::uint64_t kLists = 500, kRecords = 500'000;
-  AppendLists<std::uint64_t> lists(folder / "lists", kLists, 0);
+  AppendLists<std::uint64_t> lists(folder / "lists", kLists, std::make_shared<BufferPool>(0));
   for (std::uint64_t i = 0; i < kRecords; ++i) lists.append(i % kLists, i);
   CHECK(heap_in_use() - before < 160 << 10);
   for (const std::size_t list : {0, 1, 499}) {
@@ -104,7 +105,7 @@ TEST_CASE("many lists on disk in many small pieces take no more memory than thei
 
 TEST_CASE("lists whose file was cut short are an error to read and to append to, never zeros") {
   const ScratchFolder folder;
-  AppendLists<std::uint64_t> lists(folder / "lists", 3, 0);
+  AppendLists<std::uint64_t> lists(folder / "lists", 3, std::make_shared<BufferPool>(0));
   for (std::uint64_t i = 0; i < 100'000; ++i) lists.append(i % 3, i);
   REQUIRE(test::cut_open_file(getpid(), "lists"));
   const auto names_file = Catch::Matchers::Contains((folder / "lists").string() + ": the file was cut short");

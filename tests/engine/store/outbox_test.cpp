@@ -15,7 +15,7 @@ using test::ScratchFolder;
 
 TEST_CASE("every record arrives at its tile in the order in which it was added, and few are held back") {
   const ScratchFolder folder;
-  AppendLists<std::uint32_t> lists(folder / "lists", 3, 1 << 20);
+  AppendLists<std::uint32_t> lists(folder / "lists", 3, std::make_shared<BufferPool>(1 << 20));
   std::vector<std::vector<std::uint32_t>> wanted(3);
   Outbox<std::uint32_t> outbox(lists);
   Random random(1);

@@ -63,7 +63,8 @@ StoredPoint numbered(std::uint64_t id) {
 
 TEST_CASE("points that come from several threads are in their tile once each, with their normals") {
   const ScratchFolder folder;
-  TileStore store(files(folder), two_tiles(), 2, Precision::kSingle, true, 1 << 16);
+  TileStore store(files(folder), two_tiles(), 2, Precision::kSingle, true,
+                  std::make_shared<BufferPool>(1 << 16));
   TileStore::Filler filler(store, 4000);
   std::vector<std::thread> threads;
   for (std::uint64_t first = 0; first < 8000; first += 1000) {
@@ -138,7 +139,7 @@ TEST_CASE("points come back in tile order, and in cell order within a tile, with
     tiles.push_back({.first_row = Row{aligned_row(first)}, .raw = points.back().size() + 1});
   }
   tiles.pop_back();
-  TileStore store(files(folder), tiles, 4, Precision::kDouble, false, 1 << 16);
+  TileStore store(files(folder), tiles, 4, Precision::kDouble, false, std::make_shared<BufferPool>(1 << 16));
   for (const TileIndex tile : {2, 0, 1}) {
     store.put(tile, points[tile], {}, cells[tile]);
     const Duplicate copy{PointId{tile}, LocalIndex{5}};
@@ -195,7 +196,8 @@ TEST_CASE("points come back in tile order, and in cell order within a tile, with
 
 TEST_CASE("a tile that gets more or fewer points than were counted is an error") {
   const ScratchFolder folder;
-  TileStore store(files(folder), two_tiles(), 2, Precision::kDouble, false, 1 << 16);
+  TileStore store(files(folder), two_tiles(), 2, Precision::kDouble, false,
+                  std::make_shared<BufferPool>(1 << 16));
   TileStore::Filler filler(store, 4000);
   const std::vector<StoredPoint> points(3000, numbered(1));
   filler.append(0, points, {});
@@ -206,7 +208,7 @@ TEST_CASE("a tile that gets more or fewer points than were counted is an error")
 TEST_CASE("a tile whose points were cut off on disk is an error, in either precision") {
   for (const Precision precision : {Precision::kSingle, Precision::kDouble}) {
     const ScratchFolder folder;
-    TileStore store(files(folder), two_tiles(), 2, precision, false, 1 << 16);
+    TileStore store(files(folder), two_tiles(), 2, precision, false, std::make_shared<BufferPool>(1 << 16));
     TileStore::Filler filler(store, 4000);
     filler.append(0, std::vector<StoredPoint>(3000, numbered(1)), {});
     filler.append(1, std::vector<StoredPoint>(5000, numbered(2)), {});

@@ -28,7 +28,7 @@ Traced trace(const Cloud& cloud, const Config& config, std::uint64_t global_memo
   PaperBoundary boundary(scan.store.tiling(), scan.job);
   const TileOutputs outputs =
       scan.evaluate({[&](const EvaluatedTile& tile, TileOutput& output) { boundary.emit(tile, output); }});
-  if (global_memory > 0) scan.job.memory.global = global_memory;
+  if (global_memory > 0) scan.job.memory.work = global_memory;
   const FoundLoops traced = scan.find_loops(boundary, outputs);
   Traced result{.eligible_edges = traced.edges, .components = traced.components};
   for (std::size_t i = 0; i < traced.loops.size(); ++i) {
