@@ -12,31 +12,9 @@
 namespace lacuna {
 namespace {
 
-// The properties of a point.
-constexpr std::uint32_t kCoherent = 1, kBoundary = 2;
-
-// A point of one tile that is coherent or belongs to the boundary.
-struct MarkedPoint {
-  LocalIndex owned;
-  std::int32_t loop;  // the first reported loop through it; kNotReported: none
-  float probability;
-  std::uint32_t flags;
-  StoredPoint point;
+struct ById {
+  bool operator()(const MarkedPoint& a, const MarkedPoint& b) const { return a.point.id < b.point.id; }
 };
-
-// A point of the input that is coherent or belongs to the boundary.
-struct StoredBoundary {
-  StoredPoint point;
-  float probability;
-  std::int32_t loop;  // -1: it is on no reported loop
-  std::uint64_t flags;
-
-  bool is_boundary() const { return (flags & kBoundary) != 0; }
-
-  friend bool operator<(const StoredBoundary& a, const StoredBoundary& b) { return a.point.id < b.point.id; }
-};
-
-using BoundarySort = SortedRuns<StoredBoundary>;
 
 // Calls visit(record) for each record of a column.
 template <class Record, class Visit>
@@ -49,8 +27,8 @@ void for_each_record(const Column<Record>& column, Visit&& visit) {
 struct ResultBlocks {
   std::uint64_t points;  // of the input
   PointResults results;
-  std::shared_ptr<const Column<StoredBoundary>> boundary;  // in ascending id
-  std::optional<RowSet> turned;                            // rows whose normal is turned round
+  std::shared_ptr<const Column<MarkedPoint>> boundary;  // in ascending id
+  std::optional<RowSet> turned;                         // rows whose normal is turned round
 
   PointResult result(const StoredResult& r) const {
     const float sign = turned && turned->contains(r.row) ? -1.0f : 1.0f;
@@ -63,7 +41,7 @@ struct ResultBlocks {
     constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
     PointResult dropped{.probability = kNaN, .normal = Eigen::Vector3f::Constant(kNaN)};
     dropped.criteria.fill(kNaN);
-    ColumnReader<StoredBoundary> marks(*boundary);
+    ColumnReader<MarkedPoint> marks(*boundary);
     std::uint64_t next = 0;
     const std::uint64_t marked = boundary->size();
     std::vector<PointResult> block;
@@ -75,11 +53,11 @@ struct ResultBlocks {
         std::copy(criteria.begin(), criteria.end(), point.criteria.begin());
       });
       for (; next < marked && value(marks[next].point.id) < last; ++next) {
-        const StoredBoundary& p = marks[next];
+        const MarkedPoint& p = marks[next];
         PointResult& point = block[value(p.point.id) - first];
         point.boundary = p.is_boundary();
-        point.coherent = (p.flags & kCoherent) != 0;
-        point.loop = p.loop;
+        point.coherent = p.is_coherent();
+        point.loop = p.reported_loop();
       }
       visit(PointId{first}, block);
     }
@@ -87,7 +65,7 @@ struct ResultBlocks {
 };
 
 // Each stream holds the data that it reads.
-std::unique_ptr<Detection> make_detection(Findings findings, Column<StoredBoundary> boundary_points) {
+std::unique_ptr<Detection> make_detection(Findings findings, Column<MarkedPoint> boundary_points) {
   auto detection = std::make_unique<Detection>();
   detection->summary = std::move(findings.summary);
   for (const std::size_t loop : findings.selected) detection->loops.push_back(findings.loops.measures[loop]);
@@ -98,10 +76,10 @@ std::unique_ptr<Detection> make_detection(Findings findings, Column<StoredBounda
     loops->for_each_point(selected[loop], [&](const StoredLoopPoint& p) { visit(loaded(p)); });
   };
 
-  const auto boundary = std::make_shared<const Column<StoredBoundary>>(std::move(boundary_points));
+  const auto boundary = std::make_shared<const Column<MarkedPoint>>(std::move(boundary_points));
   detection->for_each_boundary_point = [boundary](const auto& visit) {
-    for_each_record(*boundary, [&](const StoredBoundary& p) {
-      if (p.is_boundary()) visit({p.point.id, p.point.position(), p.probability, p.loop});
+    for_each_record(*boundary, [&](const MarkedPoint& p) {
+      if (p.is_boundary()) visit({p.point.id, p.point.position(), p.probability, p.reported_loop()});
     });
   };
   if (findings.points) {
@@ -134,32 +112,26 @@ std::unique_ptr<Detection> make_detection(Findings findings, Column<StoredBounda
 // A tile's points that are coherent or belong to the boundary, each once.
 std::vector<MarkedPoint> marks_of_tile(std::span<const StoredCandidate> candidates, const Findings& findings,
                                        const Tile& tile, TileIndex t) {
-  std::vector<MarkedPoint> marks;
-  for (const PointOnLoop& p : findings.on_loops.points.read(t))
-    marks.push_back({p.owned, p.loop, p.probability, kBoundary, p.point});
+  std::vector<MarkedPoint> marked = findings.on_loops.points.read(t);
   for (const StoredCandidate& c : candidates) {
     const Row row = c.candidate.row;
-    const std::uint32_t flags = (findings.coherent.contains(row) ? kCoherent : 0) |
-                                (findings.boundary_candidates.contains(row) ? kBoundary : 0);
-    if (flags != 0) marks.push_back({tile.local(row), kNotReported, c.probability, flags, c.point});
+    const std::uint32_t marks = (findings.coherent.contains(row) ? MarkedPoint::kCoherent : 0) |
+                                (findings.boundary_candidates.contains(row) ? MarkedPoint::kBoundary : 0);
+    if (marks != 0) marked.push_back({c.point, tile.local(row), kNotReported, c.probability, marks});
   }
-  std::sort(marks.begin(), marks.end(), [](const MarkedPoint& a, const MarkedPoint& b) {
+  std::sort(marked.begin(), marked.end(), [](const MarkedPoint& a, const MarkedPoint& b) {
     return std::tie(a.owned, a.loop, a.probability) < std::tie(b.owned, b.loop, b.probability);
   });
   std::size_t kept = 0;
-  for (const MarkedPoint& mark : marks) {
-    if (kept > 0 && marks[kept - 1].owned == mark.owned) {
-      marks[kept - 1].flags |= mark.flags;
+  for (const MarkedPoint& p : marked) {
+    if (kept > 0 && marked[kept - 1].owned == p.owned) {
+      marked[kept - 1].marks |= p.marks;
     } else {
-      marks[kept++] = mark;
+      marked[kept++] = p;
     }
   }
-  marks.resize(kept);
-  return marks;
-}
-
-StoredBoundary stored(const MarkedPoint& mark) {
-  return {mark.point, mark.probability, mark.loop == kNotReported ? -1 : mark.loop, mark.flags};
+  marked.resize(kept);
+  return marked;
 }
 
 }  // namespace
@@ -168,36 +140,36 @@ std::unique_ptr<Detection> collect_results(Findings findings, const TileOutputs&
                                            const TileStore& store, Job& job) {
   const Tiling& tiling = store.tiling();
   Summary& summary = findings.summary;
-  Column<StoredBoundary> boundary_points(job.file("boundary"));
+  Column<MarkedPoint> boundary_points(job.file("boundary"));
   {
     Phase phase(job, "collect", tiling.points());
     const MemoryLedger::Lease sorting = job.ledger.take(job.memory.work / 3);
-    BoundarySort sorted(job.file("boundary-sort"), sorting.bytes());
+    SortedRuns<MarkedPoint, ById> sorted(job.file("boundary-sort"), sorting.bytes());
     std::mutex mutex;
     job.arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
       const auto t = static_cast<TileIndex>(i);
       const Tile& tile = tiling.tiles[t];
-      const std::vector<MarkedPoint> tile_marks =
-          marks_of_tile(outputs.read(kCandidates, t), findings, tile, t);
+      const std::vector<MarkedPoint> marked = marks_of_tile(outputs.read(kCandidates, t), findings, tile, t);
       const std::lock_guard lock(mutex);
-      for (const MarkedPoint& mark : tile_marks) {
-        summary.counts.coherent += (mark.flags & kCoherent) != 0;
-        summary.counts.boundary_points += (mark.flags & kBoundary) != 0;
-        sorted.add(stored(mark));
+      for (const MarkedPoint& p : marked) {
+        summary.counts.coherent += p.is_coherent();
+        summary.counts.boundary_points += p.is_boundary();
+        sorted.add(p);
       }
       store.for_each_duplicate(t, [&](const Duplicate& d) {
-        const auto of = std::lower_bound(tile_marks.begin(), tile_marks.end(), d.of,
-                                         [](const MarkedPoint& m, LocalIndex p) { return m.owned < p; });
-        if (of == tile_marks.end() || of->owned != d.of) return;
-        StoredBoundary duplicate = stored(*of);
+        const auto of =
+            std::lower_bound(marked.begin(), marked.end(), d.of,
+                             [](const MarkedPoint& p, LocalIndex owned) { return p.owned < owned; });
+        if (of == marked.end() || of->owned != d.of) return;
+        MarkedPoint duplicate = *of;
         duplicate.point.id = d.id;
         summary.counts.boundary_points += duplicate.is_boundary();
         sorted.add(duplicate);
       });
       phase.advance(tile.points);
     });
-    ColumnWriter<StoredBoundary> writer(boundary_points);
-    sorted.for_each([&](const StoredBoundary& p) { writer.add(p); });
+    ColumnWriter<MarkedPoint> writer(boundary_points);
+    sorted.for_each([&](const MarkedPoint& p) { writer.add(p); });
     writer.finish();
   }
   summary.phases = job.phases;

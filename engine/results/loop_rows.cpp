@@ -27,15 +27,15 @@ void for_each_tile_at(const Tiling& tiling, const Eigen::Vector3d& place, Visit&
 
 // Sends every point on a loop to the tiles that may have it.
 void send_points(const ChosenLoops& loops, std::span<const std::size_t> selected, const Tiling& tiling,
-                 AppendLists<PointOnLoop>& sent) {
-  Outbox<PointOnLoop> outbox(sent);
+                 AppendLists<MarkedPoint>& sent) {
+  Outbox<MarkedPoint> outbox(sent);
   std::size_t next_selected = 0;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const bool is_reported = next_selected < selected.size() && selected[next_selected] == i;
     const std::int32_t name = is_reported ? static_cast<std::int32_t>(next_selected++) : kNotReported;
     loops.for_each_point(i, [&](const StoredLoopPoint& p) {
       for_each_tile_at(tiling, p.point.position(), [&](TileIndex t) {
-        outbox.add(t, {kNoIndex, name, p.probability, p.point});
+        outbox.add(t, {p.point, kNoIndex, name, p.probability, MarkedPoint::kBoundary});
       });
     });
   }
@@ -43,16 +43,16 @@ void send_points(const ChosenLoops& loops, std::span<const std::size_t> selected
 }
 
 // Returns the points that the tile has, with their places in it.
-std::vector<PointOnLoop> owned_points(std::vector<PointOnLoop> points, const TileStore& store, TileIndex t) {
-  const auto by_id = [](const PointOnLoop& a, const PointOnLoop& b) { return a.point.id < b.point.id; };
+std::vector<MarkedPoint> owned_points(std::vector<MarkedPoint> points, const TileStore& store, TileIndex t) {
+  const auto by_id = [](const MarkedPoint& a, const MarkedPoint& b) { return a.point.id < b.point.id; };
   std::sort(points.begin(), points.end(), by_id);
   LocalIndex owned = 0;
   store.for_each_point(t, [&](const StoredPoint& p) {
-    const auto [begin, end] = std::equal_range(points.begin(), points.end(), PointOnLoop{.point = p}, by_id);
-    std::for_each(begin, end, [&](PointOnLoop& on_loop) { on_loop.owned = owned; });
+    const auto [begin, end] = std::equal_range(points.begin(), points.end(), MarkedPoint{.point = p}, by_id);
+    std::for_each(begin, end, [&](MarkedPoint& on_loop) { on_loop.owned = owned; });
     ++owned;
   });
-  std::erase_if(points, [](const PointOnLoop& p) { return p.owned == kNoIndex; });
+  std::erase_if(points, [](const MarkedPoint& p) { return p.owned == kNoIndex; });
   return points;
 }
 
@@ -61,15 +61,16 @@ std::vector<PointOnLoop> owned_points(std::vector<PointOnLoop> points, const Til
 LoopRows find_loop_rows(const ChosenLoops& loops, std::span<const std::size_t> selected,
                         const TileStore& store, Job& job) {
   const Tiling& tiling = store.tiling();
-  AppendLists<PointOnLoop> sent(job.file("points-of-loops"), tiling.tiles.size(), job.lists);
-  send_points(loops, selected, tiling, sent);
-  LoopRows found{AppendLists<PointOnLoop>(job.file("loop-rows"), tiling.tiles.size(), job.lists),
+  LoopRows found{AppendLists<MarkedPoint>(job.file("points-of-loops"), tiling.tiles.size(), job.lists),
                  RowSet(tiling.row_count())};
+  send_points(loops, selected, tiling, found.points);
   std::atomic<std::uint64_t> count = 0;
   job.arena.for_each(tiling.tiles.size(), [&](std::size_t t) {
-    if (sent.count(t) == 0) return;
-    const std::vector<PointOnLoop> points = owned_points(sent.read(t), store, static_cast<TileIndex>(t));
-    for (const PointOnLoop& p : points) found.rows.insert(tiling.tiles[t].row(p.owned));
+    if (found.points.count(t) == 0) return;
+    const std::vector<MarkedPoint> points =
+        owned_points(found.points.read(t), store, static_cast<TileIndex>(t));
+    for (const MarkedPoint& p : points) found.rows.insert(tiling.tiles[t].row(p.owned));
+    found.points.drop(t);
     found.points.append(t, points);
     count += points.size();
   });

@@ -16,15 +16,23 @@ namespace lacuna {
 
 inline constexpr std::int32_t kNotReported = INT32_MAX;
 
-struct PointOnLoop {
-  LocalIndex owned;
-  std::int32_t loop;  // the reported loop; kNotReported: the loop is not reported
-  float probability;  // at the level of the loop
+// A point that is coherent or belongs to the boundary.
+struct MarkedPoint {
+  static constexpr std::uint32_t kCoherent = 1, kBoundary = 2;
+
   StoredPoint point;
+  LocalIndex owned;   // in its tile
+  std::int32_t loop;  // the first reported loop through it; kNotReported: none
+  float probability;  // of a point on a loop: at the level of the loop
+  std::uint32_t marks;
+
+  std::int32_t reported_loop() const { return loop == kNotReported ? -1 : loop; }
+  bool is_coherent() const { return (marks & kCoherent) != 0; }
+  bool is_boundary() const { return (marks & kBoundary) != 0; }
 };
 
 struct LoopRows {
-  AppendLists<PointOnLoop> points;  // by tile; once for each loop through a point
+  AppendLists<MarkedPoint> points;  // by tile; once for each loop through a point
   RowSet rows;
 };
 
