@@ -194,8 +194,7 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   if (config.results.voxels)
     findings.probabilities.emplace(probability_voxels(outputs, found.totals.median_distance(),
                                                       findings.summary.strays.rest, store, job));
-  if (consumers.sample)
-    findings.sample.emplace(consumers.sample->draw(outputs, first.survey.ids, store, job));
+  if (consumers.sample) findings.sample.emplace(consumers.sample->draw(outputs, store, job));
   if (config.normals.orient) findings.opposed_normals = opposed_normals(outputs, store, job);
   std::unique_ptr<Detection> detection = collect_results(std::move(findings), outputs, store, job);
   if (!first.represented) return detection;

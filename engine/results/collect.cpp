@@ -12,10 +12,6 @@
 namespace lacuna {
 namespace {
 
-struct ById {
-  bool operator()(const MarkedPoint& a, const MarkedPoint& b) const { return a.point.id < b.point.id; }
-};
-
 // Calls visit(record) for each record of a column.
 template <class Record, class Visit>
 void for_each_record(const Column<Record>& column, Visit&& visit) {
@@ -144,7 +140,7 @@ std::unique_ptr<Detection> collect_results(Findings findings, const TileOutputs&
   {
     Phase phase(job, "collect", tiling.points());
     const MemoryLedger::Lease sorting = job.ledger.take(job.memory.work / 3);
-    SortedRuns<MarkedPoint, ById> sorted(job.file("boundary-sort"), sorting.bytes());
+    SortedRuns<MarkedPoint> sorted(job.file("boundary-sort"), sorting.bytes());
     std::mutex mutex;
     job.arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
       const auto t = static_cast<TileIndex>(i);

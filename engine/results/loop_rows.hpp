@@ -29,6 +29,8 @@ struct MarkedPoint {
   std::int32_t reported_loop() const { return loop == kNotReported ? -1 : loop; }
   bool is_coherent() const { return (marks & kCoherent) != 0; }
   bool is_boundary() const { return (marks & kBoundary) != 0; }
+
+  friend bool operator<(const MarkedPoint& a, const MarkedPoint& b) { return a.point.id < b.point.id; }
 };
 
 struct LoopRows {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/results/scan_sample.hpp"
 
-#include "engine/store/append_lists.hpp"
-#include "engine/store/outbox.hpp"
+#include "engine/store/column_writer.hpp"
 #include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
@@ -16,8 +15,7 @@
 namespace lacuna {
 namespace {
 
-constexpr std::uint64_t kBlock = 1 << 16;  // ids of a block of the sample, which is ordered in memory
-constexpr double kBoundaryWeight = 3;      // added to a weight of 1 at the probability 1
+constexpr double kBoundaryWeight = 3;  // added to a weight of 1 at the probability 1
 
 // Returns a number that is uniform in (0, 1), by the mixer of SplitMix64 (Steele, Lea, Flood, 2014).
 double drawn_from(PointId id) {
@@ -37,18 +35,6 @@ double key_of(PointId id, const Evaluation& e) {
 // Each power of two has sixteen bins: positive numbers have the order of their bits.
 std::uint32_t bin_of(double key) {
   return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(key) >> 48);
-}
-
-// Orders the sample in ascending id. All ids are in one block.
-void order(std::vector<StoredSample>& samples) {
-  std::vector<LocalIndex> places(kBlock, kNoIndex);
-  for (LocalIndex i = 0; i < samples.size(); ++i) places[value(samples[i].point.id) % kBlock] = i;
-  std::vector<StoredSample> ordered;
-  ordered.reserve(samples.size());
-  for (const LocalIndex place : places) {
-    if (place != kNoIndex) ordered.push_back(samples[place]);
-  }
-  samples.swap(ordered);
 }
 
 }  // namespace
@@ -108,39 +94,32 @@ double ScanSample::last_key(const TileOutputs& outputs, std::size_t tiles, Job& 
   return last;
 }
 
-Column<StoredSample> ScanSample::draw(const TileOutputs& outputs, std::uint64_t ids, const TileStore& store,
-                                      Job& job) {
+Column<StoredSample> ScanSample::draw(const TileOutputs& outputs, const TileStore& store, Job& job) {
   Phase phase(job, "sample", 0);
   const std::size_t tiles = store.tiling().tiles.size();
-  AppendLists<StoredSample> blocks(job.file("sample-blocks"), ids / kBlock + 1, job.lists);
   const double last = last_key(outputs, tiles, job);
+  const MemoryLedger::Lease sorting = job.ledger.take(job.memory.work / 4);
+  SortedRuns<StoredSample> sorted(job.file("sample-sort"), sorting.bytes());
+  std::mutex mutex;
   job.arena.for_each(tiles, [&](std::size_t i) {
     const auto t = static_cast<TileIndex>(i);
-    Outbox<StoredSample> outbox(blocks);
     std::vector<DrawnPoint> sampled = outputs.read(kDrawnPoints, t);
     std::erase_if(sampled, [&](const DrawnPoint& point) { return point.key > last; });
+    std::vector<StoredSample> samples;
     auto next = sampled.begin();
     LocalIndex owned = 0;
     store.for_each_point(t, [&](const StoredPoint& p) {
       if (next == sampled.end() || next->owned != owned++) return;
-      outbox.add(static_cast<TileIndex>(value(p.id) / kBlock), {p, next->probability, next->normal});
+      samples.push_back({p, next->probability, next->normal});
       ++next;
     });
-    outbox.send();
+    const std::lock_guard lock(mutex);
+    sorted.add(samples);
   });
-  std::vector<std::uint64_t> first_rows(blocks.lists()), needs(blocks.lists());
-  std::uint64_t row = 0;
-  for (std::size_t b = 0; b < blocks.lists(); ++b) {
-    first_rows[b] = row;
-    row += blocks.count(b);
-    needs[b] = 2 * blocks.count(b) * sizeof(StoredSample) + kBlock * sizeof(LocalIndex);
-  }
   Column<StoredSample> column(job.file("sample"));
-  job.for_each_within(job.memory.work, needs, [&](std::size_t b) {
-    std::vector<StoredSample> samples = blocks.read(b);
-    order(samples);
-    column.write(first_rows[b], samples);
-  });
+  ColumnWriter<StoredSample> writer(column);
+  sorted.for_each([&](const StoredSample& sample) { writer.add(sample); });
+  writer.finish();
   return column;
 }
 

@@ -21,6 +21,8 @@ struct StoredSample {
   StoredPoint point;
   float probability;
   std::array<float, 3> normal;
+
+  friend bool operator<(const StoredSample& a, const StoredSample& b) { return a.point.id < b.point.id; }
 };
 
 // Sequential Poisson sampling (Ohlsson, 1998): a point of weight w has the key u / w, with u drawn from its
@@ -36,8 +38,8 @@ class ScanSample {
 
   // Puts out the points of a tile that may be in the sample. From any thread.
   void emit(const EvaluatedTile& tile, TileOutput& output);
-  // Returns the sample in ascending id, once all tiles are evaluated. `ids`: all ids are below.
-  Column<StoredSample> draw(const TileOutputs& outputs, std::uint64_t ids, const TileStore& store, Job& job);
+  // Returns the sample in ascending id, once all tiles are evaluated.
+  Column<StoredSample> draw(const TileOutputs& outputs, const TileStore& store, Job& job);
 
  private:
   // A point that may be in the sample.

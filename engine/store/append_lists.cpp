@@ -8,7 +8,7 @@
 namespace lacuna {
 
 AppendBytes::AppendBytes(std::filesystem::path path, std::size_t lists, std::shared_ptr<BufferPool> pool)
-    : pool_(std::move(pool)), file_(std::move(path)) {
+    : pool_(std::move(pool)), path_(std::move(path)) {
   pool_->enter(*this);
   add_lists(lists);
 }
@@ -61,10 +61,10 @@ void AppendBytes::walk(std::size_t index, TakeTail&& take_tail, TakeExtent&& tak
   }
   while (end > 0) {
     if (extent.size == 0 || extent.size > end)
-      throw Error(file_.path().string() + ": the file was changed during the run: a list of it is broken");
+      throw Error(path_.string() + ": the file was changed during the run: a list of it is broken");
     end -= extent.size;
     take_extent(end, extent);
-    if (end > 0) file_.read(extent.offset - sizeof(Extent), std::as_writable_bytes(std::span(&extent, 1)));
+    if (end > 0) file_->read(extent.offset - sizeof(Extent), std::as_writable_bytes(std::span(&extent, 1)));
   }
 }
 
@@ -72,7 +72,7 @@ void AppendBytes::read(std::size_t list, std::byte* to) const {
   walk(
       list, [&](std::uint64_t place, auto tail) { std::copy(tail.begin(), tail.end(), to + place); },
       [&](std::uint64_t place, const Extent& extent) {
-        file_.read(extent.offset, {to + place, extent.size});
+        file_->read(extent.offset, {to + place, extent.size});
       });
 }
 
@@ -89,7 +89,7 @@ void AppendBytes::for_each_part(std::size_t list, std::span<std::byte> part,
   walk(
       list, [&](std::uint64_t, auto tail) { last.assign(tail.begin(), tail.end()); },
       [&](std::uint64_t, const Extent& extent) {
-        in_parts(extent.size, [&](std::uint64_t from, auto to) { file_.read(extent.offset + from, to); });
+        in_parts(extent.size, [&](std::uint64_t from, auto to) { file_->read(extent.offset + from, to); });
       });
   in_parts(last.size(),
            [&](std::uint64_t from, auto to) { std::copy_n(&last[from], to.size(), to.begin()); });
@@ -118,7 +118,8 @@ void AppendBytes::write_half() {
 
 void AppendBytes::write_out(List& list) {
   std::memcpy(list.buffer.data(), &list.last, sizeof(Extent));
-  const std::uint64_t offset = file_.append(list.buffer);
+  if (!file_) file_.emplace(path_);
+  const std::uint64_t offset = file_->append(list.buffer);
   list.last = {offset + sizeof(Extent), list.tail().size()};
   pool_->shrink(*this, list.buffer.capacity());
   std::vector<std::byte>().swap(list.buffer);

@@ -2,9 +2,9 @@
 // Many append-only lists of records, mostly one per tile. Together they may be larger than memory.
 //
 // Each list has a buffer in memory. When the pool of all buffers is full, the fullest are written to the end
-// of the one file. Each becomes an extent of its list. So the file is written in long runs, whatever the
-// order of appends. On disk, each extent begins with the place of the list's extent before it. So in memory a
-// list is its buffer and 48 bytes, however many extents it has.
+// of the one file, which is made then. Each becomes an extent of its list. So the file is written in long
+// runs, whatever the order of appends. On disk, each extent begins with the place of the list's extent before
+// it. So in memory a list is its buffer and 48 bytes, however many extents it has.
 //
 // The order of records within a list depends on threads and memory: a reader sorts them by what they hold.
 // Only where one thread at a time appends to a list, `read` returns them in the order of the calls.
@@ -20,6 +20,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -66,7 +67,8 @@ class AppendBytes final : BufferPool::Buffers {
   void write_out(List& list);
 
   std::shared_ptr<BufferPool> pool_;
-  StoreFile file_;
+  std::filesystem::path path_;
+  std::optional<StoreFile> file_;  // from the first buffer on that did not fit
   std::vector<List> lists_;
   mutable std::mutex mutex_;  // not held while extents are read
 };
