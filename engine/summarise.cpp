@@ -51,6 +51,7 @@ void add_findings(const Totals& totals, const FoundLoops& found, std::span<const
     counts.raw_loops += level.loops.size();
     summary.levels.push_back({level.edge, level.points, level.loops.size()});
   }
+  summary.given_normals = totals.given_normals;
   summary.mean_neighbours = totals.mean_neighbours();
   summary.mean_edge_length = totals.mean_edge_length();
   summary.median_distance = totals.median_distance();

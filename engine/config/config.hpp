@@ -29,6 +29,7 @@ struct NeighbourhoodConfig {
 };
 
 struct NormalsConfig {
+  bool estimate = false;          // all of them; else a point keeps the normal that it came with
   double crease_threshold = 0.5;  // angle probability above which an estimated normal is turned, [0, 1]
   bool orient = false;            // orient consistently, by minimum spanning tree
 };

@@ -46,6 +46,8 @@ std::vector<Parameter> parameters(Config& config) {
       {"neighbourhood", "eps_fraction", &neighbourhood.eps_fraction, 0, 1, "a number from 0 (off) to 1",
        "That radius as a fraction of the bounding box's diagonal; set at most one of the two."},
 
+      {"normals", "estimate_normals", &normals.estimate, 0, 1, "true or false",
+       "Estimate all normals, where files have normals, too."},
       {"normals", "crease_threshold", &normals.crease_threshold, 0, 1, "a number from 0 to 1",
        "Angle probability above which an estimated normal is turned at a crease."},
       {"normals", "orient_normals", &normals.orient, 0, 1, "true or false",

@@ -172,7 +172,8 @@ void evaluate_tiles(const Level& level, std::span<const TileIndex> tiles, Append
     halo.drop(index);
     const TilePoints points = gather(store, index, inbox, halo_cells(tiling, tile, eps));
     std::vector<HaloEdge>().swap(inbox);
-    const std::vector<Eigen::Vector3d> normals = store.normals(index);
+    const std::vector<Eigen::Vector3d> normals =
+        job.config.normals.estimate ? std::vector<Eigen::Vector3d>() : store.normals(index);
     Digest content{};
     if (outputs.is_kept()) {
       content = content_of(points, normals, tiling, eps, Totals(level.extent).length_unit);

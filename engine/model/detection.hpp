@@ -31,6 +31,12 @@ struct Counts {
   std::uint64_t undefined_normals = 0;
 };
 
+// Normals that came with the points, held against the planes of the neighbourhoods.
+struct GivenNormals {
+  std::uint64_t checked = 0;  // where the neighbourhood resembles a surface; distinct points
+  std::uint64_t off = 0;      // of these, by more than 45 degrees
+};
+
 struct PhaseTime {
   std::string name;
   double seconds = 0;
@@ -58,6 +64,7 @@ struct Strays {
 
 struct Summary {
   Counts counts;
+  GivenNormals given_normals;
   ProbabilityBins probabilities{};  // distinct points by their boundary probability
   Eigen::AlignedBox3d bounds;       // of the finite points; empty without any
   Strays strays;                    // without any, `rest` is `bounds`

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The number changes with the records in the parts.
-constexpr const char* kProgram = "lacuna " LACUNA_VERSION ", parts of form 2";
+constexpr const char* kProgram = "lacuna " LACUNA_VERSION ", parts of form 3";
 constexpr const char* kRun = "run";  // the part that says whose workspace it is
 constexpr std::array<const char*, 2> kNotes = {"tasks", "results"};  // by `WorkspaceNote`
 constexpr std::string_view kLevel = "level-", kTiles = "tiles-";

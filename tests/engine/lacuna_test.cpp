@@ -61,6 +61,23 @@ TEST_CASE("given normals count for the library", "[library]") {
   CHECK(bytes_of(found) != bytes_of(find_holes(cloud.positions, with_points())));
 }
 
+TEST_CASE("given normals are held against the surface, and may be left out", "[library]") {
+  Cloud cloud = punched_sheet();
+  cloud.normals.assign(cloud.size(), {0, 0, 1});
+  const Holes right = find_holes(cloud.positions, cloud.normals, with_points());
+  CHECK(right.summary.given_normals.checked > 0);
+  CHECK(right.summary.given_normals.off == 0);
+  cloud.normals.assign(cloud.size(), {1, 0, 0});
+  const Holes wrong = find_holes(cloud.positions, cloud.normals, with_points());
+  CHECK(wrong.summary.given_normals.checked == right.summary.given_normals.checked);
+  CHECK(wrong.summary.given_normals.off == wrong.summary.given_normals.checked);
+  Config config = with_points();
+  config.normals.estimate = true;
+  const Holes estimated = find_holes(cloud.positions, cloud.normals, config);
+  CHECK(estimated.summary.given_normals.checked == 0);
+  CHECK(bytes_of(estimated) == bytes_of(find_holes(cloud.positions, with_points())));
+}
+
 TEST_CASE("the library finds the holes that the program writes", "[library]") {
   const Cloud cloud = punched_sheet();
   std::ostringstream text;

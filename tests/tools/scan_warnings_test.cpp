@@ -135,4 +135,12 @@ TEST_CASE("longitude and latitude are refused with the ways out, unless a system
   CHECK_THAT(refusal(FileScan({none}, degrees)), Contains("--crs: WGS 84 is in longitude and latitude"));
 }
 
+TEST_CASE("normals that do not fit the surface are a warning from a tenth on") {
+  CHECK(normals_warning({.checked = 0, .off = 0}).empty());
+  CHECK(normals_warning({.checked = 1000, .off = 99}).empty());
+  CHECK_THAT(normals_warning({.checked = 1000, .off = 970}),
+             Contains("off by more than 45 degrees from the surface at 97 % of the points") &&
+                 Contains("--estimate-normals"));
+}
+
 }  // namespace lacuna::test

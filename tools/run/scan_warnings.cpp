@@ -197,11 +197,25 @@ std::string stray_warning(const Strays& strays, double resolution) {
   return text.str();
 }
 
+std::string normals_warning(const GivenNormals& normals) {
+  constexpr double kMostOff = 0.1;
+  const double share =
+      static_cast<double>(normals.off) / static_cast<double>(std::max<std::uint64_t>(normals.checked, 1));
+  if (share < kMostOff) return "";
+  std::ostringstream text;
+  text << "the normals of the scan are off by more than 45 degrees from the surface at "
+       << std::lround(100 * share)
+       << " % of the points, so that holes can be missed; --estimate-normals leaves them out";
+  return text.str();
+}
+
 std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summary,
                                        const FilesConfig& config) {
   std::vector<std::string> warnings;
   if (std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
     warnings.push_back(std::move(strays));
+  if (std::string normals = normals_warning(summary.given_normals); !normals.empty())
+    warnings.push_back(std::move(normals));
   const Counts& counts = summary.counts;
   const std::uint64_t points = counts.points - counts.dropped - counts.thinned_out - counts.duplicates;
   if (points <= static_cast<std::uint64_t>(config.neighbourhood.k)) {

@@ -34,10 +34,13 @@ std::string print_bounds(const Eigen::AlignedBox3d& box, double margin);
 // such points.
 std::string stray_warning(const Strays& strays, double resolution);
 
+// Returns the share of given normals that do not fit the surface, where it is a tenth or more; else nothing.
+std::string normals_warning(const GivenNormals& normals);
+
 // Names stations that do not count, because they cannot have measured all of their points.
 std::vector<std::string> station_warnings(const std::vector<io::StationSummary>& stations);
 
-// Warns after a run of strays, too few points for their neighbourhoods, and coordinates too coarse for their
+// Warns after a run of strays, given normals that do not fit, too few points for their neighbourhoods, and coordinates too coarse for their
 // spacing. Warns, too, of rows that LAS or LAZ cannot hold.
 std::vector<std::string> scan_warnings(const io::FileScan& scan, const Summary& summary,
                                        const io::FilesConfig& config);
