@@ -68,50 +68,6 @@ TEST_CASE("a surface has the bytes that it had on the machine where this test wa
   CHECK(hash(SurfaceKind::kSphere, Order::kScanline, PositionKind::kRandom) == 0x31666ed3485e1f4bu);
 }
 
-TEST_CASE("a cube has as many points on each face, none beyond it and none in its edges") {
-  const ScratchFolder folder;
-  SurfaceOptions options = small_surface(folder, SurfaceKind::kCube);
-  options.spacing = 1;
-  options.holes = 0;
-  options.jitter = 0.5;
-  const SurfaceSummary made = write_surface(options);
-  CHECK(made.loops == 0);
-  CHECK(loops_of(options.truth).empty());
-  const double half = std::sqrt(made.points / 6.0) / 2;
-  std::map<std::array<int, 3>, std::size_t> on_face;
-  for (const Position& p : positions_of(options.out)) {
-    std::array<int, 3> face{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      CHECK(std::fabs(p[axis]) <= half);
-      if (std::fabs(p[axis]) > half * 0.999999) face[axis] = p[axis] > 0 ? 1 : -1;
-    }
-    ++on_face[face];
-  }
-  CHECK(on_face.size() == 6);
-  for (const auto& [face, count] : on_face) CHECK(count == made.points / 6);
-}
-
-TEST_CASE("a sphere has one radius and the area of its squares, evenly covered") {
-  const ScratchFolder folder;
-  SurfaceOptions options = small_surface(folder, SurfaceKind::kSphere);
-  options.spacing = 1;
-  options.holes = 0;
-  const SurfaceSummary made = write_surface(options);
-  CHECK(loops_of(options.truth).empty());
-  const double radius = std::sqrt(made.points / (4 * std::acos(-1.0)));
-  std::array<double, 8> in_octant{};
-  double at_pole = 0, at_corner = 0;  // in caps of the same size
-  for (const Position& p : positions_of(options.out)) {
-    CHECK(std::hypot(p[0], p[1], p[2]) == Approx(radius).epsilon(1e-5));
-    ++in_octant[(p[0] > 0) + 2 * (p[1] > 0) + 4 * (p[2] > 0)];
-    at_pole += p[2] > 0.95 * radius;
-    at_corner += p[0] + p[1] + p[2] > 0.95 * radius * std::sqrt(3.0);
-  }
-  for (const double count : in_octant) CHECK(count == Approx(made.points / 8.0).epsilon(0.02));
-  CHECK(at_corner / at_pole > 1.1);
-  CHECK(at_corner / at_pole < 1.45);
-}
-
 TEST_CASE("panels join without a gap and without an overlap") {
   for (const SurfaceKind kind : kPanelKinds) {
     const ScratchFolder folder;
