@@ -98,19 +98,6 @@ TEST_CASE("the boundary of two discs is two loops, also where their triangles sh
   }
 }
 
-TEST_CASE("holes are loops apart from the outer edge, also where they touch at a vertex") {
-  const auto one = sheet_without({{2, 2}});
-  REQUIRE(one.size() == 2);
-  CHECK(one[0].vertices.size() == 20);
-  CHECK(one[1].vertices == Ids{14, 15, 20, 21});
-  const auto two = sheet_without({{2, 2}, {1, 1}});
-  REQUIRE(two.size() == 3);
-  CHECK(two[0].vertices.size() == 20);
-  CHECK(two[1].vertices == Ids{7, 8, 13, 14});
-  CHECK(two[2].vertices == Ids{14, 15, 20, 21});
-  CHECK(two[2].edges.size() == 4);
-}
-
 TEST_CASE("holes that touch at several vertices stay apart, whatever lies between them") {
   // The square in the middle hangs at its four corners.
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -170,17 +157,6 @@ TEST_CASE("the order of triangles and of their corners does not change loops") {
     }
     CHECK(again == edges);
   }
-}
-
-TEST_CASE("triangles that disagree about their orientation have the same loops") {
-  Drawing drawing;
-  std::vector<Triangle> triangles;
-  const Ids rim = add_disc(drawing, triangles, 12, 0, false);
-  for (const std::size_t flipped : {0u, 1u, 5u}) std::swap(triangles[flipped][1], triangles[flipped][2]);
-  const auto loops = boundary(drawing, triangles);
-  REQUIRE(loops.size() == 1);
-  CHECK(loops[0].vertices == rim);
-  CHECK(loops[0].edges.size() == 12);
 }
 
 TEST_CASE("a band with one twist has one loop") {

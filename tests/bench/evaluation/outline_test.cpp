@@ -65,21 +65,6 @@ TEST_CASE("an outline contains what a star-shaped polygon winds around, in any p
   }
 }
 
-TEST_CASE("an outline with many long teeth contains the teeth and not the places between them") {
-  Polygon comb = {{0, -1, 0}};
-  for (int tooth = 0; tooth < 500; ++tooth) {
-    comb.insert(
-        comb.end(),
-        {{2. * tooth, 100, 0}, {2. * tooth + 1, 100, 0}, {2. * tooth + 1, 0, 0}, {2. * tooth + 2, 0, 0}});
-  }
-  comb.emplace_back(1000, -1, 0);
-  const Outline outline(comb);
-  for (int tooth = 0; tooth < 500; tooth += 7) {
-    CHECK(outline.contains({2 * tooth + 0.5, 50, 0}));
-    CHECK_FALSE(outline.contains({2 * tooth + 1.5, 50, 0}));
-  }
-}
-
 TEST_CASE("what has no area contains nothing") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const Polygon& polygon :

@@ -88,22 +88,6 @@ LoopIds chain(LoopIds ids, const LoopIds& more) {
   return ids;
 }
 
-TEST_CASE("a loop along two true ones is joined") {
-  Drawing drawing;
-  const LoopIds left = square(drawing, 10, 0, 0);
-  const LoopIds right = square(drawing, 10, 20, 0);
-  const LoopAccuracy result = match(drawing, {chain(left, right)}, {left, right}, {.tolerance = 0.5});
-  CHECK(result.loops[0].verdict == EdgeDecision::kJoined);
-  CHECK(result.loops[0].true_loop == 0u);
-  CHECK(result.loops[0].on_any == 1);
-  CHECK(result.loops[0].on == 0.5);
-  CHECK(result.loops[0].covered == 1);
-  const LoopScores& scores = result.scores;
-  CHECK((scores.joined == 1 && scores.parted == 0 && scores.false_loops == 0 && scores.repeated == 0));
-  CHECK((scores.found == 0 && scores.missed == 2));
-  CHECK(scores.precision == 0);
-}
-
 TEST_CASE("a loop that covers a true one and most of which lies on another is joined") {
   Drawing drawing;
   const LoopIds small = square(drawing, 3, 0, 0);
@@ -173,16 +157,6 @@ TEST_CASE("a loop along several short true loops is false") {
   CHECK(match(drawing, {loop}, {left, right}, {.tolerance = 0.5}).loops[0].verdict == EdgeDecision::kFalse);
   CHECK(match(drawing, {loop}, {left, right}, {.tolerance = 0.5, .min_vertices = 4}).loops[0].verdict ==
         EdgeDecision::kJoined);
-}
-
-TEST_CASE("a loop that is near nothing has no true loop") {
-  Drawing drawing;
-  const LoopIds ring = drawing.ring(40, 0, 0);
-  const LoopIds far = drawing.ring(40, 100, 0);
-  const LoopAccuracy result = match(drawing, {far}, {ring});
-  CHECK(result.loops[0].verdict == EdgeDecision::kFalse);
-  CHECK_FALSE(result.loops[0].true_loop);
-  CHECK(result.scores.false_loops == 1);
 }
 
 TEST_CASE("short true loops count neither as found nor as missed, and loops on them are not false") {
