@@ -83,17 +83,6 @@ TEST_CASE("the sample is all of a scan that is no larger, and nothing where none
   CHECK_FALSE(fs::exists(runs.detect({"--sample-points", "0"}) / "sample.ply"));
 }
 
-TEST_CASE("the sample has the same bytes for every tiling, number of threads and memory limit") {
-  Runs runs(plane(120).punched({40, 40}, 9).jittered(0.3, 1).shuffled(3).with_duplicates(500, 4));
-  const auto bytes = [&](std::vector<std::string> options) {
-    options.insert(options.end(), {"--sample-points", "3000"});
-    return read_file(runs.detect(options) / "sample.ply");
-  };
-  const std::string one = bytes({"--threads", "1", "--tile-points", "1000000"});
-  CHECK((bytes({"--threads", "4", "--tile-points", "300"}) == one));
-  CHECK((bytes({"--memory-limit", "64MiB", "--tile-points", "2000"}) == one));
-}
-
 TEST_CASE("the sample is spread by area, however dense the scan is, and denser near boundaries") {
   // The left half is four times as dense as the right one.
   Runs runs(density_step(160).jittered(0.2, 1));

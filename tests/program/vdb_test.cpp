@@ -5,7 +5,6 @@
 #include "tests/support/vdb_grids.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -17,8 +16,6 @@ using namespace io;
 namespace {
 
 namespace fs = std::filesystem;
-using Catch::Contains;
-using test::read_file;
 using test::run_program;
 
 std::string make_surface(const test::ScratchFolder& scratch, const std::string& name) {
@@ -68,47 +65,6 @@ TEST_CASE(
     CHECK((grid.values == expected));
     CHECK(expected.size() > 2000);
   }
-}
-
-TEST_CASE("probability.vdb has the same bytes for every tiling, number of threads and memory limit") {
-  const test::ScratchFolder scratch;
-  const std::string scan = make_surface(scratch, "surface.ply");
-  const auto bytes = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"detect", scan, "--out", (scratch / "out").string(), "--vdb", "--quiet"});
-    REQUIRE(run_program(more).exit_code == 0);
-    return read_file(scratch / "out" / "probability.vdb");
-  };
-  const std::string one = bytes({"--tile-points", "1000000", "--threads", "1"});
-  CHECK((bytes({"--tile-points", "500", "--threads", "8"}) == one));
-  CHECK((bytes({"--tile-points", "5000", "--memory-limit", "64MiB"}) == one));
-  CHECK((bytes({"--method", "paper"}) == one));
-  CHECK((bytes({"--k", "10"}) != one));
-}
-
-TEST_CASE("a run without --vdb removes the grid of an earlier run, and no other file of its name") {
-  const test::ScratchFolder scratch;
-  const std::string scan = make_surface(scratch, "surface.ply");
-  const fs::path out = scratch / "out", grid = out / "probability.vdb";
-  const std::vector<std::string> plain = {"detect", scan, "--out", out.string()};
-  std::vector<std::string> with_grid = plain;
-  with_grid.push_back("--vdb");
-  const test::ProgramResult first = run_program(with_grid);
-  REQUIRE(first.exit_code == 0);
-  CHECK_THAT(first.out, Contains("written: " + grid.string()));
-  CHECK(run_program(with_grid).exit_code == 0);  // replaces it
-  CHECK(run_program(plain).exit_code == 0);
-  CHECK_FALSE(fs::exists(grid));
-
-  std::ofstream(grid) << "somebody's volume";
-  CHECK(run_program(plain).exit_code == 0);
-  CHECK(read_file(grid) == "somebody's volume");
-  const test::ProgramResult refused = run_program(with_grid);
-  CHECK(refused.exit_code == 1);
-  CHECK_THAT(refused.err, Contains("probability.vdb: exists, and this command did not write it"));
-  CHECK(read_file(grid) == "somebody's volume");
-  with_grid.push_back("--overwrite");
-  CHECK(run_program(with_grid).exit_code == 0);
-  CHECK(test::read_vdb_grids(grid).size() == 1);
 }
 
 }  // namespace
