@@ -132,23 +132,6 @@ TEST_CASE("with local coordinates, floats and the offset of a header are the coo
   CHECK(bytes.sample == 100 * 32);
 }
 
-TEST_CASE("without local coordinates nothing states an offset, and coordinates are doubles",
-          "[io][results]") {
-  const ScratchFolder folder;
-  const Points points = utm_points();
-  FileScan scan({folder.write("a.txt", text_of(points))}, {});
-  FilesConfig config = local_config(PointsFormat::kPly);
-  config.output.local_coordinates = false;
-  write_results(detection_of(points), scan, config, folder.path());
-  for (const char* name : {"loops.ply", "boundary.ply", "sample.ply", "points.ply"}) {
-    const std::string file = read_file(folder / name);
-    CHECK_THAT(file.substr(0, 300), Contains("comment lacuna detect\nelement vertex ") &&
-                                        Contains("property double x\n") && !Contains("offset"));
-    check_near(read_points(folder / name), points, 0);
-  }
-  CHECK(nlohmann::json::parse(read_file(folder / "holes.json")).at("offset").is_null());
-}
-
 TEST_CASE("the offset is the middle of the scan without its strays in whole units, 0 without points",
           "[io]") {
   OutputConfig config;
