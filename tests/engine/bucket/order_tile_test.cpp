@@ -45,24 +45,6 @@ TEST_CASE("minus zero is at the place of zero") {
   CHECK(tile.duplicates.size() == 2);
 }
 
-TEST_CASE("points that differ in one coordinate are two points") {
-  for (const StoredPoint& other :
-       {stored(1, 0, 0, 1), stored(0, 1, 0, 1), stored(0, 0, 1, 1), stored(0, 0, 5e-324, 1)}) {
-    const std::vector<StoredPoint> points = {stored(0, 0, 0, 0), other};
-    const std::vector<std::uint32_t> cells = {0, 0};
-    CHECK(order_tile(points, cells, 1, CellGrid{}, kCellPoints).duplicates.empty());
-  }
-  const std::vector<StoredPoint> same = {stored(0, 0, 0, 0), stored(0, 0, 0, 1)};
-  CHECK(order_tile(same, std::vector<std::uint32_t>{0, 0}, 1, CellGrid{}, kCellPoints).duplicates.size() ==
-        1);
-}
-
-TEST_CASE("nothing is ordered into nothing") {
-  const OrderedTile tile = order_tile({}, {}, 2, CellGrid{}, kCellPoints);
-  CHECK(tile.order.empty());
-  CHECK(tile.cells.empty());
-}
-
 TEST_CASE(
     "every point is kept or a duplicate of one kept at its very place, and input order does not matter") {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
