@@ -3,7 +3,6 @@
 
 #include "tests/support/clouds.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -28,21 +27,6 @@ bool is_wound_around(const Polygon& polygon, const Eigen::Vector3d& place) {
 }
 
 }  // namespace
-
-TEST_CASE("an outline contains what lies inside it as seen along its normal") {
-  Polygon square = {{0, 0, 0}, {4, 0, 1}, {4, 4, 0}, {0, 4, 1}};
-  for (int turn = 0; turn < 2; ++turn) {
-    const Outline outline(square);
-    CHECK(outline.contains({2, 2, 0}));
-    CHECK(outline.contains({0.1, 3.9, 100}));
-    CHECK(outline.contains({3.9, 0.1, -100}));
-    CHECK_FALSE(outline.contains({-0.1, 2, 0}));
-    CHECK_FALSE(outline.contains({4.1, 2, 0}));
-    CHECK_FALSE(outline.contains({2, -0.1, 0}));
-    CHECK_FALSE(outline.contains({2, 4.1, 0}));
-    std::reverse(square.begin(), square.end());
-  }
-}
 
 TEST_CASE("an outline contains what a star-shaped polygon winds around, in any position") {
   Random random(7);

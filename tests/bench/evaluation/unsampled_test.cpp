@@ -108,14 +108,6 @@ TEST_CASE("the triangles of the surface do not matter, and neither do those that
   CHECK(share(cloud, loop, square(-1e300, 1e300)) <= 1);  // squares of such lengths are infinite
 }
 
-TEST_CASE("a surface whose coordinates are hardly finer than the spacing is halved as far as it can be") {
-  const Eigen::Vector3d far(0x1p53, 0, 0);  // whole numbers only
-  const Cloud cloud = plane(30).punched({15, 15}, 4).scaled(2).translated(far);
-  Surface surface = square(0, 58);
-  for (Eigen::Vector3d& corner : surface.positions) corner += far;
-  CHECK(share(cloud, ring(cloud, {0x1p53 + 30, 30}, 8, 10), surface, 2) == 1);
-}
-
 TEST_CASE("loops without points, without spacing and off the scan's finite points have no unsampled places") {
   Cloud cloud = plane(30).punched({15, 15}, 4);
   const LoopIds loop = ring(cloud, {15, 15}, 4, 5);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <numbers>
 #include <set>
@@ -113,30 +112,6 @@ TEST_CASE(
           CHECK(!cross(corners[i], corners[i + 1], corners[j], corners[(j + 1) % corners.size()]));
     }
   }
-}
-
-TEST_CASE("outside of the true loop along the edge of a plane with random positions there are few points") {
-  const ScratchFolder folder;
-  SurfaceOptions options = random_surface(folder);
-  options.holes = 0;
-  write_surface(options);
-  const auto points = positions_of(options.out);
-  const auto loops = loops_of(options.truth);
-  REQUIRE(loops.size() == 1);
-  const std::vector<Position> corners = on_loop(loops[0], points);
-  const std::set<std::uint64_t> of_loop(loops[0].begin(), loops[0].end());
-  float side = 0;
-  for (const Position& p : points) side = std::max({side, p[0], p[1]});
-  std::size_t outside = 0;
-  for (std::uint64_t id = 0; id < points.size(); ++id) {
-    if (of_loop.contains(id) || encloses(corners, points[id])) continue;
-    ++outside;  // in a corner of the plane only
-    for (const int axis : {0, 1}) CHECK(std::min(points[id][axis], side - points[id][axis]) < 3);
-  }
-  CHECK(outside < 8);
-  CHECK(area(corners) > (side - 2) * (side - 2));
-  CHECK(double(corners.size()) ==
-        Approx(0.9 * 4 * side).epsilon(0.1));  // a line cuts 4 / pi cells per sqrt(2)
 }
 
 TEST_CASE("a ring has each nearest point once, and leaves out what lies between two visits") {

@@ -3,7 +3,6 @@
 #include "bench/synth/trig.hpp"
 #include "tests/bench/synth/made.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -44,61 +43,6 @@ TEST_CASE("a ray hits the nearest of a wall, a box, a ball and a column, at the 
   CHECK(cast(scene, {{0, 2, 0}, {1, 0, 0}}).range == Approx(2.5));
   CHECK(cast(scene, {{0, 2, 1.5}, {1, 0, 0}}).range == Approx(10));  // over the column
   CHECK(cast(scene, {{3, 2.2, 4}, {0, 0, -1}}).range == Approx(3));  // its lid
-}
-
-TEST_CASE("a ray hits the outside of a pipe, both sides of a vault, and the upper part of an arch's wall") {
-  Scene scene;
-  scene.pipes.push_back({{5, -2, 0}, {0, 1, 0}, 4, 1, 0.5});
-  CHECK(cast(scene, {{0, 0, 0}, {1, 0, 0}}).range == Approx(4));
-  CHECK(cast(scene, {{0, 0, 0.6}, {1, 0, 0}}).range == Approx(5 - 0.8));
-  CHECK(cast(scene, {{0, 0, 0.6}, {1, 0, 0}}).cosine == Approx(0.8));
-  CHECK(std::isinf(cast(scene, {{0, 2.1, 0}, {1, 0, 0}}).range));  // past its end
-  scene.vaults.push_back({{20, -2, -1}, {0, 1, 0}, 4, 3, 0.5});
-  CHECK(cast(scene, {{20, 0, 0}, {0, 0, 1}}).range == Approx(2));
-  CHECK(cast(scene, {{20, 0, 4}, {0, 0, -1}}).range == Approx(2));
-  CHECK(std::isinf(cast(scene, {{20, 0, 0}, {0, 0, -1}}).range));  // no lower half
-  scene.walls.push_back({{-5, -2, 0}, {0, 1, 0}, {0, 0, 1}, 4, 4, 0.8, {{1, 0, 3, 3, Opening::kArch}}});
-  CHECK(std::isinf(cast(scene, {{0, 0, 2.9}, {-1, 0, 0}}).range));
-  CHECK(cast(scene, {{0, 0.8, 2.9}, {-1, 0, 0}}).range == Approx(5));  // beyond the circle
-  CHECK(std::isinf(cast(scene, {{0, 0.8, 1}, {-1, 0, 0}}).range));
-}
-
-TEST_CASE("a ray from above hits the roof of a house at its slope, and ground with relief") {
-  Scene scene;
-  scene.houses.push_back({{0, 0, 0}, 6, 4, 3, 3, 0, 1, 0.5});  // the ridge lies along y
-  CHECK(cast(scene, {{0, 5, 20}, {0, 0, -1}}).range == Approx(14));
-  CHECK(cast(scene, {{2, 0, 20}, {0, 0, -1}}).range == Approx(20 - 4.5));
-  CHECK(cast(scene, {{2, 0, 20}, {0, 0, -1}}).cosine == Approx(0.8));
-  CHECK(cast(scene, {{-9, 0, 1}, {1, 0, 0}}).range == Approx(5));
-  Scene hills;
-  hills.terrains.push_back({.length = 100, .width = 100, .swells = {{0.01, 0, 0.25, 5}}, .reflectance = 0.5});
-  CHECK(cast(hills, {{0, 50, 80}, {0, 0, -1}}).range == Approx(75));
-  CHECK(cast(hills, {{25, 50, 80}, {0, 0, -1}}).cosine == Approx(1 / std::hypot(1, kTwoPi * 0.05)));
-  const Hit slanted = cast(hills, {{20, 50, 80}, {0.6, 0, -0.8}});
-  CHECK(80 - 0.8 * slanted.range ==
-        Approx(hills.terrains[0].height(20 + 0.6 * slanted.range, 50)).margin(1e-9));
-  CHECK(std::isinf(cast(hills, {{101, 50, 80}, {0, 0, -1}}).range));
-}
-
-TEST_CASE("leaves stop more rays the longer the way through them is, and their points lie among them") {
-  const ScratchFolder folder;
-  Scene scene;
-  scene.walls.push_back({{-5, -5, 0}, {1, 0, 0}, {0, 1, 0}, 10, 10, 0.8, {}, "floor"});
-  scene.foliage.push_back({{0, 0, 3}, 2, 1, 5});
-  scene.stand_low = scene.stand_high = {0, 0, 8};
-  ScanOptions options = small(folder);
-  options.stations = 1;
-  options.noise = 0;
-  options.field_of_view = {-90, -60};
-  write_scan(options, scene);
-  std::size_t in_leaves = 0, below = 0;
-  for (const Position& p : positions_of(options.out, kStride)) {
-    const double depth = std::hypot(p[0] / 2, p[1] / 2, p[2] - 3);
-    CHECK((p[2] < 1e-4 || depth < 1.0001));
-    if (std::hypot(p[0], p[1]) > 0.05 * (8 - p[2])) continue;  // near the axis of the crown
-    (p[2] > 1 ? in_leaves : below) += 1;
-  }
-  CHECK(double(in_leaves) / double(in_leaves + below) == Approx(2.0 / 5).margin(0.05));
 }
 
 TEST_CASE(
@@ -142,22 +86,6 @@ TEST_CASE("a scan has about the wanted number of points, of every station, with 
   }
 }
 
-TEST_CASE("rings are so many times as far apart as the points on them") {
-  const ScratchFolder folder;
-  ScanOptions options = small(folder);
-  options.ring_ratio = 8;
-  const Scanner scanner(options, make_scene(options.scene));
-  const Sweep sweep = scanner.sweeps()[0];
-  const double rise = (scanner.highest() - scanner.lowest()) / double(sweep.per_scanline);
-  CHECK(rise * double(sweep.scanlines) == Approx(8).epsilon(0.05));
-  CHECK(double(scanner.rays()) == Approx(double(write_scan(small(folder)).rays)).epsilon(0.02));
-  // The n-th ray of every scanline is on one ring, as level as the rays on it are close.
-  for (std::uint64_t line = 0; line < sweep.scanlines; ++line) {
-    const double elevation = scanner.ray(line * sweep.per_scanline + 5).elevation;
-    CHECK(std::fabs(elevation - scanner.lowest() - 5.5 * rise) < 0.11 / double(sweep.scanlines));
-  }
-}
-
 TEST_CASE("the first station has so many times the points of each other one") {
   const ScratchFolder folder;
   ScanOptions options = small(folder, SceneKind::kHall);
@@ -197,20 +125,6 @@ TEST_CASE("an error of registration moves each station after the first as one ri
     CHECK(apart(to, place(moved.back())) == Approx(apart(from, place(exact.back()))).margin(1e-9));
   }
   CHECK(far > 5000);
-}
-
-TEST_CASE("doubles keep georeferenced coordinates") {
-  const ScratchFolder folder;
-  ScanOptions options = small(folder);
-  write_scan(options);
-  const auto here = positions_of(options.out, kStride);
-  options.coordinates = Coordinates::kDouble;
-  options.translate = {4'000'000, 500'000, 0};
-  write_scan(options);
-  const auto there = rows_of(options.out, 24 + 1 + 4);
-  REQUIRE(there.size() == here.size());
-  for (std::size_t i = 0; i < here.size(); ++i)
-    CHECK(std::fabs(scalar<double>(there[i], 0) - 4'000'000 - here[i][0]) < 1e-6);
 }
 
 TEST_CASE("scans that cannot be made are refused in one line and leave no file") {

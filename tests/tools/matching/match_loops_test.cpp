@@ -126,39 +126,6 @@ TEST_CASE("the halves of a true loop are parted, unless one of them covers 70 pe
   CHECK(uneven.loops[1].verdict == EdgeDecision::kParted);
 }
 
-TEST_CASE("a loop lies on true loops if 70 percent of its points do, of all true loops together") {
-  Drawing drawing;
-  const LoopIds left = square(drawing, 10, 0, 0);
-  const LoopIds right = square(drawing, 10, 20, 0);
-  LoopIds loop = chain(part(left, 0.5), part(right, 0.5));
-  for (int i = 0; i < 17; ++i) loop.push_back(drawing.point(i, 50));
-  const LoopAccuracy most = match(drawing, {loop}, {left, right}, {.tolerance = 0.5});
-  CHECK(most.loops[0].on_any == Approx(40.0 / 57));
-  CHECK(most.loops[0].verdict == EdgeDecision::kJoined);
-  loop.push_back(drawing.point(17, 50));
-  CHECK(match(drawing, {loop}, {left, right}, {.tolerance = 0.5}).loops[0].verdict == EdgeDecision::kFalse);
-}
-
-TEST_CASE("a short true loop that a loop covers does not make it joined") {
-  Drawing drawing;
-  const LoopIds small = square(drawing, 1, 0, 0);
-  const LoopIds large = square(drawing, 10, 20, 0);
-  const LoopAccuracy result =
-      match(drawing, {chain(small, part(large, 0.5))}, {small, large}, {.tolerance = 0.5});
-  CHECK(result.loops[0].verdict == EdgeDecision::kParted);
-  CHECK(result.loops[0].true_loop == 1u);
-}
-
-TEST_CASE("a loop along several short true loops is false") {
-  Drawing drawing;
-  const LoopIds left = square(drawing, 1, 0, 0);
-  const LoopIds right = square(drawing, 1, 5, 0);
-  const LoopIds loop = chain(left, right);
-  CHECK(match(drawing, {loop}, {left, right}, {.tolerance = 0.5}).loops[0].verdict == EdgeDecision::kFalse);
-  CHECK(match(drawing, {loop}, {left, right}, {.tolerance = 0.5, .min_vertices = 4}).loops[0].verdict ==
-        EdgeDecision::kJoined);
-}
-
 TEST_CASE("short true loops count neither as found nor as missed, and loops on them are not false") {
   Drawing drawing;
   const LoopIds small = drawing.ring(7, 0, 0);
