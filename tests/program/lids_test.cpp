@@ -22,18 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::read_file;
-using test::run_program;
 using test::write_earth_sheet;
 using Strings = std::vector<std::string>;
-
-fs::path detect(const std::string& scan, const fs::path& out, const Strings& options) {
-  Strings words{"detect", scan, "--out", out.string(), "--quiet"};
-  words.insert(words.end(), options.begin(), options.end());
-  const auto run = run_program(words);
-  INFO(run.err);
-  REQUIRE(run.exit_code == 0);
-  return out;
-}
 
 struct Mesh {
   std::vector<Eigen::Vector3d> vertices;
@@ -115,7 +105,7 @@ std::vector<std::uint64_t> loops_of_faces(const std::string& ply, std::size_t fa
 TEST_CASE("each hole has its lid in OBJ, PLY and CSV, with all digits on Earth, and outer curves have none",
           "[results]") {
   const test::ScratchFolder scratch;
-  const fs::path out = detect(write_earth_sheet(scratch), scratch / "out", {"--lids"});
+  const fs::path out = test::detect(write_earth_sheet(scratch), scratch / "out", {"--lids"});
   const nlohmann::json loops = test::read_json(out / "holes.json").at("loops");
   const Mesh obj = read_obj(out / "lids.obj");
   const std::map<std::uint64_t, double> area = areas(obj);
@@ -156,7 +146,8 @@ TEST_CASE("each hole has its lid in OBJ, PLY and CSV, with all digits on Earth, 
 
 TEST_CASE("lids of local coordinates are relative to the offset that the header states", "[results]") {
   const test::ScratchFolder scratch;
-  const fs::path out = detect(write_earth_sheet(scratch), scratch / "out", {"--lids", "--local-coordinates"});
+  const fs::path out =
+      test::detect(write_earth_sheet(scratch), scratch / "out", {"--lids", "--local-coordinates"});
   const std::string ply = read_file(out / "lids.ply");
   CHECK(ply.find("\ncomment lacuna offset ") < ply.find("end_header"));
   const Mesh obj = read_obj(out / "lids.obj");
@@ -170,7 +161,7 @@ TEST_CASE("a scan without holes has empty lids", "[results]") {
   const test::ScratchFolder scratch;
   const std::string scan = scratch.write("few.xyz", "0 0 0\n1 0 0\n0 1 0\n");
   const fs::path out = scratch / "out";
-  detect(scan, out, {"--lids"});
+  test::detect(scan, out, {"--lids"});
   CHECK(read_obj(out / "lids.obj").triangles.empty());
   CHECK(evaluation::read_triangles(out / "lids.ply").empty());
   CHECK(read_csv(out / "lids.csv").empty());

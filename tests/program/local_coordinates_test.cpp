@@ -3,7 +3,6 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -28,23 +27,10 @@ Cloud exact_sheet() {
   return cloud.translated({500'000, 5'400'000, 300});
 }
 
-std::string text_of(const Cloud& cloud) {
-  std::ostringstream text;
-  text.precision(17);
-  for (const Eigen::Vector3d& p : cloud.positions) text << p.transpose() << "\n";
-  return text.str();
-}
-
 void succeed(const Strings& words) {
   const auto run = run_program(words);
   INFO(run.err);
   REQUIRE(run.exit_code == 0);
-}
-
-void detect(const std::string& scan, const fs::path& out, const Strings& options) {
-  Strings words = {"detect", scan, "--out", out.string(), "--quiet"};
-  words.insert(words.end(), options.begin(), options.end());
-  succeed(words);
 }
 
 std::string element(const std::string& page, const std::string& id) {
@@ -63,10 +49,10 @@ json shown(const fs::path& out) {
 
 TEST_CASE("pages, pictures and evaluations of local coordinates are those of the scan's own") {
   const ScratchFolder scratch;
-  const std::string scan = scratch.write("scan.txt", text_of(exact_sheet()));
+  const std::string scan = scratch.write("scan.txt", exact_sheet().text());
   const fs::path plain = scratch / "plain", local = scratch / "local";
-  detect(scan, plain, {"--report", "--points", "--points-format", "ply"});
-  detect(scan, local, {"--report", "--points", "--points-format", "ply", "--local-coordinates"});
+  test::detect(scan, plain, {"--report", "--points", "--points-format", "ply"});
+  test::detect(scan, local, {"--report", "--points", "--points-format", "ply", "--local-coordinates"});
   CHECK(test::read_json(local / "holes.json").at("offset") == json{500'030, 5'400'030, 300});
   CHECK(test::read_json(local / "holes.json").at("loops") ==
         test::read_json(plain / "holes.json").at("loops"));

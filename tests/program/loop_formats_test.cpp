@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The loops as OBJ: read back here, and compared with holes.json of the same run.
-#include "tests/io/io_support.hpp"
 #include "tests/support/earth_sheet.hpp"
 #include "tests/support/run_program.hpp"
 
@@ -19,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::read_file;
-using test::run_program;
 using Point = std::array<double, 3>;
 
 const std::vector<std::string> kMeasures{"points",     "confidence",      "persistence", "first_scale",
@@ -40,8 +38,7 @@ bool operator==(const ReadLoop& a, const ReadLoop& b) {
 // A sheet with holes at coordinates as of UTM, with all digits of a double; its results are in "out".
 nlohmann::json detect_on_earth(const test::ScratchFolder& scratch) {
   const std::string scan = test::write_earth_sheet(scratch);
-  REQUIRE(run_program({"detect", scan, "--out", (scratch / "out").string(), "--obj", "--quiet"}).exit_code ==
-          0);
+  test::detect(scan, scratch / "out", {"--obj"});
   return test::read_json(scratch / "out" / "holes.json");
 }
 
@@ -102,7 +99,7 @@ TEST_CASE("a scan without loops has an empty OBJ", "[results]") {
   const test::ScratchFolder scratch;
   const std::string scan = scratch.write("few.xyz", "0 0 0\n1 0 0\n0 1 0\n");
   const fs::path out = scratch / "out";
-  REQUIRE(run_program({"detect", scan, "--out", out.string(), "--quiet", "--obj"}).exit_code == 0);
+  test::detect(scan, out, {"--obj"});
   CHECK(read_obj(read_file(out / "loops.obj")).empty());
 }
 

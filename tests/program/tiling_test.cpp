@@ -13,23 +13,17 @@ using Strings = std::vector<std::string>;
 
 // Every kind of result that needs no GDAL, but for the page: it shows the parameters.
 Strings with_all_results(const Strings& more) {
-  Strings options = {"--points",   "--points-format", "ply",           "--normals",
-                     "--vdb",      "--lids",          "--obj",         "--orient-normals",
-                     "--cut-outs", "0.1",             "--every-point", "--sample-points",
-                     "3000",       "--quiet"};
+  Strings options = {
+      "--points",         "--points-format", "ply", "--normals",     "--vdb",           "--lids", "--obj",
+      "--orient-normals", "--cut-outs",      "0.1", "--every-point", "--sample-points", "3000"};
   options.insert(options.end(), more.begin(), more.end());
   return options;
 }
 
 void check_every_tiling(const std::string& scan, const fs::path& folder, const Strings& options) {
-  const auto detect = [&](const std::string& out, const Strings& more) {
-    Strings words = {"detect", scan, "--out", (folder / out).string()};
-    words.insert(words.end(), options.begin(), options.end());
-    words.insert(words.end(), more.begin(), more.end());
-    const test::ProgramResult result = test::run_program(words);
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
-    return folder / out;
+  const auto detect = [&](const std::string& out, Strings more) {
+    more.insert(more.begin(), options.begin(), options.end());
+    return test::detect(scan, folder / out, more);
   };
   const fs::path one = detect("one", {"--tile-points", "1000000", "--threads", "1"});
   CHECK(test::read_json(one / "holes.json").at("loops").size() > 3);
@@ -48,10 +42,10 @@ void check_every_tiling(const std::string& scan, const fs::path& folder, const S
 TEST_CASE("all results of a surface on Earth, with local coordinates, are the same for every tiling") {
   const test::ScratchFolder scratch;
   const std::string scan = (scratch / "surface.ply").string();
-  REQUIRE(test::run_bench({"synth",    "surface", scan,      "--points",       "12000", "--holes",
-                           "4",        "--hole-radius", "3", "6",              "--density-step", "4",
-                           "--noise",  "0.05",    "--order", "random",         "--double",
-                           "--translate", "500000.1", "5400000.7", "300.3"})
+  REQUIRE(test::run_bench(
+              {"synth",         "surface", scan,       "--points",       "12000",    "--holes",   "4",
+               "--hole-radius", "3",       "6",        "--density-step", "4",        "--noise",   "0.05",
+               "--order",       "random",  "--double", "--translate",    "500000.1", "5400000.7", "300.3"})
               .exit_code == 0);
   check_every_tiling(scan, scratch.path(), with_all_results({"--local-coordinates"}));
 }

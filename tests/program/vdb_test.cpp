@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <string>
-#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -16,7 +15,6 @@ using namespace io;
 namespace {
 
 namespace fs = std::filesystem;
-using test::run_program;
 
 std::string make_surface(const test::ScratchFolder& scratch, const std::string& name) {
   const std::string scan = (scratch / name).string();
@@ -38,9 +36,7 @@ TEST_CASE(
             std::to_string(row[2]) + "\n";
   for (const std::string& scan : {surface, scratch.write("earth.txt", text)}) {
     const fs::path out = scratch / "out";
-    REQUIRE(run_program({"detect", scan, "--out", out.string(), "--points", "--points-format", "ply", "--vdb",
-                         "--quiet"})
-                .exit_code == 0);
+    test::detect(scan, out, {"--points", "--points-format", "ply", "--vdb"});
     const auto grids = test::read_vdb_grids(out / "probability.vdb");
     REQUIRE(grids.size() == 1);
     const test::VdbGrid& grid = grids.at("boundary_probability");
@@ -50,9 +46,7 @@ TEST_CASE(
     CHECK(grid.metadata.at("class") == "fog volume");
 
     const test::Table points = test::read_table(out / "points.ply");
-    const auto named = std::find(points.names.begin(), points.names.end(), "scalar_probability");
-    REQUIRE(named != points.names.end());
-    const auto column = static_cast<std::size_t>(named - points.names.begin());
+    const std::size_t column = points.place("scalar_probability");
     std::map<std::array<std::int32_t, 3>, double> expected;
     for (const auto& row : points.rows) {
       std::array<std::int32_t, 3> voxel{};

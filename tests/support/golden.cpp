@@ -52,7 +52,7 @@ std::vector<GoldenPoint> read_golden_points(const std::filesystem::path& shared,
   while (std::fgets(line, sizeof line, pipe.get())) {
     GoldenPoint p;
     long id, coherent;
-    if (std::sscanf(line, "%ld,%lf,%lf,%lf,%lf,%*lf,%*ld,%ld", &id, &p.angle, &p.halfdisc, &p.shape,
+    if (std::sscanf(line, "%ld,%lf,%lf,%lf,%lf,%*f,%*d,%ld", &id, &p.angle, &p.halfdisc, &p.shape,
                     &p.probability, &coherent) != 6 ||
         id != long(points.size())) {
       throw std::runtime_error(file + ": bad line: " + line);

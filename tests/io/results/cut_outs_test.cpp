@@ -118,8 +118,8 @@ bool is_same(const std::vector<std::vector<double>>& a, const std::vector<std::v
 }
 
 // Writes only the cut-outs. Returns their folder.
-fs::path cut_out(const FakeDetection& detection, const std::vector<ScanInput>& inputs, const FilesConfig& config,
-                 const fs::path& out, std::size_t most_holes = 1000) {
+fs::path cut_out(const FakeDetection& detection, const std::vector<ScanInput>& inputs,
+                 const FilesConfig& config, const fs::path& out, std::size_t most_holes = 1000) {
   FileScan scan(inputs, {});
   check_cut_outs(scan, config, out, Overwrite::kOwn);
   fs::create_directories(out);

@@ -7,11 +7,11 @@
 #include "io/results/results.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/io/results/fake_detection.hpp"
+#include "tests/support/clouds.hpp"
 
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <sstream>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -32,13 +32,6 @@ Points utm_points() {
   Points points;
   for (int i = 0; i < 100; ++i) points.push_back({500'000.1 + i, 5'400'000.2 + i % 80, 300.3 - 0.01 * i});
   return points;
-}
-
-std::string text_of(const Points& points) {
-  std::ostringstream text;
-  text.precision(17);
-  for (const Point& p : points) text << p.transpose() << "\n";
-  return text.str();
 }
 
 // A run whose loop, sample and boundary have these points.
@@ -103,7 +96,7 @@ TEST_CASE("with local coordinates, floats and the offset of a header are the coo
   const Point offset(500'050, 5'400'040, 300);
   Points local = points;
   for (Point& point : local) point -= offset;
-  FileScan scan({folder.write("a.txt", text_of(points))}, {});
+  FileScan scan({folder.write("a.txt", Cloud{points, {}}.text())}, {});
   write_results(detection, scan, local_config(PointsFormat::kPly), folder / "ply");
 
   // Their rows are those of floats: 12 bytes for x y z.

@@ -7,7 +7,6 @@
 #include "tests/io/results/fake_detection.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include <catch2/catch.hpp>
@@ -85,9 +84,7 @@ TEST_CASE(
                                      {"g.ply", "scalar_probability"}}) {
     INFO(name);
     const Table table = read_table(folder / "out" / "points" / name);
-    const auto at = static_cast<std::size_t>(std::find(table.names.begin(), table.names.end(), column) -
-                                             table.names.begin());
-    for (const auto& row : table.rows) CHECK(row.at(at) == first++);
+    for (const double value : table.column(column)) CHECK(value == first++);
   }
   CHECK(first == 7);
 }
@@ -205,17 +202,10 @@ TEST_CASE("points.ply has quality, the probability for MeshLab, unless the scan 
           "[io][results]") {
   const ScratchFolder folder;
   const FilesConfig one = with_points(PointsFormat::kPly);
-  const auto column = [&](const std::string& name) {
-    const Table table = read_table(folder / "out" / "points.ply");
-    std::vector<double> values;
-    for (std::size_t i = 0; i < table.names.size(); ++i) {
-      if (table.names[i] == name) values.push_back(table.rows[0][i]);
-    }
-    return values;
-  };
+  const auto quality = [&] { return read_table(folder / "out" / "points.ply").column("quality"); };
   const auto plain = folder.write("a.ply", kPly);
   const std::string first = written(folder, {plain}, 1, "points.ply", one);
-  CHECK(column("quality") == std::vector<double>{0});
+  CHECK(quality() == std::vector<double>{0});
   const std::string earlier = folder.write("earlier.ply", first);
   CHECK((written(folder, {earlier}, 1, "points.ply", one) == first));
 
@@ -224,7 +214,7 @@ TEST_CASE("points.ply has quality, the probability for MeshLab, unless the scan 
   own.insert(own.size() - 1, " 42");
   const auto file = folder.write("own.ply", own);
   const std::string kept = written(folder, {file}, 1, "points.ply", one);
-  CHECK(column("quality") == std::vector<double>{42});
+  CHECK(quality() == std::vector<double>{42});
   const std::string next = folder.write("next.ply", kept);
   CHECK((written(folder, {next}, 1, "points.ply", one) == kept));
 }
