@@ -57,8 +57,8 @@ TEST_CASE("the engine gives the golden probabilities, coherence and loops, in ti
       const PointResult& p = detected.points[i];
       const GoldenPoint& g = golden[i];
       wrong += (p.coherent != 0) != g.coherent;
-      for (const double error : {p.criteria[0] - g.angle, p.criteria[1] - g.halfdisc,
-                                 p.criteria[2] - g.shape, p.probability - g.probability})
+      for (const double error : {p.criteria[0] - g.angle, p.criteria[1] - g.halfdisc, p.criteria[2] - g.shape,
+                                 p.probability - g.probability})
         largest_error = std::max(largest_error, std::abs(error));
     }
     CHECK(wrong == 0);

@@ -4,7 +4,6 @@
 #include "tests/support/clouds.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 

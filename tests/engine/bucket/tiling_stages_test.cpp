@@ -2,7 +2,6 @@
 // survey, split and reach: from points to cells, tiles, and how far neighbours may be.
 #include "engine/bucket/split.hpp"
 #include "engine/model/distance_bound.hpp"
-#include "engine/run/error.hpp"
 #include "engine/survey/survey.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/memory_scan.hpp"

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/neighbours/neighbourhoods.hpp"
 
-#include "engine/run/error.hpp"
 #include "tests/support/reference.hpp"
 #include "tests/support/tile.hpp"
-
-#include <algorithm>
 
 #include <catch2/catch.hpp>
 

@@ -7,8 +7,6 @@
 #include "tests/support/scratch_folder.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
 #include <vector>
 

@@ -2,7 +2,6 @@
 // Lists that are appended to, beyond the memory that they have.
 #include "engine/store/append_lists.hpp"
 
-#include "engine/run/error.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/open_files.hpp"
 #include "tests/support/record.hpp"
@@ -54,17 +53,6 @@ TEST_CASE("lists beyond the budget read back all that was appended, each its own
     CHECK(read == expected[list]);
   }
   CHECK(test::has_open(getpid(), "lists"));
-}
-
-TEST_CASE("one thread's appends to a list stay in order") {
-  const ScratchFolder folder;
-  AppendLists<std::uint64_t> lists(folder / "lists", 3, 0);
-  for (std::uint64_t i = 0; i < 100'000; ++i) lists.append(i % 3, i);
-  for (std::size_t list = 0; list < 3; ++list) {
-    const std::vector<std::uint64_t> read = lists.read(list);
-    CHECK(std::is_sorted(read.begin(), read.end()));
-    CHECK(read.size() == (list == 0 ? 33334u : 33333u));
-  }
 }
 
 TEST_CASE("appends from many threads lose nothing") {

@@ -140,16 +140,6 @@ std::vector<EdgeDecision> judge(LocalIndex vertices, LocalIndex owned, const Edg
   return verdicts;
 }
 
-TEST_CASE("an edge is undecided where a short enough way may lead through the unknown") {
-  // 3 and 4 are elsewhere; the ends 0 and 2 are a step away from them: the way may be of 3 edges.
-  const Edges edges = {{0, 3}, {2, 4}, {0, 1}, {1, 2}, {0, 2}};
-  const auto t = EdgeDecision::taken, l = EdgeDecision::left_out, u = EdgeDecision::undecided;
-  CHECK(judge(5, 3, edges, 2) == std::vector{t, t, t, t, t});
-  CHECK(judge(5, 3, edges, 3) == std::vector{t, t, t, t, l});
-  CHECK(judge(5, 3, {{0, 3}, {2, 4}, {0, 2}}, 3) == std::vector{t, t, t});
-  CHECK(judge(5, 3, {{0, 3}, {2, 4}, {0, 2}}, 4) == std::vector{t, t, u});
-}
-
 TEST_CASE("verdicts on a part of a random graph are those on the whole, whatever the rest is") {
   std::size_t decided = 0, all = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
