@@ -9,7 +9,6 @@
 #include "tests/support/run_program.hpp"
 
 #include <atomic>
-#include <sstream>
 #include <stdexcept>
 
 #include <catch2/catch.hpp>
@@ -80,13 +79,8 @@ TEST_CASE("given normals are held against the surface, and may be left out", "[l
 
 TEST_CASE("the library finds the holes that the program writes", "[library]") {
   const Cloud cloud = punched_sheet();
-  std::ostringstream text;
-  text.precision(17);
-  for (const Eigen::Vector3d& p : cloud.positions) text << p.transpose() << "\n";
   const ScratchFolder scratch;
-  const std::string scan = scratch.write("sheet.xyz", text.str());
-  REQUIRE(test::run_program({"detect", scan, "--out", (scratch / "out").string(), "--min-diameter", "9"})
-              .exit_code == 0);
+  test::detect(scratch.write("sheet.xyz", cloud.text()), scratch / "out", {"--min-diameter", "9"});
 
   Config config;
   config.selection.min_diameter = 9;

@@ -4,7 +4,6 @@
 #include "io/scan/file_scan.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/golden.hpp"
-#include "tests/support/skip.hpp"
 
 #include <filesystem>
 
@@ -33,47 +32,34 @@ std::string bytes_of(const std::filesystem::path& file, const Setting& setting, 
   return run_engine(scan, config).bytes();
 }
 
-void check_tiling(const std::string& name, const std::vector<Setting>& settings, bool orient = true) {
+const std::vector<Setting> kAll = {
+    {500, 1, 0},    {500, 8, kLeast}, {5'000, 2, 0},         {5'000, 8, kLeast}, {50'000, 1, kLeast},
+    {50'000, 8, 0}, {kOneTile, 8, 0}, {kOneTile, 2, kLeast}, {0, 0, 0},          {0, 8, kLeast}};
+const std::vector<Setting> kSome = {{500, 8, 0}, {5'000, 2, kLeast}, {50'000, 8, kLeast}};
+
+TEST_CASE("tiling never shows on real scans", "[.slow]") {
   const auto shared = shared_folder();
   if (!shared) return;
-  if (!std::filesystem::exists(*shared / "data" / name)) {
-    test::skip("no " + name);
+  const auto [name, settings, orient] = GENERATE(table<const char*, const std::vector<Setting>*, bool>(
+      {{"bun_zipper.ply", &kAll, true},
+       {"bun000.ply", &kAll, true},
+       {"lato000.ply", &kAll, true},                 // a raw range map with stray vertices
+       {"dragon_30scans_793k.ply", &kSome, true},    // registered
+       {"vol_total.ply", &kSome, true},              // an aerial survey
+       {"balm_23scans_1.7M.ply", &kSome, false}}));  // lidar, of strongly varying density
+  const std::filesystem::path file = *shared / "data" / name;
+  if (!std::filesystem::exists(file)) {
+    WARN("skipped: no " << file);
     return;
   }
-  const std::filesystem::path file = *shared / "data" / name;
   const std::string expected = bytes_of(file, {kOneTile, 1, 0}, orient);
   CHECK(!expected.empty());
-  for (const Setting& s : settings) {
+  for (const Setting& s : *settings) {
     INFO(name << ": " << s.tile_points << " points a tile, " << s.threads << " threads, limit "
               << s.memory_limit);
     const bool same = bytes_of(file, s, orient) == expected;
     CHECK(same);
   }
-}
-
-const std::vector<Setting> kAll = {
-    {500, 1, 0},    {500, 8, kLeast}, {5'000, 2, 0},         {5'000, 8, kLeast}, {50'000, 1, kLeast},
-    {50'000, 8, 0}, {kOneTile, 8, 0}, {kOneTile, 2, kLeast}, {0, 0, 0},          {0, 8, kLeast}};
-
-TEST_CASE("tiling never shows on the bunny, whole and as a single range map", "[.slow]") {
-  check_tiling("bun_zipper.ply", kAll);
-  check_tiling("bun000.ply", kAll);
-}
-
-TEST_CASE("tiling never shows on a raw range map with stray vertices", "[.slow]") {
-  check_tiling("lato000.ply", kAll);
-}
-
-TEST_CASE("tiling never shows on thirty registered scans", "[.slow]") {
-  check_tiling("dragon_30scans_793k.ply", {{500, 8, 0}, {5'000, 2, kLeast}, {50'000, 8, kLeast}});
-}
-
-TEST_CASE("tiling never shows on an aerial survey", "[.slow]") {
-  check_tiling("vol_total.ply", {{500, 8, 0}, {5'000, 2, kLeast}, {50'000, 8, kLeast}});
-}
-
-TEST_CASE("tiling never shows on lidar scans of strongly varying density", "[.slow]") {
-  check_tiling("balm_23scans_1.7M.ply", {{500, 8, 0}, {5'000, 2, kLeast}}, false);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <bit>
 #include <cstring>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,18 @@ class Bytes {
 struct Table {
   std::vector<std::string> names;
   std::vector<std::vector<double>> rows;
+
+  // Which column has the name; throws if none has.
+  std::size_t place(const std::string& name) const {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) throw std::runtime_error("no column " + name);
+    return static_cast<std::size_t>(found - names.begin());
+  }
+  std::vector<double> column(const std::string& name) const {
+    std::vector<double> values;
+    for (const auto& row : rows) values.push_back(row.at(place(name)));
+    return values;
+  }
 };
 
 inline Table read_table(const std::filesystem::path& file, std::size_t max_rows = 1000,

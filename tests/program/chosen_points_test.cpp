@@ -12,7 +12,6 @@ namespace lacuna {
 namespace {
 
 using nlohmann::json;
-using test::run_program;
 using test::ScratchFolder;
 
 std::string rows_of(const Cloud& cloud, int classification) {
@@ -23,22 +22,13 @@ std::string rows_of(const Cloud& cloud, int classification) {
   return rows.str();
 }
 
-json report_of(const std::vector<std::string>& arguments, const std::string& out) {
-  std::vector<std::string> words = {"detect", "--out", out, "--quiet"};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  const test::ProgramResult result = run_program(words);
-  INFO(result.err);
-  REQUIRE(result.exit_code == 0);
-  return test::read_json(out + "/holes.json");
-}
-
 TEST_CASE("scans in their own coordinates with poses, and filters, give the loops of the chosen points") {
   const ScratchFolder scratch;
   const Cloud left = plane(30).punched({14, 14}, 4).translated({0, 0, 1});
   const Cloud right = plane(30).punched({20, 9}, 3).translated({30, 0, 1});
   const std::string header = "x y z Classification\n";
   const auto whole = scratch.write("whole.csv", header + rows_of(left, 2) + rows_of(right, 2));
-  const json expected = report_of({whole}, (scratch / "whole").string());
+  const json expected = test::read_json(test::detect(whole, scratch / "whole") / "holes.json");
   REQUIRE(expected["counts"]["holes"] == 2);
 
   // The right part has its origin elsewhere; points of class 7 fill its hole, points at 0 0 0 have no return.
@@ -47,7 +37,8 @@ TEST_CASE("scans in their own coordinates with poses, and filters, give the loop
                                  rows_of(plane(8).translated({30 - 512 + 17, 1024 + 6, 1}), 7) +
                                  "0 0 0 2\n0 0 0 2\n");
   const auto list = scratch.write("list.txt", "left.csv\nright.csv pose=512 -1024 0 0 0 0 1\n");
-  const json found = report_of({"@" + list, "--classes", "2", "--drop-origin"}, (scratch / "posed").string());
+  const json found = test::read_json(
+      test::detect("@" + list, scratch / "posed", {"--classes", "2", "--drop-origin"}) / "holes.json");
   CHECK(found["loops"] == expected["loops"]);
   CHECK(found["counts"]["filtered_out"]["classes"] == 64);
   CHECK(found["counts"]["filtered_out"]["origin"] == 2);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The loops as OBJ: read back here, and compared with holes.json of the same run.
-#include "tests/io/io_support.hpp"
 #include "tests/support/earth_sheet.hpp"
 #include "tests/support/run_program.hpp"
 
@@ -19,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::read_file;
-using test::run_program;
 using Point = std::array<double, 3>;
 
 const std::vector<std::string> kMeasures{"points",     "confidence",      "persistence", "first_scale",
@@ -40,8 +38,7 @@ bool operator==(const ReadLoop& a, const ReadLoop& b) {
 // A sheet with holes at coordinates as of UTM, with all digits of a double; its results are in "out".
 nlohmann::json detect_on_earth(const test::ScratchFolder& scratch) {
   const std::string scan = test::write_earth_sheet(scratch);
-  REQUIRE(run_program({"detect", scan, "--out", (scratch / "out").string(), "--obj", "--quiet"}).exit_code ==
-          0);
+  test::detect(scan, scratch / "out", {"--obj"});
   return test::read_json(scratch / "out" / "holes.json");
 }
 
@@ -98,26 +95,12 @@ TEST_CASE("OBJ has the loops and measures of holes.json, with all digits on Eart
   CHECK(read_obj(read_file(scratch / "out" / "loops.obj")) == loops);
 }
 
-TEST_CASE("a scan without loops has an empty OBJ, and a later run without it removes it", "[results]") {
+TEST_CASE("a scan without loops has an empty OBJ", "[results]") {
   const test::ScratchFolder scratch;
   const std::string scan = scratch.write("few.xyz", "0 0 0\n1 0 0\n0 1 0\n");
   const fs::path out = scratch / "out";
-  for (int i = 0; i < 2; ++i) {  // the second one replaces that of the first
-    REQUIRE(run_program({"detect", scan, "--out", out.string(), "--quiet", "--obj"}).exit_code == 0);
-    CHECK(read_obj(read_file(out / "loops.obj")).empty());
-  }
-  REQUIRE(run_program({"detect", scan, "--out", out.string(), "--quiet"}).exit_code == 0);
-  CHECK_FALSE(fs::exists(out / "loops.obj"));
-}
-
-TEST_CASE("a loops.obj that Lacuna did not write is refused", "[results]") {
-  const test::ScratchFolder scratch;
-  const std::string scan = scratch.write("few.xyz", "0 0 0\n1 0 0\n0 1 0\n");
-  const fs::path mine = scratch.write("loops.obj", "# another program\nv 0 0 0\n");
-  const auto refused = run_program({"detect", scan, "--out", scratch.path().string(), "--obj", "--quiet"});
-  CHECK(refused.exit_code == 1);
-  CHECK_THAT(refused.err, Catch::Contains("loops.obj: exists, and this command did not write it"));
-  CHECK(read_file(mine) == "# another program\nv 0 0 0\n");
+  test::detect(scan, out, {"--obj"});
+  CHECK(read_obj(read_file(out / "loops.obj")).empty());
 }
 
 }  // namespace lacuna

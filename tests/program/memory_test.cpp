@@ -181,34 +181,18 @@ TEST_CASE("ten million points and sixteen threads stay within 64 MiB", "[.slow]"
 // Large enough that the points alone would fill the limit.
 constexpr int kMany = 2'000'000;
 
-TEST_CASE("two million points of a volume stay within the memory limit", "[.slow]") {
-  check_limit(volume(kMany, 1));
-}
-
-TEST_CASE("two million points of which a volume in a millionth has nine tenths stay within the memory limit",
-          "[.slow]") {
-  check_limit(volume_cluster(kMany, 1));
-}
-
-TEST_CASE("two million points of which a sheet in a millionth has nine tenths stay within the memory limit",
-          "[.slow]") {
-  check_limit(cluster(kMany, 1));
-}
-
-TEST_CASE("two million points whose density spans six decades stay within the memory limit", "[.slow]") {
-  check_limit(log_uniform(kMany, 1));
-}
-
-TEST_CASE("two million points on a line stay within the memory limit", "[.slow]") {
-  check_limit(random_line(kMany, 1));
-}
-
-TEST_CASE("two million points, most of them at the origin, stay within the memory limit", "[.slow]") {
-  check_limit(zeros(kMany, 1));
-}
-
-TEST_CASE("two million points, one in a hundred far away, stay within the memory limit", "[.slow]") {
-  check_limit(one_percent_far(kMany, 1));
+TEST_CASE("two million points, however uneven they lie, stay within the memory limit", "[.slow]") {
+  struct Shape {
+    const char* name;
+    Cloud (*draw)(int, std::uint64_t);
+  };
+  const auto [name, draw] =
+      GENERATE(Shape{"a volume", volume}, Shape{"a volume in a millionth", volume_cluster},
+               Shape{"a sheet in a millionth", cluster}, Shape{"six decades", log_uniform},
+               Shape{"a line", random_line}, Shape{"most at the origin", zeros},
+               Shape{"one in a hundred far away", one_percent_far});
+  INFO(name);
+  check_limit(draw(kMany, 1));
 }
 
 // A file of few bytes: LAZ codes points that are alike in next to none.

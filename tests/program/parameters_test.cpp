@@ -92,10 +92,8 @@ class Runs {
   // holes.json with their system and unit, and the names of the others.
   std::string results(const io::FilesConfig& config) {
     const std::string file = scratch_.write("c.toml", print_config(config));
-    const fs::path out = scratch_ / ("out-" + std::to_string(runs_++));
-    const auto run = test::run_program({"detect", scan_, "--out", out.string(), "--quiet", "--config", file});
-    INFO(run.err);
-    REQUIRE(run.exit_code == 0);
+    const fs::path out =
+        test::detect(scan_, scratch_ / ("out-" + std::to_string(runs_++)), {"--config", file});
     std::string bytes;
     std::set<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(out)) {
@@ -152,8 +150,8 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
   // With points there are more results. So an effect without points is one with points, too, and no effect
   // with points is none without.
   const auto follows = [](const Parameter& parameter, LoopMethod method, bool with_points, bool has_effect) {
-    const bool needs_points = parameter.key == "points_format" || parameter.key == "normals" ||
-                              parameter.key == "orient_normals";
+    const bool needs_points =
+        parameter.key == "points_format" || parameter.key == "normals" || parameter.key == "orient_normals";
     return method == LoopMethod::kTangential && !needs_points && has_effect == with_points;
   };
   for (const auto& [method, with_points] : kSettings) {
@@ -194,10 +192,10 @@ TEST_CASE("each option without effect has its warning, each other none") {
     std::string expected;
     for (const Parameter& parameter : parameters(config)) {
       const bool is_flag = std::holds_alternative<bool*>(parameter.value);
-      const bool is_left_out = parameter.is_constant || parameter.section == "run" || parameter.key == "method" ||
-                               parameter.key == "points" || parameter.key == "columns" ||
-                               parameter.key == "eps" || parameter.key == "max_perimeter" ||
-                               parameter.key == "polygons" ||
+      const bool is_left_out = parameter.is_constant || parameter.section == "run" ||
+                               parameter.key == "method" || parameter.key == "points" ||
+                               parameter.key == "columns" || parameter.key == "eps" ||
+                               parameter.key == "max_perimeter" || parameter.key == "polygons" ||
                                parameter.key == "points_format";  // the files that they change are wanted
       if (is_left_out) continue;
       options.push_back(parameter.option());

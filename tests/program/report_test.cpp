@@ -13,7 +13,6 @@
 #include <csignal>
 #include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -37,20 +36,11 @@ const Eigen::Vector3d kUtm(500'000, 5'400'000, 300);
 class Made {
  public:
   explicit Made(const Cloud& cloud, const std::vector<std::string>& options = {}) {
-    std::ostringstream text;
-    text.precision(17);
-    for (const Eigen::Vector3d& p : cloud.positions) text << p.transpose() << "\n";
-    scan_ = scratch_.write("sc<an.txt", text.str());
+    scan_ = scratch_.write("sc<an.txt", cloud.text());
     detect(options);
   }
 
-  void detect(const std::vector<std::string>& options) {
-    std::vector<std::string> words = {"detect", scan_, "--out", out().string(), "--quiet"};
-    words.insert(words.end(), options.begin(), options.end());
-    const auto run = run_program(words);
-    INFO(run.err);
-    REQUIRE(run.exit_code == 0);
-  }
+  void detect(const std::vector<std::string>& options) { test::detect(scan_, out(), options); }
   const std::string& scan() const { return scan_; }
   fs::path out() const { return scratch_ / "out"; }
   std::string page() const { return read_file(out() / "report.html"); }
@@ -358,10 +348,8 @@ TEST_CASE("a stray point spoils neither the report, the picture nor the printed 
   const Cloud stray{{Eigen::Vector3d::Zero()}, {}};
   const Made clean(scan, {"--report"});
   test::ScratchFolder scratch;
-  std::ostringstream text;
-  text.precision(17);
-  for (const Eigen::Vector3d& p : scan.joined(stray).positions) text << p.transpose() << "\n";
-  const std::string file = scratch.write("stray.txt", text.str()), out = (scratch / "out").string();
+  const std::string file = scratch.write("stray.txt", scan.joined(stray).text()),
+                    out = (scratch / "out").string();
   const auto run = run_program({"detect", file, "--out", out, "--report", "--progress", "none"});
   REQUIRE(run.exit_code == 0);
   CHECK_THAT(run.err, Contains("1 point lies far from all others, at 0 0 0") && Contains("--drop-origin"));
@@ -392,11 +380,8 @@ TEST_CASE("a stray point spoils neither the report, the picture nor the printed 
 
 TEST_CASE("the bounds that a warning names leave strays out, and nothing else") {
   const Cloud scan = sheet().translated({-30, -30, 7});
-  std::ostringstream text;
-  for (const Eigen::Vector3d& p : scan.positions) text << p.transpose() << "\n";
-  text << "1e5 0 0\n0 0 -2e5\n";
   test::ScratchFolder scratch;
-  const std::string file = scratch.write("scan.txt", text.str());
+  const std::string file = scratch.write("scan.txt", scan.text() + "1e5 0 0\n0 0 -2e5\n");
   const std::string warning = run_program({"info", file}).err;
   CHECK_THAT(warning, Contains("2 points lie far from all others, such as at 100000 0 0"));
   const std::size_t at = warning.find("--bounds=");

@@ -4,7 +4,6 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -19,8 +18,6 @@ using namespace io;
 namespace {
 
 namespace fs = std::filesystem;
-using test::read_file;
-using test::run_program;
 
 std::string text_of(const Cloud& cloud) {
   std::ostringstream text;
@@ -36,12 +33,8 @@ class Runs {
   explicit Runs(const Cloud& cloud) : scan_(scratch_.write("scan.txt", text_of(cloud))) {}
 
   fs::path detect(std::vector<std::string> options) {
-    const fs::path out = scratch_ / "out";
-    options.insert(options.begin(), {"detect", scan_, "--out", out.string(), "--quiet", "--every-point"});
-    const auto run = run_program(options);
-    INFO(run.err);
-    REQUIRE(run.exit_code == 0);
-    return out;
+    options.emplace_back("--every-point");
+    return test::detect(scan_, scratch_ / "out", options);
   }
 
  private:
@@ -50,9 +43,7 @@ class Runs {
 };
 
 double at(const test::Table& table, std::size_t row, const std::string& name) {
-  const auto found = std::find(table.names.begin(), table.names.end(), name);
-  REQUIRE(found != table.names.end());
-  return table.rows[row][static_cast<std::size_t>(found - table.names.begin())];
+  return table.rows[row][table.place(name)];
 }
 
 TEST_CASE("the sample has points of the scan in ascending id, with their probabilities and colours") {
@@ -81,17 +72,6 @@ TEST_CASE("the sample is all of a scan that is no larger, and nothing where none
   CHECK(test::read_table(runs.detect({"--sample-points", "900"}) / "sample.ply").rows.size() == 900);
   CHECK(test::read_table(runs.detect({"--sample-points", "899"}) / "sample.ply").rows.size() == 899);
   CHECK_FALSE(fs::exists(runs.detect({"--sample-points", "0"}) / "sample.ply"));
-}
-
-TEST_CASE("the sample has the same bytes for every tiling, number of threads and memory limit") {
-  Runs runs(plane(120).punched({40, 40}, 9).jittered(0.3, 1).shuffled(3).with_duplicates(500, 4));
-  const auto bytes = [&](std::vector<std::string> options) {
-    options.insert(options.end(), {"--sample-points", "3000"});
-    return read_file(runs.detect(options) / "sample.ply");
-  };
-  const std::string one = bytes({"--threads", "1", "--tile-points", "1000000"});
-  CHECK((bytes({"--threads", "4", "--tile-points", "300"}) == one));
-  CHECK((bytes({"--memory-limit", "64MiB", "--tile-points", "2000"}) == one));
 }
 
 TEST_CASE("the sample is spread by area, however dense the scan is, and denser near boundaries") {

@@ -28,15 +28,7 @@ class Surveyed {
  public:
   explicit Surveyed(const Eigen::Vector3d& place, const std::vector<std::string>& options = {}) {
     const Cloud cloud = plane(30).punched({15, 15}, 5).translated(place - Eigen::Vector3d(15, 15, 5));
-    std::ostringstream text;
-    text.precision(17);
-    for (const Eigen::Vector3d& position : cloud.positions) text << position.transpose() << "\n";
-    std::vector<std::string> words = {"detect", scratch_.write("scan.txt", text.str()), "--out", out(),
-                                      "--quiet"};
-    words.insert(words.end(), options.begin(), options.end());
-    const ProgramResult run = run_program(words);
-    INFO(run.err);
-    REQUIRE(run.exit_code == 0);
+    test::detect(scratch_.write("scan.txt", cloud.text()), out(), options);
   }
 
   std::string out() const { return (scratch_ / "out").string(); }
@@ -194,7 +186,7 @@ TEST_CASE("find-stations lists stations that detect reads, and says which files 
   CHECK_THAT(found.out, Contains("# no station: ") && Contains("flat.xyz: it has too few jumps in range"));
   std::ofstream(list) << found.out;
   const std::string out = (scratch / "out").string();
-  REQUIRE(run_program({"detect", scan, "--stations", list, "--out", out, "--quiet"}).exit_code == 0);
+  test::detect(scan, out, {"--stations", list});
   const json stations = read_json(fs::path(out) / "holes.json").at("stations");
   REQUIRE(stations.size() == 2);
   CHECK(stations[0].at("certainty") > 0.99);
@@ -208,7 +200,7 @@ TEST_CASE("a trajectory is one station with the length of its path", "[program]"
                            "--points", "200000"})
               .exit_code == 0);
   const std::string path = (scratch / "street.trajectory.txt").string();
-  REQUIRE(run_program({"detect", scan, "--stations", path, "--out", out, "--quiet"}).exit_code == 0);
+  test::detect(scan, out, {"--stations", path});
   const json report = read_json(fs::path(out) / "holes.json");
   REQUIRE(report.at("stations").size() == 1);
   CHECK(report.at("stations")[0].at("path") == Approx(42));

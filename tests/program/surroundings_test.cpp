@@ -265,7 +265,7 @@ bool has_control_characters(const std::string& text) {
   return false;
 }
 
-TEST_CASE("control characters of files and their names never reach the terminal, outbox do") {
+TEST_CASE("control characters of files and their names never reach the terminal, letters do") {
   const ScratchFolder scratch;
   const std::string evil =
       "\033]0;pwned\a\177\xc2\x9b"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The result files do not depend on how a run is cut up.
+// No result depends on how a run is cut up: all files at once, by whole processes.
 #include "tests/support/run_program.hpp"
 
 #include <catch2/catch.hpp>
@@ -9,52 +9,52 @@ namespace lacuna {
 namespace {
 
 namespace fs = std::filesystem;
-using test::read_file;
+using Strings = std::vector<std::string>;
 
-struct Files {
-  std::string points, boundary, loops, records;
-};
-
-Files detect_files(const std::string& scan, const fs::path& out, const std::vector<std::string>& more) {
-  std::vector<std::string> arguments = {
-      "detect",          scan,  "--out",     out.string(),      "--quiet", "--points",
-      "--points-format", "ply", "--normals", "--orient-normals"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  const test::ProgramResult result = test::run_program(arguments);
-  INFO(result.err);
-  REQUIRE(result.exit_code == 0);
-  // The records as they stand in the file, byte for byte: from their key to the end.
-  const std::string report = read_file(out / "holes.json");
-  const std::size_t records = report.find("\"loops\": [");
-  REQUIRE(records != std::string::npos);
-  CHECK(nlohmann::json::parse(report).at("loops").size() > 3);
-  return {read_file(out / "points.ply"), read_file(out / "boundary.ply"), read_file(out / "loops.ply"),
-          report.substr(records)};
+// Every kind of result that needs no GDAL, but for the page: it shows the parameters.
+Strings with_all_results(const Strings& more) {
+  Strings options = {"--points", "--points-format",  "ply",        "--normals", "--vdb",           "--lids",
+                     "--obj",    "--orient-normals", "--cut-outs", "0.1",       "--sample-points", "3000"};
+  options.insert(options.end(), more.begin(), more.end());
+  return options;
 }
 
-TEST_CASE("points.ply, boundary.ply, loops.ply and the records of holes.json are the same for every tiling") {
-  const test::ScratchFolder scratch;
-  const std::string surface = (scratch / "surface.ply").string(), room = (scratch / "room.ply").string();
-  REQUIRE(test::run_bench({"synth", "surface", surface, "--points", "12000", "--holes", "4", "--hole-radius",
-                           "3", "6", "--density-step", "4", "--noise", "0.05", "--order", "random"})
-              .exit_code == 0);
-  REQUIRE(test::run_bench({"synth", "scan", room, "--points", "15000", "--seed", "5"}).exit_code == 0);
-  for (const std::string& scan : {surface, room}) {
-    const Files one = detect_files(scan, scratch / "one", {"--tile-points", "1000000", "--threads", "1"});
-    for (const std::vector<std::string>& more :
-         {std::vector<std::string>{"--tile-points", "500", "--threads", "8"},
-          {"--tile-points", "500", "--threads", "1", "--memory-limit", "64MiB"},
-          {"--tile-points", "5000", "--threads", "2", "--memory-limit", "64MiB"},
-          {"--tile-points", "1000000", "--threads", "8"},
-          {}}) {
-      const Files files = detect_files(scan, scratch / "other", more);
-      INFO(Catch::StringMaker<std::vector<std::string>>::convert(more));
-      CHECK((files.points == one.points));
-      CHECK((files.boundary == one.boundary));
-      CHECK((files.loops == one.loops));
-      CHECK((files.records == one.records));
-    }
+void check_every_tiling(const std::string& scan, const fs::path& folder, const Strings& options) {
+  const auto detect = [&](const std::string& out, Strings more) {
+    more.insert(more.begin(), options.begin(), options.end());
+    return test::detect(scan, folder / out, more);
+  };
+  const fs::path one = detect("one", {"--tile-points", "1000000", "--threads", "1"});
+  CHECK(test::read_json(one / "holes.json").at("loops").size() > 3);
+  for (const char* name : {"points.ply", "probability.vdb", "lids.obj", "lids.csv", "loops.obj", "cut-outs"})
+    CHECK(fs::exists(one / name));
+  for (const Strings& more : {Strings{"--tile-points", "500", "--threads", "8"},
+                              {"--tile-points", "500", "--threads", "1", "--memory-limit", "64MiB"},
+                              {"--tile-points", "5000", "--threads", "2", "--memory-limit", "64MiB"},
+                              {"--tile-points", "1000000", "--threads", "8"},
+                              {}}) {
+    INFO(Catch::StringMaker<Strings>::convert(more));
+    test::check_same_results(detect("other", more), one);
   }
+}
+
+TEST_CASE("all results of a surface on Earth, with local coordinates, are the same for every tiling") {
+  const test::ScratchFolder scratch;
+  const std::string scan = (scratch / "surface.ply").string();
+  REQUIRE(test::run_bench(
+              {"synth",         "surface", scan,       "--points",       "12000",    "--holes",   "4",
+               "--hole-radius", "3",       "6",        "--density-step", "4",        "--noise",   "0.05",
+               "--order",       "random",  "--double", "--translate",    "500000.1", "5400000.7", "300.3"})
+              .exit_code == 0);
+  check_every_tiling(scan, scratch.path(), with_all_results({"--local-coordinates"}));
+}
+
+TEST_CASE("all results of a scan with stations, and their causes, are the same for every tiling") {
+  const test::ScratchFolder scratch;
+  const std::string scan = (scratch / "room.ply").string();
+  REQUIRE(test::run_bench({"synth", "scan", scan, "--points", "15000", "--seed", "5"}).exit_code == 0);
+  check_every_tiling(scan, scratch.path(),
+                     with_all_results({"--stations", (scratch / "room.stations.txt").string()}));
 }
 
 }  // namespace

@@ -70,14 +70,6 @@ TEST_CASE("plan, work and finish give the files of detect") {
   test::check_same_results(run.folder / "out", alone);
 }
 
-TEST_CASE("finish does what no unit has done") {
-  const Shared run;
-  REQUIRE(run.plan().exit_code == 0);
-  CHECK(run_program({"finish", run.workspace, "--out", (run.folder / "out").string(), "--quiet"}).exit_code ==
-        0);
-  CHECK(fs::exists(run.folder / "out" / "holes.json"));
-}
-
 TEST_CASE("a plan says in a table what its tasks are, and wrong units are refused") {
   const Shared run;
   CHECK_THAT(run.plan().out, Contains("evaluate-0      3") && Contains("memory of a task"));

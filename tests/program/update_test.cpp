@@ -98,12 +98,6 @@ TEST_CASE("update replaces a file in its place") {
   scan.is_as({moved, scan.patch});
 }
 
-TEST_CASE("an update of a thinned scan has the bytes of a run from nothing") {
-  const Updated scan({"--min-hole", "6"});
-  REQUIRE(scan.run(scan.update({"--add", scan.patch})).exit_code == 0);
-  scan.is_as({scan.first, scan.patch, "--min-hole", "6"});
-}
-
 TEST_CASE("the sample of an update with fewer points is that of a run from nothing") {
   const Updated scan({"--sample-points", "300"});
   const std::string half = "-1,-1,-1,60,130,1";

@@ -5,9 +5,7 @@
 #include "tests/support/vdb_grids.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <string>
-#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -17,9 +15,6 @@ using namespace io;
 namespace {
 
 namespace fs = std::filesystem;
-using Catch::Contains;
-using test::read_file;
-using test::run_program;
 
 std::string make_surface(const test::ScratchFolder& scratch, const std::string& name) {
   const std::string scan = (scratch / name).string();
@@ -41,9 +36,7 @@ TEST_CASE(
             std::to_string(row[2]) + "\n";
   for (const std::string& scan : {surface, scratch.write("earth.txt", text)}) {
     const fs::path out = scratch / "out";
-    REQUIRE(run_program({"detect", scan, "--out", out.string(), "--points", "--points-format", "ply", "--vdb",
-                         "--quiet"})
-                .exit_code == 0);
+    test::detect(scan, out, {"--points", "--points-format", "ply", "--vdb"});
     const auto grids = test::read_vdb_grids(out / "probability.vdb");
     REQUIRE(grids.size() == 1);
     const test::VdbGrid& grid = grids.at("boundary_probability");
@@ -53,9 +46,7 @@ TEST_CASE(
     CHECK(grid.metadata.at("class") == "fog volume");
 
     const test::Table points = test::read_table(out / "points.ply");
-    const auto named = std::find(points.names.begin(), points.names.end(), "scalar_probability");
-    REQUIRE(named != points.names.end());
-    const auto column = static_cast<std::size_t>(named - points.names.begin());
+    const std::size_t column = points.place("scalar_probability");
     std::map<std::array<std::int32_t, 3>, double> expected;
     for (const auto& row : points.rows) {
       std::array<std::int32_t, 3> voxel{};
@@ -68,47 +59,6 @@ TEST_CASE(
     CHECK((grid.values == expected));
     CHECK(expected.size() > 2000);
   }
-}
-
-TEST_CASE("probability.vdb has the same bytes for every tiling, number of threads and memory limit") {
-  const test::ScratchFolder scratch;
-  const std::string scan = make_surface(scratch, "surface.ply");
-  const auto bytes = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"detect", scan, "--out", (scratch / "out").string(), "--vdb", "--quiet"});
-    REQUIRE(run_program(more).exit_code == 0);
-    return read_file(scratch / "out" / "probability.vdb");
-  };
-  const std::string one = bytes({"--tile-points", "1000000", "--threads", "1"});
-  CHECK((bytes({"--tile-points", "500", "--threads", "8"}) == one));
-  CHECK((bytes({"--tile-points", "5000", "--memory-limit", "64MiB"}) == one));
-  CHECK((bytes({"--method", "paper"}) == one));
-  CHECK((bytes({"--k", "10"}) != one));
-}
-
-TEST_CASE("a run without --vdb removes the grid of an earlier run, and no other file of its name") {
-  const test::ScratchFolder scratch;
-  const std::string scan = make_surface(scratch, "surface.ply");
-  const fs::path out = scratch / "out", grid = out / "probability.vdb";
-  const std::vector<std::string> plain = {"detect", scan, "--out", out.string()};
-  std::vector<std::string> with_grid = plain;
-  with_grid.push_back("--vdb");
-  const test::ProgramResult first = run_program(with_grid);
-  REQUIRE(first.exit_code == 0);
-  CHECK_THAT(first.out, Contains("written: " + grid.string()));
-  CHECK(run_program(with_grid).exit_code == 0);  // replaces it
-  CHECK(run_program(plain).exit_code == 0);
-  CHECK_FALSE(fs::exists(grid));
-
-  std::ofstream(grid) << "somebody's volume";
-  CHECK(run_program(plain).exit_code == 0);
-  CHECK(read_file(grid) == "somebody's volume");
-  const test::ProgramResult refused = run_program(with_grid);
-  CHECK(refused.exit_code == 1);
-  CHECK_THAT(refused.err, Contains("probability.vdb: exists, and this command did not write it"));
-  CHECK(read_file(grid) == "somebody's volume");
-  with_grid.push_back("--overwrite");
-  CHECK(run_program(with_grid).exit_code == 0);
-  CHECK(test::read_vdb_grids(grid).size() == 1);
 }
 
 }  // namespace

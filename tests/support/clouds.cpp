@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <sstream>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -49,6 +50,13 @@ Vector3d Random::direction() {
     const Vector3d v(x, y, z);
     if (v.squaredNorm() > 0.01 && v.squaredNorm() <= 1) return v.normalized();
   }
+}
+
+std::string Cloud::text() const {
+  std::ostringstream text;
+  text.precision(17);
+  for (const Vector3d& p : positions) text << p.transpose() << "\n";
+  return text.str();
 }
 
 // ---- Changes -----------------------------------------------------------------------------------------

@@ -6,6 +6,7 @@
 #include "engine/config/config.hpp"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -35,6 +36,8 @@ struct Cloud {
   std::vector<Eigen::Vector3d> normals;  // empty, or one per point
 
   std::size_t size() const { return positions.size(); }
+  // A line "x y z" for each point, with all digits.
+  std::string text() const;
 
   // Without the points nearer than `radius` to the vertical line through (x, y).
   Cloud punched(const Eigen::Vector2d& centre, double radius) const;

@@ -19,10 +19,9 @@ namespace lacuna {
 // test case is skipped.
 std::optional<std::filesystem::path> shared_folder();
 
-// A point in the golden results: ids and counts as written, -1 for no gap neighbour.
 struct GoldenPoint {
-  double angle, halfdisc, shape, probability, mean_distance;
-  std::int64_t neighbours, coherent, gap_near, gap_far;
+  double angle = 0, halfdisc = 0, shape = 0, probability = 0;
+  bool coherent = false;
 };
 
 using GoldenLoops = std::vector<std::vector<std::int64_t>>;
@@ -40,9 +39,6 @@ std::vector<GoldenPoint> read_golden_points(const std::filesystem::path& shared,
                                             const GoldenSetting& setting);
 GoldenLoops read_golden_loops(const std::filesystem::path& shared, const GoldenSetting& setting);
 
-// Counts, gap neighbours and coherence are the golden ones, probabilities within 1e-6, mean distances within
-// 1e-12 of themselves. What the tested program does not return, `found` takes from `golden`.
-void check_golden(const std::vector<GoldenPoint>& found, const std::vector<GoldenPoint>& golden);
 GoldenLoops in_golden_form(const std::vector<std::vector<PointId>>& loops);
 
 // A scan in any format of io/, with its normals if it has them.

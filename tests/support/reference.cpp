@@ -4,6 +4,7 @@
 #include "engine/model/length_bins.hpp"
 #include "engine/run/error.hpp"
 #include "engine/simd/maths.hpp"
+#include "tests/support/point_tree.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -60,93 +61,6 @@ void find_distinct(const Positions& positions, Detection& result) {
 // A neighbour in the order of neighbours.
 using Neighbour = std::pair<double, PointId>;  // squared distance, id
 
-// A kd-tree over the distinct points: the middle of each range is its node, smaller coordinates before it.
-// Exact: rounding is monotonous, so no point beyond a plane is nearer than the plane, rounded alike.
-class KdTree {
- public:
-  KdTree(const Positions& positions, std::vector<PointId> ids)
-      : positions_(positions), ids_(std::move(ids)), axes_(ids_.size()) {
-    build(0, ids_.size());
-  }
-
-  // N_p^{k,eps} without p, in order.
-  std::vector<Neighbour> neighbours(PointId p, std::size_t k, double squared_eps) const {
-    Search search{p, k, squared_eps, {}, {}};
-    visit(0, ids_.size(), search);
-    std::vector<Neighbour> result = std::move(search.ball);
-    result.insert(result.end(), search.nearest.begin(), search.nearest.end());
-    std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result;
-  }
-
- private:
-  struct Search {
-    PointId p;
-    std::size_t k;
-    double squared_eps;
-    std::vector<Neighbour> nearest;  // the first k so far, in order
-    std::vector<Neighbour> ball;
-
-    double reach() const {
-      if (nearest.size() < k) return std::numeric_limits<double>::infinity();
-      return std::max(squared_eps, nearest.back().first);
-    }
-  };
-
-  double coordinate(std::size_t i, int axis) const { return positions_[value(ids_[i])][axis]; }
-
-  void build(std::size_t begin, std::size_t end) {
-    if (begin == end) return;
-    Vector3d low = positions_[value(ids_[begin])], high = low;
-    for (std::size_t i = begin; i < end; ++i) {
-      low = low.cwiseMin(positions_[value(ids_[i])]);
-      high = high.cwiseMax(positions_[value(ids_[i])]);
-    }
-    int axis;
-    (high - low).maxCoeff(&axis);
-    const std::size_t middle = begin + (end - begin) / 2;
-    std::nth_element(
-        ids_.begin() + begin, ids_.begin() + middle, ids_.begin() + end,
-        [&](PointId a, PointId b) { return positions_[value(a)][axis] < positions_[value(b)][axis]; });
-    axes_[middle] = axis;
-    build(begin, middle);
-    build(middle + 1, end);
-  }
-
-  void visit(std::size_t begin, std::size_t end, Search& search) const {
-    if (begin == end) return;
-    const std::size_t middle = begin + (end - begin) / 2;
-    const Vector3d& p = positions_[value(search.p)];
-    if (ids_[middle] != search.p)
-      offer({squared_length(positions_[value(ids_[middle])] - p), ids_[middle]}, search);
-
-    const double to_plane = coordinate(middle, axes_[middle]) - p[axes_[middle]];
-    const bool low_side_first = to_plane > 0;
-    if (low_side_first) {
-      visit(begin, middle, search);
-    } else {
-      visit(middle + 1, end, search);
-    }
-    if (to_plane * to_plane > search.reach()) return;
-    if (low_side_first) {
-      visit(middle + 1, end, search);
-    } else {
-      visit(begin, middle, search);
-    }
-  }
-
-  static void offer(const Neighbour& q, Search& search) {
-    if (q.first <= search.squared_eps) search.ball.push_back(q);
-    search.nearest.insert(std::upper_bound(search.nearest.begin(), search.nearest.end(), q), q);
-    if (search.nearest.size() > search.k) search.nearest.pop_back();
-  }
-
-  const Positions& positions_;
-  std::vector<PointId> ids_;
-  std::vector<int> axes_;  // of the plane through each node
-};
-
 double eps_in_effect(const Positions& positions, const std::vector<PointId>& distinct,
                      const NeighbourhoodConfig& config) {
   if (distinct.empty()) return config.eps;
@@ -162,10 +76,17 @@ double eps_in_effect(const Positions& positions, const std::vector<PointId>& dis
 
 void find_neighbours(const Positions& positions, const NeighbourhoodConfig& config, Detection& result) {
   result.eps = eps_in_effect(positions, result.distinct, config);
-  const KdTree tree(positions, result.distinct);
+  Positions places;
+  for (PointId p : result.distinct) places.push_back(positions[value(p)]);
+  const PointTree tree(places, result.distinct);
   std::vector<std::vector<Neighbour>> closure(positions.size());
-  for (PointId p : result.distinct) {
-    for (const auto& [squared, q] : tree.neighbours(p, config.k, result.eps * result.eps)) {
+  std::vector<lacuna::Neighbour> nearest, ball;
+  for (LocalIndex at = 0; at < places.size(); ++at) {
+    const PointId p = result.distinct[at];
+    tree.nearest(at, static_cast<std::size_t>(config.k), nearest);
+    tree.within(at, result.eps * result.eps, ball);
+    nearest.insert(nearest.end(), ball.begin(), ball.end());
+    for (const auto& [squared, q, there] : nearest) {
       if (squared == 0) throw Error("the squared distance of distinct points underflows");
       closure[value(p)].emplace_back(squared, q);
       closure[value(q)].emplace_back(squared, p);
@@ -525,7 +446,6 @@ Graph span(Detection& result) {
     if (!joins && path_within(graph, edge.low, edge.high, result.e - 1, seen)) continue;
     graph[value(edge.low)].push_back(edge.high);
     graph[value(edge.high)].push_back(edge.low);
-    result.spanning.push_back(edge);
   }
   return graph;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The method done plainly, in memory and in one piece: what every engine test compares against. It is written
 // straight from docs/method.md, for the eye and not for speed. Sections 1 to 3 below are its part A, 4 to 6
-// its part B, the stars its part C. It shares parameters and ids with the engine, but no code. Ids are ranks
-// in the input: `points[value(id)]`.
+// its part B, the stars its part C. It shares parameters and ids with the engine, but no code. Neighbours
+// come from nanoflann. Ids are ranks in the input: `points[value(id)]`.
 #pragma once
 
 #include "engine/config/config.hpp"
@@ -67,7 +67,6 @@ struct Detection {
   std::int64_t e = 0;              // in effect
   std::size_t boundary_edges = 0;  // of the boundary graph
   std::vector<Edge> eligible;      // with w_total, in the order in which they are taken
-  std::vector<Edge> spanning;      // those accepted, in that order
   std::vector<std::vector<PointId>>
       loops;  // of the paper raw, as step 6 writes and sorts them; else those that stand
   std::vector<double> confidences;  // of the loops; of the paper's all 1

@@ -74,6 +74,16 @@ ProgramResult run_bench(const std::vector<std::string>& arguments) {
   return run_program(arguments, Program::kBench);
 }
 
+std::filesystem::path detect(const std::string& scan, const std::filesystem::path& out,
+                             const std::vector<std::string>& options) {
+  std::vector<std::string> words = {"detect", scan, "--out", out.string(), "--quiet"};
+  words.insert(words.end(), options.begin(), options.end());
+  const ProgramResult result = run_program(words);
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  return out;
+}
+
 ProgramResult run_program_until(const std::vector<std::string>& arguments, int signal,
                                 const std::function<bool()>& moment, Program program) {
   bool sent = false;

@@ -27,6 +27,11 @@ enum class Program { kLacuna, kBench };
 ProgramResult run_program(const std::vector<std::string>& arguments, Program program = Program::kLacuna);
 ProgramResult run_bench(const std::vector<std::string>& arguments);  // lacuna-bench
 
+// Runs `lacuna detect SCAN --out OUT --quiet` with more options, and requires that it succeeds. Returns
+// `out`.
+std::filesystem::path detect(const std::string& scan, const std::filesystem::path& out,
+                             const std::vector<std::string>& options = {});
+
 // Any command, searched for in PATH; exit code 126 if there is none.
 ProgramResult run_command(const std::vector<std::string>& words);
 

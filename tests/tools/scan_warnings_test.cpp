@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/run/scan_warnings.hpp"
 
-#include "engine/run/error.hpp"
 #include "tests/io/las/las_file.hpp"
 #include "tests/support/e57_encoder.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -17,10 +16,8 @@ namespace {
 using Catch::Matchers::Contains;
 using Strings = std::vector<std::string>;
 
-const std::string kUtm = "PROJCS[\"UTM 32N\",GEOGCS[\"ETRS89\",UNIT[\"degree\",0.01745]],UNIT[\"metre\",1]]";
 const std::string kFeet =
     "PROJCS[\"Oregon\",GEOGCS[\"NAD83\",UNIT[\"degree\",0.01745]],UNIT[\"foot\",0.3048]]";
-const std::string kDegrees = "GEOGCS[\"WGS 84\",UNIT[\"degree\",0.01745]]";
 
 std::string las(const std::string& crs) {
   return LasFile{.records = {las_record("LASF_Projection", 2112, crs)}}.bytes();
@@ -33,15 +30,6 @@ std::string e57(const std::string& crs) {
   const std::string root =
       crs.empty() ? "" : "<coordinateMetadata type=\"String\"><![CDATA[" + crs + "]]></coordinateMetadata>";
   return encode_e57({scan}, {.root = root});
-}
-
-std::string refusal(const FileScan& scan) {
-  try {
-    refuse_degrees(scan);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace
@@ -93,46 +81,6 @@ TEST_CASE("files in different units are a warning, and the scan has no unit") {
   // Systems that differ may have other units than the one that is known.
   const auto code = folder.write("c.las", las("EPSG:25832"));
   CHECK(FileScan({a, code}, {}).length_unit().empty());
-}
-
-TEST_CASE("the stated system and unit hold over those of all files, and a warning names the first of these") {
-  const ScratchFolder folder;
-  const auto a = folder.write("a.las", las(kFeet)), b = folder.write("b.xyz", "1 2 3\n"),
-             c = folder.write("c.e57", e57(""));
-  InputConfig config;
-  config.crs = kUtm;
-  const FileScan in_metres({a, b, c}, config);
-  CHECK(in_metres.common_crs() == kUtm);
-  CHECK(in_metres.length_unit() == "m");
-  CHECK(in_metres.crs()[0] == kFeet);
-  CHECK(input_warnings(in_metres) ==
-        Strings{a + ": its coordinate reference system is Oregon; the stated one holds, UTM 32N",
-                a + ": its unit is ft; the stated one holds, m"});
-  InputConfig unit;
-  unit.unit = LengthUnit::kMm;
-  const FileScan in_millimetres({a, b, c}, unit);
-  CHECK(in_millimetres.common_crs() == kFeet);
-  CHECK(in_millimetres.length_unit() == "mm");
-  CHECK_THAT(input_warnings(in_millimetres).back(),
-             Contains("a.las, and 1 more file: its unit is ft; the stated one holds, mm"));
-  CHECK(input_warnings(FileScan({b}, unit)).empty());
-}
-
-TEST_CASE("longitude and latitude are refused with the ways out, unless a system of lengths is stated") {
-  const ScratchFolder folder;
-  const auto flat = folder.write("flat.las", las(kUtm)), none = folder.write("none.xyz", "1 2 3\n");
-  CHECK(refusal(FileScan({flat, none}, {})).empty());
-  InputConfig utm, degrees;
-  utm.crs = kUtm;
-  degrees.crs = kDegrees;
-  for (const auto& file : {folder.write("a.las", las(kDegrees)), folder.write("a.e57", e57(kDegrees))}) {
-    const std::string message = refusal(FileScan({flat, file}, {}));
-    CHECK_THAT(message, Contains(file + ": WGS 84 is in longitude and latitude") &&
-                            Contains("pdal translate") && Contains("--crs"));
-    CHECK(message.find('\n') == message.npos);
-    CHECK(refusal(FileScan({flat, file}, utm)).empty());
-  }
-  CHECK_THAT(refusal(FileScan({none}, degrees)), Contains("--crs: WGS 84 is in longitude and latitude"));
 }
 
 TEST_CASE("normals that do not fit the surface are a warning from a tenth on") {

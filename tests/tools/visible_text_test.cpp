@@ -20,7 +20,7 @@ TEST_CASE("control characters are shown, not obeyed") {
                 "2J") == "\\x9b2J");  // C1 as one byte
 }
 
-TEST_CASE("outbox of any language stay as they are") {
+TEST_CASE("letters of any language stay as they are") {
   for (const std::string text :
        {"plain ~ text", "Größe", "点云.ply", "\xc2\xa0", "\xf0\x9f\x95\xb3", "a\\b"}) {
     CHECK(visible(text) == text);

@@ -5,8 +5,6 @@
 #include "tests/tools/matching/drawn.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include <catch2/catch.hpp>
@@ -38,11 +36,8 @@ Ids add_disc(Drawing& drawing, std::vector<Triangle>& triangles, std::uint64_t n
 
 // 5 x 5 squares of points a unit apart, without some of them. Ids are those of plane(6), though the mesh has
 // the points in the order of `ids`.
-std::vector<TrueLoop> sheet_without(const std::vector<std::array<std::uint64_t, 2>>& missing, Ids ids = {}) {
-  if (ids.empty()) {
-    ids.resize(36);
-    std::iota(ids.begin(), ids.end(), 0u);
-  }
+std::vector<TrueLoop> sheet_without(const std::vector<std::array<std::uint64_t, 2>>& missing,
+                                    const Ids& ids) {
   std::vector<Eigen::Vector3d> positions;
   Ids place(36);
   for (const std::uint64_t id : ids) {
@@ -77,10 +72,6 @@ Ids shuffled_ids(std::uint64_t seed) {
   return ids;
 }
 
-std::vector<TrueLoop> boundary(const Drawing& drawing, const std::vector<Triangle>& triangles) {
-  return mesh_boundary(triangles, stand_ins(drawing.positions), drawing.positions);
-}
-
 }  // namespace
 
 TEST_CASE("the boundary of two discs is two loops, also where their triangles share no vertex") {
@@ -98,19 +89,6 @@ TEST_CASE("the boundary of two discs is two loops, also where their triangles sh
   }
 }
 
-TEST_CASE("holes are loops apart from the outer edge, also where they touch at a vertex") {
-  const auto one = sheet_without({{2, 2}});
-  REQUIRE(one.size() == 2);
-  CHECK(one[0].vertices.size() == 20);
-  CHECK(one[1].vertices == Ids{14, 15, 20, 21});
-  const auto two = sheet_without({{2, 2}, {1, 1}});
-  REQUIRE(two.size() == 3);
-  CHECK(two[0].vertices.size() == 20);
-  CHECK(two[1].vertices == Ids{7, 8, 13, 14});
-  CHECK(two[2].vertices == Ids{14, 15, 20, 21});
-  CHECK(two[2].edges.size() == 4);
-}
-
 TEST_CASE("holes that touch at several vertices stay apart, whatever lies between them") {
   // The square in the middle hangs at its four corners.
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -121,18 +99,6 @@ TEST_CASE("holes that touch at several vertices stay apart, whatever lies betwee
     CHECK(loops[3].vertices == Ids{15, 16, 21, 22});
     CHECK(loops[4].vertices == Ids{20, 21, 26, 27});
   }
-}
-
-TEST_CASE(
-    "a hole that touches the outer edge is a loop of its own, and so is a part that hangs at a vertex") {
-  const auto hole = sheet_without({{1, 1}, {2, 1}, {0, 0}});
-  REQUIRE(hole.size() == 2);
-  CHECK(hole[0].vertices.size() == 20);
-  CHECK(hole[1].vertices == Ids{7, 8, 9, 13, 14, 15});
-  const auto hanging = sheet_without({{1, 0}, {0, 1}});
-  REQUIRE(hanging.size() == 2);
-  CHECK(hanging[0].vertices == Ids{0, 1, 6, 7});
-  CHECK(hanging[1].vertices.size() == 20);
 }
 
 TEST_CASE("the order of triangles and of their corners does not change loops") {
@@ -170,56 +136,6 @@ TEST_CASE("the order of triangles and of their corners does not change loops") {
     }
     CHECK(again == edges);
   }
-}
-
-TEST_CASE("triangles that disagree about their orientation have the same loops") {
-  Drawing drawing;
-  std::vector<Triangle> triangles;
-  const Ids rim = add_disc(drawing, triangles, 12, 0, false);
-  for (const std::size_t flipped : {0u, 1u, 5u}) std::swap(triangles[flipped][1], triangles[flipped][2]);
-  const auto loops = boundary(drawing, triangles);
-  REQUIRE(loops.size() == 1);
-  CHECK(loops[0].vertices == rim);
-  CHECK(loops[0].edges.size() == 12);
-}
-
-TEST_CASE("a band with one twist has one loop") {
-  Drawing drawing;
-  std::vector<Triangle> triangles;
-  const std::uint64_t n = 24;
-  for (std::uint64_t i = 0; i < n; ++i) {
-    const double angle = 2 * std::numbers::pi * static_cast<double>(i) / n;
-    for (const double side : {-1., 1.}) {
-      const double r = 10 + side * std::cos(angle / 2);
-      drawing.point(r * std::cos(angle), r * std::sin(angle), side * std::sin(angle / 2));
-    }
-    // The two sides change places after one round.
-    const std::uint64_t a = 2 * i, b = a + 1, next = 2 * ((i + 1) % n), twist = i + 1 == n;
-    triangles.push_back({a, b, next + 1 - twist});
-    triangles.push_back({a, next + 1 - twist, next + twist});
-  }
-  const auto loops = boundary(drawing, triangles);
-  REQUIRE(loops.size() == 1);
-  CHECK(loops[0].vertices.size() == 2 * n);
-}
-
-TEST_CASE("an edge on three triangles is no boundary, and curves that do not close are open loops") {
-  Drawing drawing;
-  for (int i = 0; i < 5; ++i) drawing.point(i == 1, i == 2 ? 1 : i == 3 ? -1 : 0, i == 4);
-  const std::vector<Eigen::Vector3d> positions = drawing.positions;
-  Ids ids = {0, 1, 2, 3, 4};
-  do {
-    for (std::size_t i = 0; i < 5; ++i) drawing.positions[ids[i]] = positions[i];
-    const std::vector<Triangle> fins = {
-        {ids[0], ids[1], ids[2]}, {ids[0], ids[1], ids[3]}, {ids[0], ids[1], ids[4]}};
-    auto loops = boundary(drawing, fins);
-    REQUIRE(loops.size() == 2);
-    if (loops[0].edges.size() == 2) std::swap(loops[0], loops[1]);
-    CHECK((loops[0].vertices.size() == 4 && loops[0].edges.size() == 4));
-    CHECK((loops[1].vertices.size() == 3 && loops[1].edges.size() == 2));
-    const std::array<std::uint64_t, 2> inner = {std::min(ids[0], ids[1]), std::max(ids[0], ids[1])};
-    for (const TrueLoop& loop : loops) CHECK(std::count(loop.edges.begin(), loop.edges.end(), inner) == 0);
-  } while (std::next_permutation(ids.begin(), ids.end()));
 }
 
 TEST_CASE("a closed mesh, triangles without area and no triangles have no boundary") {

@@ -3,7 +3,6 @@
 
 #include "tests/support/clouds.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -29,21 +28,6 @@ bool is_wound_around(const Polygon& polygon, const Eigen::Vector3d& place) {
 
 }  // namespace
 
-TEST_CASE("an outline contains what lies inside it as seen along its normal") {
-  Polygon square = {{0, 0, 0}, {4, 0, 1}, {4, 4, 0}, {0, 4, 1}};
-  for (int turn = 0; turn < 2; ++turn) {
-    const Outline outline(square);
-    CHECK(outline.contains({2, 2, 0}));
-    CHECK(outline.contains({0.1, 3.9, 100}));
-    CHECK(outline.contains({3.9, 0.1, -100}));
-    CHECK_FALSE(outline.contains({-0.1, 2, 0}));
-    CHECK_FALSE(outline.contains({4.1, 2, 0}));
-    CHECK_FALSE(outline.contains({2, -0.1, 0}));
-    CHECK_FALSE(outline.contains({2, 4.1, 0}));
-    std::reverse(square.begin(), square.end());
-  }
-}
-
 TEST_CASE("an outline contains what a star-shaped polygon winds around, in any position") {
   Random random(7);
   for (const int corners : {3, 4, 50, 1000}) {
@@ -62,21 +46,6 @@ TEST_CASE("an outline contains what a star-shaped polygon winds around, in any p
       const Eigen::Vector3d place(random.uniform(-11, 11), random.uniform(-11, 11), 0);
       CHECK(outline.contains(turn * place + move) == is_wound_around(star, place));
     }
-  }
-}
-
-TEST_CASE("an outline with many long teeth contains the teeth and not the places between them") {
-  Polygon comb = {{0, -1, 0}};
-  for (int tooth = 0; tooth < 500; ++tooth) {
-    comb.insert(
-        comb.end(),
-        {{2. * tooth, 100, 0}, {2. * tooth + 1, 100, 0}, {2. * tooth + 1, 0, 0}, {2. * tooth + 2, 0, 0}});
-  }
-  comb.emplace_back(1000, -1, 0);
-  const Outline outline(comb);
-  for (int tooth = 0; tooth < 500; tooth += 7) {
-    CHECK(outline.contains({2 * tooth + 0.5, 50, 0}));
-    CHECK_FALSE(outline.contains({2 * tooth + 1.5, 50, 0}));
   }
 }
 

@@ -62,25 +62,16 @@ TEST_CASE("a polyline near a true loop finds it, and one elsewhere is false, tho
   }
   const auto scan = folder.write("scan.xyz", rows);
   std::string truth_row, vertices, edges;
-  const auto place = [](int i) {  // on the square, counted along it
-    const int side = i / 4, step = i % 4;
-    return std::array<int, 2>{side == 0   ? step
-                              : side == 1 ? 4
-                              : side == 2 ? 4 - step
-                                          : 0,
-                              side == 0   ? 0
-                              : side == 1 ? step
-                              : side == 2 ? 4
-                                          : 4 - step};
-  };
-  for (int i = 0; i < 16; ++i) {
-    const auto [x, y] = place(i);
-    truth_row += std::to_string((10 + y) * 30 + 10 + x) + " ";
-  }
+  std::vector<std::array<int, 2>> square;
+  for (int i = 0; i < 4; ++i) square.push_back({i, 0});
+  for (int i = 0; i < 4; ++i) square.push_back({4, i});
+  for (int i = 4; i > 0; --i) square.push_back({i, 4});
+  for (int i = 4; i > 0; --i) square.push_back({0, i});
+  for (const auto& [x, y] : square) truth_row += std::to_string((10 + y) * 30 + 10 + x) + " ";
   for (int loop = 0; loop < 2; ++loop) {
     for (int i = 0; i < 16; ++i) {
-      const auto [x, y] = place(i);
-      vertices += std::to_string(10.3 + x + 12 * loop) + " " + std::to_string(10.3 + y) + " 0.2\n";
+      vertices += std::to_string(10.3 + square[i][0] + 12 * loop) + " " +
+                  std::to_string(10.3 + square[i][1]) + " 0.2\n";
       edges += std::to_string(16 * loop + i) + " " + std::to_string(16 * loop + (i + 1) % 16) + "\n";
     }
   }

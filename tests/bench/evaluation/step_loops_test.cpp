@@ -29,33 +29,6 @@ LoopIds joined(const LoopIds& a, const LoopIds& b, double share) {
 
 }  // namespace
 
-TEST_CASE("a false loop along a step of density is a step, neither found nor false") {
-  Drawing drawing;
-  const LoopIds ring = drawing.ring(40, 0, 0);
-  const LoopIds near = drawing.ring(38, 0.2, 0);
-  const LoopIds hole = drawing.ring(30, 100, 0);
-  const LoopIds far = drawing.ring(30, 200, 0);
-  LoopIds step = ring;
-  step.push_back(ring[0]);
-  const LoopAccuracy result = match(drawing, {near, hole, far}, {hole}, {step});
-  CHECK(result.loops[0].verdict == EdgeDecision::kStep);
-  CHECK(result.loops[0].on_step == 1);
-  CHECK(result.loops[1].verdict == EdgeDecision::kFound);
-  CHECK_FALSE(result.loops[1].on_step);
-  CHECK(result.loops[2].verdict == EdgeDecision::kFalse);
-  CHECK(result.loops[2].on_step == 0);
-  CHECK((result.scores.steps == 1 && result.scores.false_loops == 1 && result.scores.found == 1));
-  CHECK(result.scores.precision == 0.5);
-}
-
-TEST_CASE("a step is no true loop: nothing is missed where it is not found") {
-  Drawing drawing;
-  const LoopIds step = drawing.ring(40, 0, 0);
-  const LoopAccuracy result = match(drawing, {}, {}, {step});
-  CHECK((result.scores.true_loops == 0 && result.scores.missed == 0));
-  CHECK_FALSE(result.scores.precision);
-}
-
 TEST_CASE("a loop along a true loop and a step is joined, one along less than 70 percent of both is false") {
   Drawing drawing;
   const LoopIds hole = drawing.ring(60, 0, 0);

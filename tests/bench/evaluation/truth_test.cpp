@@ -6,7 +6,6 @@
 #include "tools/matching/edge_tree.hpp"
 #include "tools/matching/true_loops.hpp"
 
-#include <algorithm>
 #include <limits>
 
 #include <catch2/catch.hpp>
@@ -60,14 +59,6 @@ TEST_CASE("the tree of edges finds what a look at each finds") {
       CHECK(found == expected);
     }
   }
-}
-
-TEST_CASE("the distance to a segment is to its nearest place, ends included") {
-  const Segment segment{{0, 0, 0}, {10, 0, 0}};
-  CHECK(distance_to(segment, {5, 3, 0}) == 3);
-  CHECK(distance_to(segment, {-3, 4, 0}) == 5);
-  CHECK(distance_to(segment, {13, 0, 4}) == 5);
-  CHECK(distance_to({{1, 1, 1}, {1, 1, 1}}, {1, 1, 3}) == 2);
 }
 
 TEST_CASE("flagged points are right at a true vertex, or within the radius of a true edge") {

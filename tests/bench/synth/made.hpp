@@ -134,6 +134,5 @@ inline constexpr std::array kAllScenes{SceneKind::kRoom,  SceneKind::kCourt,  Sc
                                        SceneKind::kVault, SceneKind::kStreet, SceneKind::kPlant,
                                        SceneKind::kAerial};
 inline constexpr std::array kAllPositions{PositionKind::kJittered, PositionKind::kRandom};
-inline constexpr std::array kPanelKinds{SurfaceKind::kSphere, SurfaceKind::kCube};
 
 }  // namespace lacuna::synth

@@ -36,35 +36,3 @@ TEST_CASE("a permutation visits every index once, for every size") {
     CHECK(met == std::vector<int>(size, 1));
   }
 }
-
-TEST_CASE("a permutation keeps nothing near its place, and seeds differ") {
-  constexpr std::uint64_t kSize = 100'000;
-  const Permutation one(kSize, 1);
-  const Permutation two(kSize, 2);
-  std::uint64_t still = 0, same = 0, next = 0;
-  for (std::uint64_t index = 0; index < kSize; ++index) {
-    still += one(index) == index;
-    same += one(index) == two(index);
-    next += index > 0 && one(index) == one(index - 1) + 1;
-  }
-  CHECK(still < 10);
-  CHECK(same < 10);
-  CHECK(next < 10);
-}
-
-TEST_CASE("random numbers have the moments of their distributions") {
-  const Random random(7, 3);
-  constexpr int kCount = 1'000'000;
-  double uniform = 0, normal = 0, square = 0, fourth = 0;
-  for (int i = 0; i < kCount; ++i) {
-    uniform += random.uniform(i);
-    const double x = random.normal(i);
-    normal += x;
-    square += x * x;
-    fourth += x * x * x * x;
-  }
-  CHECK(uniform / kCount == Approx(0.5).margin(0.002));
-  CHECK(normal / kCount == Approx(0).margin(0.005));
-  CHECK(square / kCount == Approx(1).margin(0.01));
-  CHECK(fourth / kCount == Approx(2.9).margin(0.05));  // Irwin-Hall of twelve: 3 - 6 / (5 * 12)
-}

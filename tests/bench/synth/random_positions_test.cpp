@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <numbers>
 #include <set>
@@ -57,18 +56,6 @@ bool cross(const Position& a, const Position& b, const Position& c, const Positi
 
 }  // namespace
 
-TEST_CASE("random positions have the wanted number of points, give or take its square root") {
-  for (const SurfaceKind kind : kAllKinds) {
-    const ScratchFolder folder;
-    SurfaceOptions options = random_surface(folder, kind);
-    options.points = 100'000;
-    const SurfaceSummary made = write_surface(options);
-    // An open side of n nodes has n - 1 squares: 0.6 % less here.
-    CHECK(std::fabs(double(made.points) - 99'700) < 300 + 5 * std::sqrt(100'000));
-    CHECK(made.loops == 5 + rims_of(kind));
-  }
-}
-
 TEST_CASE("random positions are uniform and independent, those near a grid are not") {
   // Bins that do not follow the squares of the grid. The numbers of points in them are Poisson numbers if
   // positions are independent: then the sum of squared deviations has the chi-square distribution.
@@ -93,23 +80,6 @@ TEST_CASE("random positions are uniform and independent, those near a grid are n
   for (const double bin : {0.7, 1.3, 3.3}) {
     CHECK(std::fabs(chi_square(PositionKind::kRandom, bin) - kDegrees) < 4 * deviation);
     CHECK(chi_square(PositionKind::kJittered, bin) < kDegrees - 10 * deviation);
-  }
-}
-
-TEST_CASE("random positions are anywhere in the squares of the grid") {
-  const ScratchFolder folder;
-  SurfaceOptions options = random_surface(folder);
-  options.points = 100'000;
-  options.holes = 0;
-  write_surface(options);
-  const auto points = positions_of(options.out);
-  for (const int axis : {0, 1}) {
-    std::array<double, 10> counts{};
-    for (const Position& p : points) ++counts[std::min(9, int(10 * (p[axis] - std::floor(p[axis]))))];
-    const double expected = points.size() / 10.0;
-    double chi_square = 0;
-    for (const double count : counts) chi_square += (count - expected) * (count - expected) / expected;
-    CHECK(chi_square < 27.9);  // at 9 degrees of freedom, once in a thousand seeds
   }
 }
 
@@ -142,58 +112,6 @@ TEST_CASE(
           CHECK(!cross(corners[i], corners[i + 1], corners[j], corners[(j + 1) % corners.size()]));
     }
   }
-}
-
-TEST_CASE("the true loop of a hole has every point that is nearest to a place well inside") {
-  const ScratchFolder folder;
-  SurfaceOptions options = random_surface(folder);
-  options.holes = 1;
-  options.hole_radius = {10, 10};
-  write_surface(options);
-  const auto points = positions_of(options.out);
-  auto loops = loops_of(options.truth);
-  std::sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
-  const std::vector<Position> corners = on_loop(loops[0], points);
-  // A cell of the Voronoi diagram that reaches into the hole crosses its edge, so its point is on the loop.
-  const std::set<std::uint64_t> of_loop(loops[0].begin(), loops[0].end());
-  std::size_t places = 0;
-  const Position middle = corners[0];
-  for (double x = middle[0] - 30; x < middle[0] + 30; x += 0.5)
-    for (double y = middle[1] - 30; y < middle[1] + 30; y += 0.5) {
-      const Position place{float(x), float(y), 0};
-      if (!encloses(corners, place)) continue;
-      std::uint64_t nearest = 0;
-      for (std::uint64_t id = 0; id < points.size(); ++id)
-        if (distance(points[id], place) < distance(points[nearest], place)) nearest = id;
-      if (distance(points[nearest], place) < 1.5) continue;
-      ++places;
-      CHECK(of_loop.contains(nearest));
-    }
-  CHECK(places > 500);
-}
-
-TEST_CASE("outside of the true loop along the edge of a plane with random positions there are few points") {
-  const ScratchFolder folder;
-  SurfaceOptions options = random_surface(folder);
-  options.holes = 0;
-  write_surface(options);
-  const auto points = positions_of(options.out);
-  const auto loops = loops_of(options.truth);
-  REQUIRE(loops.size() == 1);
-  const std::vector<Position> corners = on_loop(loops[0], points);
-  const std::set<std::uint64_t> of_loop(loops[0].begin(), loops[0].end());
-  float side = 0;
-  for (const Position& p : points) side = std::max({side, p[0], p[1]});
-  std::size_t outside = 0;
-  for (std::uint64_t id = 0; id < points.size(); ++id) {
-    if (of_loop.contains(id) || encloses(corners, points[id])) continue;
-    ++outside;  // in a corner of the plane only
-    for (const int axis : {0, 1}) CHECK(std::min(points[id][axis], side - points[id][axis]) < 3);
-  }
-  CHECK(outside < 8);
-  CHECK(area(corners) > (side - 2) * (side - 2));
-  CHECK(double(corners.size()) ==
-        Approx(0.9 * 4 * side).epsilon(0.1));  // a line cuts 4 / pi cells per sqrt(2)
 }
 
 TEST_CASE("a ring has each nearest point once, and leaves out what lies between two visits") {

@@ -3,7 +3,6 @@
 #include "bench/synth/trig.hpp"
 #include "tests/bench/synth/made.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -44,61 +43,6 @@ TEST_CASE("a ray hits the nearest of a wall, a box, a ball and a column, at the 
   CHECK(cast(scene, {{0, 2, 0}, {1, 0, 0}}).range == Approx(2.5));
   CHECK(cast(scene, {{0, 2, 1.5}, {1, 0, 0}}).range == Approx(10));  // over the column
   CHECK(cast(scene, {{3, 2.2, 4}, {0, 0, -1}}).range == Approx(3));  // its lid
-}
-
-TEST_CASE("a ray hits the outside of a pipe, both sides of a vault, and the upper part of an arch's wall") {
-  Scene scene;
-  scene.pipes.push_back({{5, -2, 0}, {0, 1, 0}, 4, 1, 0.5});
-  CHECK(cast(scene, {{0, 0, 0}, {1, 0, 0}}).range == Approx(4));
-  CHECK(cast(scene, {{0, 0, 0.6}, {1, 0, 0}}).range == Approx(5 - 0.8));
-  CHECK(cast(scene, {{0, 0, 0.6}, {1, 0, 0}}).cosine == Approx(0.8));
-  CHECK(std::isinf(cast(scene, {{0, 2.1, 0}, {1, 0, 0}}).range));  // past its end
-  scene.vaults.push_back({{20, -2, -1}, {0, 1, 0}, 4, 3, 0.5});
-  CHECK(cast(scene, {{20, 0, 0}, {0, 0, 1}}).range == Approx(2));
-  CHECK(cast(scene, {{20, 0, 4}, {0, 0, -1}}).range == Approx(2));
-  CHECK(std::isinf(cast(scene, {{20, 0, 0}, {0, 0, -1}}).range));  // no lower half
-  scene.walls.push_back({{-5, -2, 0}, {0, 1, 0}, {0, 0, 1}, 4, 4, 0.8, {{1, 0, 3, 3, Opening::kArch}}});
-  CHECK(std::isinf(cast(scene, {{0, 0, 2.9}, {-1, 0, 0}}).range));
-  CHECK(cast(scene, {{0, 0.8, 2.9}, {-1, 0, 0}}).range == Approx(5));  // beyond the circle
-  CHECK(std::isinf(cast(scene, {{0, 0.8, 1}, {-1, 0, 0}}).range));
-}
-
-TEST_CASE("a ray from above hits the roof of a house at its slope, and ground with relief") {
-  Scene scene;
-  scene.houses.push_back({{0, 0, 0}, 6, 4, 3, 3, 0, 1, 0.5});  // the ridge lies along y
-  CHECK(cast(scene, {{0, 5, 20}, {0, 0, -1}}).range == Approx(14));
-  CHECK(cast(scene, {{2, 0, 20}, {0, 0, -1}}).range == Approx(20 - 4.5));
-  CHECK(cast(scene, {{2, 0, 20}, {0, 0, -1}}).cosine == Approx(0.8));
-  CHECK(cast(scene, {{-9, 0, 1}, {1, 0, 0}}).range == Approx(5));
-  Scene hills;
-  hills.terrains.push_back({.length = 100, .width = 100, .swells = {{0.01, 0, 0.25, 5}}, .reflectance = 0.5});
-  CHECK(cast(hills, {{0, 50, 80}, {0, 0, -1}}).range == Approx(75));
-  CHECK(cast(hills, {{25, 50, 80}, {0, 0, -1}}).cosine == Approx(1 / std::hypot(1, kTwoPi * 0.05)));
-  const Hit slanted = cast(hills, {{20, 50, 80}, {0.6, 0, -0.8}});
-  CHECK(80 - 0.8 * slanted.range ==
-        Approx(hills.terrains[0].height(20 + 0.6 * slanted.range, 50)).margin(1e-9));
-  CHECK(std::isinf(cast(hills, {{101, 50, 80}, {0, 0, -1}}).range));
-}
-
-TEST_CASE("leaves stop more rays the longer the way through them is, and their points lie among them") {
-  const ScratchFolder folder;
-  Scene scene;
-  scene.walls.push_back({{-5, -5, 0}, {1, 0, 0}, {0, 1, 0}, 10, 10, 0.8, {}, "floor"});
-  scene.foliage.push_back({{0, 0, 3}, 2, 1, 5});
-  scene.stand_low = scene.stand_high = {0, 0, 8};
-  ScanOptions options = small(folder);
-  options.stations = 1;
-  options.noise = 0;
-  options.field_of_view = {-90, -60};
-  write_scan(options, scene);
-  std::size_t in_leaves = 0, below = 0;
-  for (const Position& p : positions_of(options.out, kStride)) {
-    const double depth = std::hypot(p[0] / 2, p[1] / 2, p[2] - 3);
-    CHECK((p[2] < 1e-4 || depth < 1.0001));
-    if (std::hypot(p[0], p[1]) > 0.05 * (8 - p[2])) continue;  // near the axis of the crown
-    (p[2] > 1 ? in_leaves : below) += 1;
-  }
-  CHECK(double(in_leaves) / double(in_leaves + below) == Approx(2.0 / 5).margin(0.05));
 }
 
 TEST_CASE(
@@ -142,55 +86,6 @@ TEST_CASE("a scan has about the wanted number of points, of every station, with 
   }
 }
 
-TEST_CASE("without noise and outliers the room's points lie on it, and its windows are empty") {
-  const ScratchFolder folder;
-  ScanOptions options = small(folder);
-  options.noise = 0;
-  write_scan(options);
-  std::size_t on_window_wall = 0, in_window = 0;
-  for (const Position& p : positions_of(options.out, kStride)) {
-    CHECK((p[1] > -0.001 && p[1] < 8.001 && p[2] > -0.001 && p[2] < 2.801 && p[0] > -0.001 && p[0] < 9.501));
-    if (p[1] > 0.001) continue;
-    ++on_window_wall;
-    in_window += p[0] > 1.25 && p[0] < 2.95 && p[2] > 0.95 && p[2] < 2.25;
-  }
-  CHECK(on_window_wall > 100);
-  CHECK(in_window == 0);
-}
-
-TEST_CASE("rings are so many times as far apart as the points on them") {
-  const ScratchFolder folder;
-  ScanOptions options = small(folder);
-  options.ring_ratio = 8;
-  const Scanner scanner(options, make_scene(options.scene));
-  const Sweep sweep = scanner.sweeps()[0];
-  const double rise = (scanner.highest() - scanner.lowest()) / double(sweep.per_scanline);
-  CHECK(rise * double(sweep.scanlines) == Approx(8).epsilon(0.05));
-  CHECK(double(scanner.rays()) == Approx(double(write_scan(small(folder)).rays)).epsilon(0.02));
-  // The n-th ray of every scanline is on one ring, as level as the rays on it are close.
-  for (std::uint64_t line = 0; line < sweep.scanlines; ++line) {
-    const double elevation = scanner.ray(line * sweep.per_scanline + 5).elevation;
-    CHECK(std::fabs(elevation - scanner.lowest() - 5.5 * rise) < 0.11 / double(sweep.scanlines));
-  }
-}
-
-TEST_CASE("several sweeps of a station are tilted by 25 degrees, each to another side") {
-  const ScratchFolder folder;
-  ScanOptions options = small(folder);
-  options.sweeps = 3;
-  const Scanner scanner(options, make_scene(options.scene));
-  const std::vector<Sweep>& sweeps = scanner.sweeps();
-  REQUIRE(sweeps.size() == 6);
-  for (std::size_t i = 0; i < sweeps.size(); ++i) {
-    CHECK(sweeps[i].station == i / 3);
-    CHECK(sweeps[i].axis.z == Approx(std::cos(25 / 360.0 * kTwoPi)));
-    CHECK(dot(sweeps[i].x, cross(sweeps[i].y, sweeps[i].axis)) == Approx(1));
-    const Vec3 a = sweeps[i].axis, b = sweeps[3 * (i / 3) + (i + 1) % 3].axis;
-    CHECK(a.x * b.x + a.y * b.y == Approx(-0.5 * (a.x * a.x + a.y * a.y)));
-  }
-  CHECK(double(write_scan(options).points) == Approx(20'000).epsilon(0.05));
-}
-
 TEST_CASE("the first station has so many times the points of each other one") {
   const ScratchFolder folder;
   ScanOptions options = small(folder, SceneKind::kHall);
@@ -201,57 +96,6 @@ TEST_CASE("the first station has so many times the points of each other one") {
   for (const std::string& row : rows_of(options.out, kStride)) ++of_station.at(scalar<std::uint8_t>(row, 12));
   CHECK(of_station[0] / of_station[1] == Approx(6).epsilon(0.1));
   CHECK(of_station[1] / of_station[2] == Approx(1).epsilon(0.1));
-}
-
-TEST_CASE("strips of a flight overlap, and no point lies on water") {
-  const ScratchFolder folder;
-  ScanOptions options = small(folder, SceneKind::kAerial);
-  options.stations = 3;
-  options.noise = 0;
-  write_scan(options);
-  const Terrain ground = make_scene(options.scene).terrains[0];
-  const double width = ground.width / 3;
-  std::array<double, 3> low{1e9, 1e9, 1e9}, high{};
-  for (const std::string& row : rows_of(options.out, kStride)) {
-    const double x = scalar<float>(row, 0), y = scalar<float>(row, 4), z = scalar<float>(row, 8);
-    CHECK((x >= 0 && x <= ground.length && y >= 0 && y <= ground.width));
-    if (std::fabs(z - ground.height(x, y)) < 1e-3) CHECK(!ground.is_water(x, y));
-    const auto strip = scalar<std::uint8_t>(row, 12);
-    low.at(strip) = std::min(low.at(strip), y);
-    high.at(strip) = std::max(high.at(strip), y);
-  }
-  for (const std::size_t strip : {0, 1})
-    CHECK(high[strip] - low[strip + 1] == Approx(0.2 * width).epsilon(0.3));
-  CHECK(low[0] < 1);
-  CHECK(high[2] > ground.width - 1);
-}
-
-TEST_CASE("the seed places the houses of the aerial scene, the same ones for the same seed") {
-  const auto houses = [](std::uint64_t seed) { return make_scene(SceneKind::kAerial, seed).houses; };
-  CHECK(houses(1).size() > 20);
-  CHECK(houses(1).size() == houses(1).size());
-  CHECK(houses(1)[0].base.x == houses(1)[0].base.x);
-  CHECK(houses(1)[0].base.x != houses(2)[0].base.x);
-}
-
-TEST_CASE("all points lie within the field of view of their station") {
-  const ScratchFolder folder;
-  ScanOptions options = small(folder);
-  options.stations = 1;
-  options.noise = 0;
-  options.field_of_view = {-15, 30};
-  write_scan(options);
-  const Vec3 eye = Scanner(options, make_scene(options.scene)).stations()[0];
-  double lowest = 90, highest = -90;
-  for (const Position& p : positions_of(options.out, kStride)) {
-    const double elevation = std::atan2(p[2] - eye.z, std::hypot(p[0] - eye.x, p[1] - eye.y)) / kTwoPi * 360;
-    lowest = std::min(lowest, elevation);
-    highest = std::max(highest, elevation);
-  }
-  CHECK(lowest == Approx(-15).margin(0.5));
-  CHECK(lowest > -15.001);
-  CHECK(highest == Approx(30).margin(0.5));
-  CHECK(highest < 30.001);
 }
 
 TEST_CASE("an error of registration moves each station after the first as one rigid body") {
@@ -281,20 +125,6 @@ TEST_CASE("an error of registration moves each station after the first as one ri
     CHECK(apart(to, place(moved.back())) == Approx(apart(from, place(exact.back()))).margin(1e-9));
   }
   CHECK(far > 5000);
-}
-
-TEST_CASE("doubles keep georeferenced coordinates") {
-  const ScratchFolder folder;
-  ScanOptions options = small(folder);
-  write_scan(options);
-  const auto here = positions_of(options.out, kStride);
-  options.coordinates = Coordinates::kDouble;
-  options.translate = {4'000'000, 500'000, 0};
-  write_scan(options);
-  const auto there = rows_of(options.out, 24 + 1 + 4);
-  REQUIRE(there.size() == here.size());
-  for (std::size_t i = 0; i < here.size(); ++i)
-    CHECK(std::fabs(scalar<double>(there[i], 0) - 4'000'000 - here[i][0]) < 1e-6);
 }
 
 TEST_CASE("scans that cannot be made are refused in one line and leave no file") {

@@ -155,38 +155,6 @@ TEST_CASE("a box on the floor has one true loop: its shadow's outline, and the e
   CHECK(perimeter(vertices(made, 0)) == Approx(perimeter(outline)).epsilon(0.1));
 }
 
-TEST_CASE("a shadow that runs up a wall is one loop") {
-  const ScratchFolder folder;
-  const Vec3 eye{1, 2, 1};
-  Scene scene = closed_room(eye);
-  scene.boxes.push_back({{5, 2, 0.5}, {0.2, 0.3, 0.5}, 1, 0, 0.8, "crate"});
-  const Made made = make(whole_sphere(folder), scene);
-  REQUIRE(made.loops.size() == 1);
-  // The eye is as high as the lid, which it does not sample. The shadow reaches the wall at x = 6.
-  const double half = 0.3 / 3.8 * 5;
-  const std::vector<Vec3> outline{{4.8, 1.7, 0},    {6, 2 - half, 0}, {6, 2 - half, 1}, {6, 2 + half, 1},
-                                  {6, 2 + half, 0}, {4.8, 2.3, 0},    {4.8, 2.3, 1},    {4.8, 1.7, 1}};
-  check_follows(made, 0, outline, eye, 0.2);
-}
-
-TEST_CASE("a column from floor to ceiling has two true loops, one on each side of it") {
-  const ScratchFolder folder;
-  Scene scene = closed_room({1, 2, 1.5});
-  scene.columns.push_back({{3, 2, 0}, 0.3, 3, 0.8});
-  const Made made = make(whole_sphere(folder), scene);
-  REQUIRE(made.loops.size() == 2);
-  std::multiset<bool> left;
-  for (std::size_t loop = 0; loop < 2; ++loop) {
-    CHECK(made.names[loop] == "shadow of column");
-    std::size_t beyond = 0;
-    const std::vector<Vec3> found = vertices(made, loop);
-    for (const Vec3 p : found) beyond += p.y > 2;
-    CHECK((beyond == 0 || beyond == found.size()));
-    left.insert(beyond > 0);
-  }
-  CHECK(left == std::multiset<bool>{false, true});
-}
-
 TEST_CASE("a ball in the air has two true loops: where it turns away, and its shadow on the wall") {
   const ScratchFolder folder;
   const Vec3 eye{1, 2, 1.5};
@@ -259,57 +227,6 @@ TEST_CASE("a tripod circle that another station samples sparsely is a step of de
   CHECK(found.size() == 2);
 }
 
-TEST_CASE("a denser station next to one as near leaves no step, one with a hundred times the points does") {
-  const ScratchFolder folder;
-  ScanOptions options = whole_sphere(folder);
-  options.stations = 2;
-  Scene scene = closed_room({1, 2, 1.5});
-  scene.stand_high.x = 5;
-  scene.boxes.push_back({{3, 2, 0.75}, {0.3, 0.3, 0.75}, 1, 0, 0.8, "crate"});
-  const auto longest = [&](double factor) {
-    options.station_factor = factor;
-    make(options, scene);
-    std::size_t most = 0;
-    for (const auto& step : io::read_steps(folder / "made.loops.txt")) most = std::max(most, step.size());
-    return most;
-  };
-  CHECK(longest(100) > longest(1));
-}
-
-TEST_CASE("a room with a vault for its ceiling has no true loop") {
-  const ScratchFolder folder;
-  Scene scene = closed_room({2.5, 2, 1.5});
-  scene.walls.erase(scene.walls.begin() + 1);  // the ceiling
-  scene.vaults.push_back({{0, 2, 3}, {1, 0, 0}, 6, 2, 0.8});
-  for (Wall& wall : scene.walls)
-    if (wall.u.y == 1) wall = {{wall.corner.x, -1, 0}, wall.u, wall.v, 6, 6, 0.8, {}};
-  CHECK(make(whole_sphere(folder), scene).loops.empty());
-}
-
-TEST_CASE("a pipe from wall to wall has two true loops, where it turns away and along its shadow") {
-  const ScratchFolder folder;
-  Scene scene = closed_room({2.5, 1, 1.5});
-  scene.pipes.push_back({{0, 3, 1.5}, {1, 0, 0}, 6, 0.2, 0.8});
-  const Made made = make(whole_sphere(folder), scene);
-  // The shadow on three walls and the far side of the pipe are one band around, with two edges.
-  REQUIRE(made.loops.size() == 2);
-  for (const std::string& name : made.names) CHECK(name == "shadow of pipe");
-}
-
-TEST_CASE("sweeps that are tilted leave a smaller circle below the scanner than an upright one") {
-  const ScratchFolder folder;
-  ScanOptions options = whole_sphere(folder);
-  options.field_of_view = {-50, 90};
-  const auto extent = [&](std::uint32_t sweeps) {
-    options.sweeps = sweeps;
-    const Made made = make(options, closed_room({2.5, 2, 1.8}));
-    REQUIRE(made.loops.size() == 1);
-    CHECK(made.names[0].starts_with("tripod circle of station 0"));
-    return perimeter(vertices(made, 0));
-  };
-  CHECK(extent(3) < 0.8 * extent(1));
-}
-
 namespace {
 
 // Level ground of 100 by 80 metres, seen from one strip.
@@ -335,32 +252,6 @@ std::multiset<std::string> names_in(const Made& made) {
 
 }  // namespace
 
-TEST_CASE("a lake with an island has two true loops, along its shores, and the ground one around it") {
-  const ScratchFolder folder;
-  Scene scene = level_ground();
-  scene.terrains[0].lakes = {{{50, 40, 0}, 20, 20, 6}};
-  const Made made = make(one_strip(folder), scene);
-  REQUIRE(names_in(made) == std::multiset<std::string>{"edge of ground", "water", "water"});
-  const double spacing = std::sqrt(100 * 80 / 30'000.0);
-  for (std::size_t loop = 0; loop < 3; ++loop) {
-    if (made.names[loop] != "water") continue;
-    const Vec3 first = vec(made.points[made.loops[loop][0]]) - Vec3{50, 40, 0};
-    const double radius = length(first) < 13 ? 6 : 20;
-    for (const Vec3 p : vertices(made, loop))
-      CHECK(std::hypot(p.x - 50, p.y - 40) == Approx(radius).margin(3 * spacing));
-  }
-}
-
-TEST_CASE("a river that crosses the ground parts its outer edge, and a dam joins it again") {
-  const ScratchFolder folder;
-  Scene scene = level_ground();
-  scene.terrains[0].rivers = {{.middle = 40, .width = 20, .swing = 5, .turns_per_metre = 0.01}};
-  CHECK(make(one_strip(folder), scene).loops.size() == 2);
-  scene.terrains[0].rivers[0].dams = {50};
-  scene.terrains[0].rivers[0].dam_width = 8;
-  CHECK(make(one_strip(folder), scene).loops.size() == 1);
-}
-
 TEST_CASE("a house has two true loops from the air, around its roof and on the ground around it") {
   for (const double y : {40, 70}) {  // below the strip, and to a side, where one wall has points
     const ScratchFolder folder;
@@ -374,13 +265,6 @@ TEST_CASE("a house has two true loops from the air, around its roof and on the g
         CHECK(perimeter(vertices(made, loop)) == Approx(56).epsilon(0.15));
     }
   }
-}
-
-TEST_CASE("leaves have no true loop, and leave none in the ground below") {
-  const ScratchFolder folder;
-  Scene scene = level_ground();
-  for (const double x : {20.0, 50.0, 80.0}) scene.foliage.push_back({{x, 40, 6}, 4, 5, 16});
-  CHECK(names_in(make(one_strip(folder), scene)) == std::multiset<std::string>{"edge of ground"});
 }
 
 TEST_CASE("true loops of every scene are closed, simple and in canonical form, and say what they are") {
@@ -440,16 +324,4 @@ TEST_CASE("noise and errors of registration do not change true loops, and strays
   CHECK(double(strayed.loops.size()) == Approx(double(clean.loops.size())).margin(1));
   for (const auto& loop : strayed.loops)
     for (const std::uint64_t id : loop) CHECK(strayed.points[id] == clean.points[id]);
-}
-
-TEST_CASE("the true loops go where --truth says, and never over the scan") {
-  const ScratchFolder folder;
-  ScanOptions options = whole_sphere(folder);
-  options.points = 2000;
-  options.truth = folder / "elsewhere.txt";
-  CHECK(write_scan(options).truth == options.truth);
-  CHECK(
-      read_file(options.truth).starts_with("# one boundary loop per line, 0-based point ids of made.ply\n"));
-  options.truth = options.out;
-  CHECK_THROWS_WITH(write_scan(options), Catch::Contains("two files"));
 }

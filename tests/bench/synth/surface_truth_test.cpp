@@ -78,59 +78,6 @@ TEST_CASE("the true loops are the edges with exactly one whole quad, all of them
   }
 }
 
-TEST_CASE("inside a true loop on a plane there is no point, and just outside there are") {
-  const ScratchFolder folder;
-  SurfaceOptions options = small_surface(folder);
-  options.jitter = 0;
-  write_surface(options);
-  const auto points = positions_of(options.out);
-  auto loops = loops_of(options.truth);
-  std::sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
-  loops.pop_back();  // the outer edge
-  for (const auto& loop : loops) {
-    const std::set<std::uint64_t> on_loop(loop.begin(), loop.end());
-    std::size_t inside = 0, beside = 0;
-    for (std::uint64_t id = 0; id < points.size(); ++id) {
-      if (on_loop.contains(id)) continue;
-      bool within = false;
-      double nearest = 1e30;
-      for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Position& p = points[id];
-        const Position& a = points[loop[i]];
-        const Position& b = points[loop[(i + 1) % loop.size()]];
-        if ((a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
-          within = !within;
-        nearest = std::min(nearest, distance(p, a));
-      }
-      inside += within;
-      beside += nearest < 1.1 * options.spacing;
-    }
-    CHECK(inside == 0);
-    CHECK(beside > loop.size() / 2);
-  }
-}
-
-TEST_CASE("many small holes give as many loops, none of which touch") {
-  for (const std::uint64_t seed : {1, 2, 3}) {
-    const ScratchFolder folder;
-    SurfaceOptions options = small_surface(folder, SurfaceKind::kTorus);
-    options.points = 600'000;
-    options.holes = 1000;
-    options.hole_radius = {1.5, 3};
-    options.seed = seed;
-    write_surface(options);
-    std::set<std::uint64_t> seen;
-    std::size_t nodes = 0;
-    const auto loops = loops_of(options.truth);
-    for (const auto& loop : loops) {
-      seen.insert(loop.begin(), loop.end());
-      nodes += loop.size();
-    }
-    CHECK(loops.size() == 1000);
-    CHECK(seen.size() == nodes);
-  }
-}
-
 TEST_CASE("random order has the points and the true loops of scanline order, in another order") {
   const auto places_of = [](const SurfaceOptions& options) {
     const auto points = positions_of(options.out);
@@ -157,21 +104,5 @@ TEST_CASE("random order has the points and the true loops of scanline order, in 
     std::sort(in_scanlines.begin(), in_scanlines.end());
     std::sort(at_random.begin(), at_random.end());
     CHECK(in_scanlines == at_random);
-  }
-}
-
-TEST_CASE("a density step on closed surfaces leaves no further loops") {
-  for (const SurfaceKind kind : kAllKinds) {
-    if (std::count(kPanelKinds.begin(), kPanelKinds.end(), kind) > 0) continue;
-    const ScratchFolder folder;
-    SurfaceOptions options = small_surface(folder, kind);
-    options.density_step = 4;
-    write_surface(options);
-    const auto points = positions_of(options.out);
-    const auto loops = loops_of(options.truth);
-    CHECK(loops.size() == 5 + rims_of(kind));
-    for (const auto& loop : loops)
-      for (std::size_t i = 0; i < loop.size(); ++i)
-        CHECK(distance(points[loop[i]], points[loop[(i + 1) % loop.size()]]) < 6 * options.spacing);
   }
 }

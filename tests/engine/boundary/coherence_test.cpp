@@ -39,28 +39,6 @@ std::vector<std::uint64_t> plainly(const std::vector<Candidate>& candidates, std
   return rows_in(set, rows);
 }
 
-TEST_CASE("a chain unravels from its loose end to the last link") {
-  std::vector<Candidate> chain;
-  for (std::uint64_t i = 0; i < 200; ++i) chain.push_back(leaning(i, i, i + 1));  // row 200 is no candidate
-  RowSet boundary = all_of(chain, 300);
-  CHECK(remove_incoherent(chain, boundary));
-  CHECK(rows_in(boundary, 300).empty());
-}
-
-TEST_CASE("a ring stays, and a tail that leans on it; nothing changes") {
-  std::vector<Candidate> ring;
-  for (std::uint64_t i = 0; i < 100; ++i) ring.push_back(leaning(i, (i + 99) % 100, (i + 1) % 100));
-  ring.push_back(leaning(150, 3, 4));
-  RowSet boundary = all_of(ring, 200);
-  CHECK_FALSE(remove_incoherent(ring, boundary));
-  CHECK(rows_in(boundary, 200).size() == 101);
-}
-
-TEST_CASE("no candidates: nothing changes") {
-  RowSet boundary(10);
-  CHECK_FALSE(remove_incoherent({}, boundary));
-}
-
 TEST_CASE("only the candidates' own bits are changed") {
   RowSet boundary(10);
   boundary.insert(Row{7});

@@ -74,20 +74,6 @@ TEST_CASE("every finite point is stored once, in a row of its cell, or is a dupl
   }
 }
 
-TEST_CASE("a tile's points are those of its cells, one after the other") {
-  const TiledScan scan(hard_cloud(2), tiled({}, 200));
-  const Tiling& tiling = scan.store.tiling();
-  REQUIRE(tiling.tiles.size() > 5);
-  for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
-    std::vector<PointId> of_tile, of_cells;
-    for (const StoredPoint& p : scan.store.points(t)) of_tile.push_back(p.id);
-    for (std::uint32_t c = tiling.tiles[t].first_cell; c < tiling.tiles[t].last_cell; ++c) {
-      for (const StoredPoint& p : scan.store.cell(c)) of_cells.push_back(p.id);
-    }
-    CHECK(of_tile == of_cells);
-  }
-}
-
 TEST_CASE("given normals stay with their points, be they unit vectors or not even numbers") {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const Cloud cloud = cloud_of(seed).with_random_normals(seed);

@@ -4,7 +4,6 @@
 #include "tests/support/clouds.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
@@ -43,24 +42,6 @@ TEST_CASE("minus zero is at the place of zero") {
   const OrderedTile tile = order_tile(points, cells, 1, CellGrid{}, kCellPoints);
   CHECK(tile.order == std::vector<std::uint32_t>{1});
   CHECK(tile.duplicates.size() == 2);
-}
-
-TEST_CASE("points that differ in one coordinate are two points") {
-  for (const StoredPoint& other :
-       {stored(1, 0, 0, 1), stored(0, 1, 0, 1), stored(0, 0, 1, 1), stored(0, 0, 5e-324, 1)}) {
-    const std::vector<StoredPoint> points = {stored(0, 0, 0, 0), other};
-    const std::vector<std::uint32_t> cells = {0, 0};
-    CHECK(order_tile(points, cells, 1, CellGrid{}, kCellPoints).duplicates.empty());
-  }
-  const std::vector<StoredPoint> same = {stored(0, 0, 0, 0), stored(0, 0, 0, 1)};
-  CHECK(order_tile(same, std::vector<std::uint32_t>{0, 0}, 1, CellGrid{}, kCellPoints).duplicates.size() ==
-        1);
-}
-
-TEST_CASE("nothing is ordered into nothing") {
-  const OrderedTile tile = order_tile({}, {}, 2, CellGrid{}, kCellPoints);
-  CHECK(tile.order.empty());
-  CHECK(tile.cells.empty());
 }
 
 TEST_CASE(

@@ -27,19 +27,6 @@ std::string folded_sheet() {
   return text.str();
 }
 
-struct Columns {
-  test::Table table;
-
-  std::vector<double> operator[](const std::string& name) const {
-    const auto at = std::find(table.names.begin(), table.names.end(), name);
-    REQUIRE(at != table.names.end());
-    std::vector<double> values;
-    for (const auto& row : table.rows)
-      values.push_back(row[static_cast<std::size_t>(at - table.names.begin())]);
-    return values;
-  }
-};
-
 TEST_CASE("one more line in the table is one more criterion: its weight, its part of Pi and its column") {
   const test::ScratchFolder folder;
   const auto scan = folder.write("folded.xyz", folded_sheet());
@@ -57,17 +44,18 @@ TEST_CASE("one more line in the table is one more criterion: its weight, its par
   CHECK_THAT(test::run_command({LACUNA_PROGRAM_OF_FOUR, "detect", "--help-all"}).out,
              Contains("Share of the curvature criterion."));
 
-  const Columns before{test::read_table(folder.path() / "three" / "points.ply")};
-  const Columns after{test::read_table(folder.path() / "four" / "points.ply")};
-  std::vector<std::string> names = before.table.names;
+  const test::Table before = test::read_table(folder.path() / "three" / "points.ply");
+  const test::Table after = test::read_table(folder.path() / "four" / "points.ply");
+  std::vector<std::string> names = before.names;
   names.insert(std::find(names.begin(), names.end(), "scalar_shape") + 1, "scalar_curvature");
-  CHECK(after.table.names == names);
+  CHECK(after.names == names);
   for (const char* column : {"x", "scalar_angle", "scalar_halfdisc", "scalar_shape"})
-    CHECK(after[column] == before[column]);
+    CHECK(after.column(column) == before.column(column));
 
-  const std::vector<double> x = after["x"], angle = after["scalar_angle"],
-                            halfdisc = after["scalar_halfdisc"], shape = after["scalar_shape"],
-                            curvature = after["scalar_curvature"], probability = after["scalar_probability"];
+  const std::vector<double> x = after.column("x"), angle = after.column("scalar_angle"),
+                            halfdisc = after.column("scalar_halfdisc"), shape = after.column("scalar_shape"),
+                            curvature = after.column("scalar_curvature"),
+                            probability = after.column("scalar_probability");
   std::size_t wrong = 0, bent = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double combined = (angle[i] + halfdisc[i] + shape[i] + 7 * curvature[i]) / 10;

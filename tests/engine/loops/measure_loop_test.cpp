@@ -80,15 +80,6 @@ TEST_CASE("the edge of a dented outline is an outer curve though parts of it ben
   CHECK(measure_loop(star, 1).kind == LoopKind::kOuter);
 }
 
-TEST_CASE("a fine circle has the measures of a circle") {
-  const LoopMeasures m = measure_loop(circle(3000, 2, 1), 0.5);
-  CHECK(m.perimeter == Approx(4 * std::numbers::pi).epsilon(1e-5));
-  CHECK(m.area == Approx(4 * std::numbers::pi).epsilon(1e-5));
-  CHECK(m.diameter == Approx(4));
-  CHECK(m.centroid.norm() < 1e-12);
-  CHECK(m.mean_probability == 0.75);
-}
-
 TEST_CASE("measures do not suffer from coordinates in the millions") {
   Loop far = circle(200, 0.01, -1);
   move(far, {1e6, -1e6, 2e6});

@@ -152,13 +152,6 @@ TEST_CASE("queries may start anywhere, and fewer points than k are all neighbour
   for (const int n : {1, 2, 15, 16, 17, 33}) check_all(points_of(scattered(n, 4), false), 16);
 }
 
-TEST_CASE("two points too near to be distinguished are refused") {
-  const std::vector<Eigen::Vector3d> positions = {{0, 0, 0}, {1e-160, 0, 0}, {1, 0, 0}};
-  const std::vector<PointId> ids = {PointId{0}, PointId{1}, PointId{2}};
-  BlockSearch search(positions, ids);
-  CHECK_THROWS_AS(search.nearest(0, 3, 2, [](LocalIndex, std::span<const LocalIndex>) {}), Error);
-}
-
 TEST_CASE("the search in blocks agrees with a kd-tree on many points, within a radius too") {
   Random random(5);
   Cloud cloud;

@@ -7,8 +7,6 @@
 #include "tests/support/scratch_folder.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
 #include <vector>
 
@@ -71,22 +69,6 @@ TEST_CASE("each voxel has the largest probability of its points, and each finite
     }
   }
   CHECK(voxels_of(holes).values.size() > 800);
-}
-
-TEST_CASE("voxels are the same for every tiling, number of threads and memory limit") {
-  const Cloud cloud = plane(90).punched({30, 30}, 6).joined(scattered(200, 1).scaled(1e4)).shuffled(2);
-  const Voxels one = voxels_of(cloud, tiled({}, 100'000, 1));
-  for (const auto& [tile_points, threads, limit] :
-       {std::array<std::int64_t, 3>{300, 4, 0}, {1000, 1, 64 << 20}, {100'000, 2, 64 << 20}}) {
-    Config config = tiled({}, tile_points, threads);
-    config.run.memory_limit = static_cast<std::uint64_t>(limit);
-    const Voxels other = voxels_of(cloud, config);
-    CHECK((other.values == one.values));
-    CHECK(other.lattice.grid.shift == one.lattice.grid.shift);
-    CHECK(other.lattice.grid.finest == one.lattice.grid.finest);
-    CHECK(other.lattice.grid.origin == one.lattice.grid.origin);
-    CHECK(other.lattice.points_left_out == one.lattice.points_left_out);
-  }
 }
 
 TEST_CASE("strays are left out of the grid, and counted") {

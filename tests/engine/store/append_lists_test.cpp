@@ -2,7 +2,6 @@
 // Lists that are appended to, beyond the memory that they have.
 #include "engine/store/append_lists.hpp"
 
-#include "engine/run/error.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/open_files.hpp"
 #include "tests/support/record.hpp"

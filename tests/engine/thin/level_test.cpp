@@ -78,23 +78,6 @@ TEST_CASE(
   CHECK(levels.back().ids.size() < 800);
 }
 
-TEST_CASE("levels do not depend on tiles, threads, memory or the order of the points") {
-  const Cloud cloud = scattered(20'000, 3).noisy(0.05, 3).with_duplicates(300, 4).with_unusable(20, 5);
-  const std::vector<AtLevel> expected = levels_of(cloud, {});
-  REQUIRE(expected.size() > 4);
-  for (const std::int64_t tile_points : {150, 2'000}) {
-    Config config = tiled({}, tile_points, 4);
-    config.run.memory_limit = std::uint64_t{64} << 20;
-    CHECK(levels_of(cloud, config) == expected);
-  }
-  const std::vector<AtLevel> shuffled = levels_of(cloud.shuffled(6), {});
-  REQUIRE(shuffled.size() == expected.size());
-  for (std::size_t l = 0; l < expected.size(); ++l) {
-    CHECK(shuffled[l].edge == expected[l].edge);
-    CHECK(shuffled[l].ids.size() == expected[l].ids.size());
-  }
-}
-
 TEST_CASE("dense places are thinned, sparse ones stay as they are") {
   const Cloud dense = plane(100).jittered(0.3, 1),
               sparse = plane(40).jittered(0.3, 2).scaled(8).translated({0, 0, 50});

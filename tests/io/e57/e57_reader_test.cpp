@@ -68,15 +68,6 @@ struct E57Folder {
   }
 };
 
-std::vector<double> column(const Table& table, const std::string& name) {
-  const auto found = std::find(table.names.begin(), table.names.end(), name);
-  REQUIRE(found != table.names.end());
-  std::vector<double> values;
-  for (const auto& row : table.rows)
-    values.push_back(row[static_cast<std::size_t>(found - table.names.begin())]);
-  return values;
-}
-
 using Names = std::vector<std::string>;
 using Row = std::vector<double>;
 
@@ -211,7 +202,7 @@ TEST_CASE("spherical points of E57 are where the same Cartesian ones are", "[e57
   CHECK(one.names == Names{"x", "y", "z", "scan"});
   double farthest = 0;
   for (const char* axis : {"x", "y", "z"}) {
-    const Row p = column(one, axis), q = column(other, axis);
+    const Row p = one.column(axis), q = other.column(axis);
     for (std::size_t i = 0; i < p.size(); ++i) farthest = std::max(farthest, std::abs(p[i] - q[i]) / r[i]);
   }
   CHECK(farthest < 1.5e-15);
@@ -221,8 +212,8 @@ TEST_CASE("spherical points of E57 are where the same Cartesian ones are", "[e57
   const Table table = folder.read({both});
   CHECK(table.names ==
         Names{"x", "y", "z", "spherical_range", "spherical_azimuth", "spherical_elevation", "scan"});
-  CHECK(column(table, "x") == x);
-  CHECK(column(table, "spherical_range") == r);
+  CHECK(table.column("x") == x);
+  CHECK(table.column("spherical_range") == r);
 }
 
 TEST_CASE("rays of E57 without a return have no position, and keep their row", "[e57]") {
@@ -231,8 +222,8 @@ TEST_CASE("rays of E57 without a return have no position, and keep their row", "
   scan.pose = e57_pose({1, 0, 0, 0}, {10, 0, 0});
   scan.fields.push_back(e57_integers("cartesianInvalidState", 0, 2, {0, 1, 2, 0, 0}));
   const Table table = folder.read({scan});
-  CHECK(column(table, "cartesian_invalid_state") == Row{0, 1, 2, 0, 0});
-  const Row x = column(table, "x");
+  CHECK(table.column("cartesian_invalid_state") == Row{0, 1, 2, 0, 0});
+  const Row x = table.column("x");
   CHECK(x[0] == 11);
   for (const std::size_t i : {1, 2, 3}) CHECK(std::isnan(x[i]));
   CHECK(x[4] == 10);
@@ -241,7 +232,7 @@ TEST_CASE("rays of E57 without a return have no position, and keep their row", "
                                          e57_floats("sphericalAzimuth", {1, 0, 0}),
                                          e57_floats("sphericalElevation", {0, 0, 0}),
                                          e57_integers("sphericalInvalidState", 0, 2, {0, 1, 0})}};
-  const Row range = column(folder.read({spherical}), "x");
+  const Row range = folder.read({spherical}).column("x");
   CHECK(std::isnan(range[0]));
   CHECK(std::isnan(range[1]));
   CHECK(range[2] == 5);
@@ -266,7 +257,7 @@ TEST_CASE("E57 is read in pages of any size", "[e57]") {
   for (const std::size_t page_bytes : {64, 128, 4096, 1 << 20}) {
     const Table table =
         folder.read({{.fields = position(x, y, z), .packets = 5}}, {.page_bytes = page_bytes});
-    CHECK(column(table, "y") == Row(y.begin(), y.end()));
+    CHECK(table.column("y") == Row(y.begin(), y.end()));
   }
 }
 
@@ -410,7 +401,7 @@ TEST_CASE("bytes of E57 held for other fields are few, and fields without bits n
   scan.fields.back().bytes.resize(std::size_t{9} << 20);
   CHECK_THAT(folder.error({scan}), Contains("scan 0: values of the same point are too far apart"));
   scan.fields.back().attributes = "type=\"Integer\" minimum=\"1\" maximum=\"1\"";
-  CHECK(column(folder.read({scan}), "is_color_invalid") == Row(2000, 1.0));
+  CHECK(folder.read({scan}).column("is_color_invalid") == Row(2000, 1.0));
 }
 
 // Two scans of a few packets, of all types.

@@ -139,27 +139,6 @@ TEST_CASE("links, folders, pipes and devices are refused at once, with any optio
   CHECK(read_file(target) == "mine: old");
 }
 
-TEST_CASE("names next to those of a set are not touched, as like they are", "[io]") {
-  const ScratchFolder folder;
-  folder.write("a.partial", "precious");
-  const std::string target = folder.write("target", "precious");
-  fs::create_symlink(target, folder / "b.partial");
-  REQUIRE(mkfifo((folder / "c.partial").c_str(), 0600) == 0);
-  folder.write("old", "precious");
-  folder.write("new", "precious");
-  Names expected = folder.names();
-  {
-    OutputSet set(Overwrite::kOwn);
-    for (const std::string name : {"a", "b", "c"}) add(set, folder / name);
-    set.commit();
-  }
-  for (const std::string name : {"a.partial", "target", "old", "new"})
-    CHECK(read_file(folder / name) == "precious");
-  expected.insert(expected.begin(), {"a", "b", "c"});
-  std::sort(expected.begin(), expected.end());
-  CHECK(folder.names() == expected);
-}
-
 TEST_CASE("a set with one unfinished file leaves the folder as it was", "[io]") {
   const ScratchFolder folder;
   folder.write("a", "mine: old");

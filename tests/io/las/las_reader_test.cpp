@@ -22,11 +22,7 @@ namespace {
 using Catch::Matchers::Contains;
 
 double value(const Table& table, std::size_t row, const std::string& column) {
-  for (std::size_t i = 0; i < table.names.size(); ++i) {
-    if (table.names[i] == column) return table.rows.at(row).at(i);
-  }
-  FAIL("no column " << column);
-  return 0;
+  return table.rows.at(row).at(table.place(column));
 }
 
 TEST_CASE("the coordinate reference system comes from records before the points or behind them", "[io]") {

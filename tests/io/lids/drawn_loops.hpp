@@ -62,12 +62,6 @@ inline Loop moved(Loop loop, const Eigen::Isometry3d& motion) {
   return loop;
 }
 
-inline Line line_of(const Loop& loop) {
-  Line line;
-  for (const LoopPoint& point : loop) line.push_back(point.position);
-  return line;
-}
-
 // An L and a comb with three teeth: simple polygons that are not convex.
 inline Line shape_of_l() {
   return {{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};  // 6

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <catch2/catch.hpp>
@@ -106,6 +107,15 @@ TEST_CASE("the lid of a sphere's hole is near the cap: 1 % of its area to 30 deg
 TEST_CASE("the lid of half a sphere is the membrane of its circle, not a cap") {
   // The regular polygon with 120 corners in the circle.
   CHECK(made(hole_in_sphere(kPi / 2, 120)).area == Approx(60 * std::sin(2 * kPi / 120)).epsilon(1e-9));
+}
+
+TEST_CASE("where the direction of the surface is not known, the lid is the membrane") {
+  for (const float unknown : {0.0f, std::numeric_limits<float>::infinity()}) {
+    Loop loop = hole_in_sphere(0.5, 120);
+    for (LoopPoint& point : loop) point.surface.setConstant(unknown);
+    const double r = std::sin(0.5);
+    CHECK(made(loop).area == Approx(60 * r * r * std::sin(2 * kPi / 120)).epsilon(1e-9));
+  }
 }
 
 TEST_CASE("the lid of a saddle's hole is the saddle, within 1 % of its area") {

@@ -40,12 +40,6 @@ double least_area(const Line& polygon) {
 
 }  // namespace
 
-TEST_CASE("a square gives two triangles") {
-  const LidMesh mesh = triangulate_polygon(Line{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
-  CHECK(mesh.triangles.size() == 2);
-  CHECK(test::is_disc_on_loop(mesh));
-}
-
 TEST_CASE("of all triangulations of a polygon in space, that of least area is found") {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const Line polygon = random_polygon(3 + static_cast<int>(seed % 7), seed);

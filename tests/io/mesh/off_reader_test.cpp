@@ -101,21 +101,6 @@ TEST_CASE("OFF: what does not hold is an error that names its line", "[io]") {
   }
 }
 
-TEST_CASE("OFF: rows stay whole across buffers and batches", "[io]") {
-  const ScratchFolder folder;
-  constexpr int kRows = 60'000;
-  std::string content = "COFF\n" + std::to_string(kRows) + " 0 0\n";
-  for (int i = 0; i < kRows; ++i) content += std::to_string(i) + " 0.5 -1 10 20 30 255\n";
-  for (const std::size_t max_rows : {999u, 1'000'000u}) {
-    const Rows rows = read_table(folder.write("a.off", content), max_rows).rows;
-    REQUIRE(rows.size() == kRows);
-    bool all = true;
-    for (int i = 0; i < kRows; ++i)
-      all = all && rows[i] == std::vector<double>{1.0 * i, 0.5, -1, 10, 20, 30, 255};
-    CHECK(all);
-  }
-}
-
 TEST_CASE("OFF: a broken file gives one error or all its rows", "[io]") {
   check_broken_files(whole_files(), 6);
 }

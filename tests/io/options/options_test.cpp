@@ -77,7 +77,7 @@ TEST_CASE("text that the TOML library cannot take is an error with its line") {
   }
 }
 
-TEST_CASE("comments and strings of a config file hold outbox of any language") {
+TEST_CASE("comments and strings of a config file hold letters of any language") {
   const ScratchFolder scratch;
   FilesConfig config;
   read_config(scratch.write("c.toml",

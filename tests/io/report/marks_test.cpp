@@ -6,9 +6,7 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <fstream>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -157,12 +155,8 @@ TEST_CASE("a file that is no file of marks is an error of one line, with the pla
 class Sheet {
  public:
   Sheet() {
-    std::ostringstream text;
-    text.precision(17);
     const Cloud cloud = plane(60).punched({20, 20}, 6).punched({42, 40}, 4).jittered(0.2, 1);
-    for (const Eigen::Vector3d& p : cloud.positions) text << p.transpose() << "\n";
-    const std::string scan = scratch_.write("scan.txt", text.str());
-    REQUIRE(test::run_program({"detect", scan, "--out", out(), "--quiet"}).exit_code == 0);
+    test::detect(scratch_.write("scan.txt", cloud.text()), out());
   }
   std::string out() const { return (scratch_ / "out").string(); }
   const test::ScratchFolder& scratch() const { return scratch_; }
@@ -220,18 +214,6 @@ TEST_CASE("lacuna report --marks puts marks into the page by id or place, and na
   CHECK(page.at("note")[1] == marks[1]["note"]);
   REQUIRE(page.at("unmatched").size() == 1);
   CHECK(page.at("unmatched")[0] == marks[3]);
-}
-
-TEST_CASE("a report whose file of marks is wrong is not written, and an earlier one stays") {
-  const Sheet sheet;
-  REQUIRE(test::run_program({"report", sheet.out()}).exit_code == 0);
-  const std::string page = test::read_file(sheet.scratch() / "out" / "report.html");
-  json marks = sheet.marks();
-  marks[1]["mark"] = "maybe";
-  test::check_failure(sheet.report(marks), 1, "marks[1].mark: \"maybe\" is not allowed");
-  test::check_failure(test::run_program({"report", sheet.out(), "--marks", sheet.out() + "/no.json"}), 1,
-                      "no.json: cannot be opened: No such file");
-  CHECK((test::read_file(sheet.scratch() / "out" / "report.html") == page));
 }
 
 }  // namespace

@@ -118,8 +118,8 @@ bool is_same(const std::vector<std::vector<double>>& a, const std::vector<std::v
 }
 
 // Writes only the cut-outs. Returns their folder.
-fs::path cut_out(const FakeDetection& detection, const std::vector<ScanInput>& inputs, const FilesConfig& config,
-                 const fs::path& out, std::size_t most_holes = 1000) {
+fs::path cut_out(const FakeDetection& detection, const std::vector<ScanInput>& inputs,
+                 const FilesConfig& config, const fs::path& out, std::size_t most_holes = 1000) {
   FileScan scan(inputs, {});
   check_cut_outs(scan, config, out, Overwrite::kOwn);
   fs::create_directories(out);
@@ -272,57 +272,14 @@ TEST_CASE("cut-outs of earlier runs go, whatever their format, and all other fil
   CHECK(files_of(cut_outs) == foreign);
 }
 
-TEST_CASE("a file that Lacuna did not write under the name of a cut-out is refused, and stays",
-          "[io][results]") {
+TEST_CASE("an input in the place of a cut-out is refused", "[io][results]") {
   const ScratchFolder folder;
   const std::string scan = folder.write("scan.las", las_of(random_points(300), 1).bytes());
-  const fs::path out = folder / "out", cut_outs = out / kCutOutsFolder;
-  fs::create_directories(cut_outs);
-  folder.write("out/cut-outs/hole-5.ply", "mine");
-  const auto error = [&] {
-    return error_of([&] { cut_out(with_squares(1), {scan}, with_cut_outs(), out); });
-  };
-  CHECK_THAT(error(), Contains("hole-5.ply: exists, and this command did not write it"));
-  CHECK(files_of(cut_outs) == std::map<std::string, std::string>{{"hole-5.ply", "mine"}});
-
-  fs::remove_all(cut_outs);
-  cut_out(with_squares(1), {scan}, with_cut_outs(), out);
-  const std::string input = (cut_outs / "hole-0.ply").string();
-  CHECK_THAT(error_of([&] { cut_out(with_squares(1), {input}, with_cut_outs(), out); }),
-             Contains("is an input in the place of a result"));
-  CHECK_THAT(error_of([&] { cut_out(with_squares(1), {input}, {}, out); }),
-             Contains("is an input in the place of a result"));
-
-  fs::remove_all(cut_outs);
-  for (const bool is_link : {false, true}) {
-    if (is_link) fs::create_directory_symlink(folder.path(), cut_outs);
-    if (!is_link) folder.write("out/cut-outs", "mine");
-    CHECK_THAT(error(), Contains(is_link ? "is a symbolic link" : "is a file") &&
-                            Contains("a folder of this name is needed"));
-    CHECK(fs::remove(cut_outs));
-  }
-}
-
-TEST_CASE("cut-outs are results like others: all appear, or none", "[io][results]") {
-  const ScratchFolder folder;
-  const std::string scan_file = folder.write("scan.las", las_of(random_points(300), 1).bytes());
-  FileScan scan({scan_file}, {});
   const fs::path out = folder / "out";
-  const FakeDetection detection = with_squares(2);
-  FilesConfig config = with_cut_outs();
-  write_results(detection, scan, config, out);
-  const auto before = files_of(out / kCutOutsFolder);
-  CHECK(before.size() == 2);
-  config.results.points = true;  // the results of points are missing
-  config.output.cut_outs = 2;
-  CHECK_FALSE(error_of([&] { write_results(detection, scan, config, out); }).empty());
-  CHECK(files_of(out / kCutOutsFolder) == before);
-  CHECK_FALSE(error_of([&] { write_results(detection, scan, config, folder / "none"); }).empty());
-  CHECK(count_entries(folder / "none") == 0);
-  const std::vector<fs::path> written = write_results(detection, scan, with_cut_outs(), out);
-  CHECK(written.front() == out / kCutOutsFolder);
-  CHECK(written.back() == out / "holes.json");
-  CHECK(std::count(written.begin(), written.end(), out / kCutOutsFolder) == 1);
+  const std::string input = (cut_out(with_squares(1), {scan}, with_cut_outs(), out) / "hole-0.ply").string();
+  for (const FilesConfig& config : {with_cut_outs(), FilesConfig{}})
+    CHECK_THAT(error_of([&] { cut_out(with_squares(1), {input}, config, out); }),
+               Contains("is an input in the place of a result"));
 }
 
 }  // namespace lacuna::test

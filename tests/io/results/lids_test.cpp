@@ -4,8 +4,6 @@
 
 #include "engine/run/parallel.hpp"
 #include "io/lids/make_lid.hpp"
-#include "io/loops/lids_reader.hpp"
-#include "tests/io/io_support.hpp"
 #include "tests/io/results/fake_detection.hpp"
 #include "tests/support/run_program.hpp"
 
@@ -59,28 +57,6 @@ TEST_CASE("a loop that is too long is not read") {
   detection.for_each_loop_point = [](std::size_t, const auto&) { FAIL("it was read"); };
   const test::ScratchFolder scratch;
   CHECK_THAT(test::read_file(write(scratch, detection)), Catch::EndsWith("0,0,,more than 5000 points\n"));
-}
-
-TEST_CASE("triangles of lids count vertices over the file") {
-  test::FakeDetection run;
-  add(run, LoopKind::kHole, {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}});
-  add(run, LoopKind::kHole, {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}});
-  const test::ScratchFolder scratch;
-  write(scratch, run);
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<std::array<std::uint64_t, 3>> triangles;
-  std::vector<std::uint64_t> loops;
-  read_lids(scratch / "lids.obj", {.vertex = [&](const auto& vertex) { vertices.push_back(vertex); },
-                                   .triangle =
-                                       [&](const LidRecord& hole, const auto& corners) {
-                                         triangles.push_back(corners);
-                                         loops.push_back(hole.loop);
-                                       }});
-  REQUIRE(vertices.size() == 6);
-  CHECK(vertices[3] == Eigen::Vector3d(0, 0, 5));
-  CHECK(loops == std::vector<std::uint64_t>{0, 1});
-  REQUIRE(triangles.size() == 2);
-  for (const std::uint64_t corner : triangles[1]) CHECK(corner >= 3);
 }
 
 }  // namespace lacuna

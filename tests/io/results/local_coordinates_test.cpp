@@ -7,11 +7,11 @@
 #include "io/results/results.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/io/results/fake_detection.hpp"
+#include "tests/support/clouds.hpp"
 
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <sstream>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -32,13 +32,6 @@ Points utm_points() {
   Points points;
   for (int i = 0; i < 100; ++i) points.push_back({500'000.1 + i, 5'400'000.2 + i % 80, 300.3 - 0.01 * i});
   return points;
-}
-
-std::string text_of(const Points& points) {
-  std::ostringstream text;
-  text.precision(17);
-  for (const Point& p : points) text << p.transpose() << "\n";
-  return text.str();
 }
 
 // A run whose loop, sample and boundary have these points.
@@ -103,7 +96,7 @@ TEST_CASE("with local coordinates, floats and the offset of a header are the coo
   const Point offset(500'050, 5'400'040, 300);
   Points local = points;
   for (Point& point : local) point -= offset;
-  FileScan scan({folder.write("a.txt", text_of(points))}, {});
+  FileScan scan({folder.write("a.txt", Cloud{points, {}}.text())}, {});
   write_results(detection, scan, local_config(PointsFormat::kPly), folder / "ply");
 
   // Their rows are those of floats: 12 bytes for x y z.
@@ -130,23 +123,6 @@ TEST_CASE("with local coordinates, floats and the offset of a header are the coo
   CHECK(bytes.points <= size);
   CHECK(bytes.points + 1000 >= size);  // with a header
   CHECK(bytes.sample == 100 * 32);
-}
-
-TEST_CASE("without local coordinates nothing states an offset, and coordinates are doubles",
-          "[io][results]") {
-  const ScratchFolder folder;
-  const Points points = utm_points();
-  FileScan scan({folder.write("a.txt", text_of(points))}, {});
-  FilesConfig config = local_config(PointsFormat::kPly);
-  config.output.local_coordinates = false;
-  write_results(detection_of(points), scan, config, folder.path());
-  for (const char* name : {"loops.ply", "boundary.ply", "sample.ply", "points.ply"}) {
-    const std::string file = read_file(folder / name);
-    CHECK_THAT(file.substr(0, 300), Contains("comment lacuna detect\nelement vertex ") &&
-                                        Contains("property double x\n") && !Contains("offset"));
-    check_near(read_points(folder / name), points, 0);
-  }
-  CHECK(nlohmann::json::parse(read_file(folder / "holes.json")).at("offset").is_null());
 }
 
 TEST_CASE("the offset is the middle of the scan without its strays in whole units, 0 without points",

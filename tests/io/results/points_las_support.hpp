@@ -78,16 +78,6 @@ inline std::string point_of(const std::string& las, std::size_t i, std::size_t b
   return las.substr(at<std::uint32_t>(las, 96) + i * record, bytes);
 }
 
-inline std::vector<double> column(const Table& table, const std::string& name) {
-  const auto found = std::find(table.names.begin(), table.names.end(), name);
-  INFO(name);
-  REQUIRE(found != table.names.end());
-  std::vector<double> values;
-  for (const auto& row : table.rows)
-    values.push_back(row[static_cast<std::size_t>(found - table.names.begin())]);
-  return values;
-}
-
 inline bool is_same(const std::vector<double>& a, const std::vector<double>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
@@ -96,7 +86,7 @@ inline bool is_same(const std::vector<double>& a, const std::vector<double>& b) 
 inline void check_columns(const Table& input, const Table& output) {
   for (const std::string& name : input.names) {
     INFO(name);
-    CHECK(is_same(column(input, name), column(output, name)));
+    CHECK(is_same(input.column(name), output.column(name)));
   }
 }
 

@@ -95,7 +95,7 @@ TEST_CASE("the annotated LAS file has every byte of the points, records and head
       }
       const Table written = read_table(folder / "out" / "points" / "a.las");
       check_columns(read_table(folder / "a.las"), written);
-      CHECK(column(written, "probability") == std::vector<double>{0, 1, 2, 3, 4});
+      CHECK(written.column("probability") == std::vector<double>{0, 1, 2, 3, 4});
 
       // The next run replaces the results, not more.
       const ScratchFolder again;
@@ -128,8 +128,8 @@ TEST_CASE("extra bytes of another program with the name of a result stay", "[io]
   FileScan scan({folder.write("a.las", las.bytes())}, {});
   detect_to(folder, scan, 5, las_config());
   const Table table = read_table(folder / "out" / "points" / "a.las");
-  CHECK(column(table, "probability") == column(read_table(folder / "a.las"), "probability"));
-  CHECK(column(table, "lacuna_probability") == std::vector<double>{0, 1, 2, 3, 4});
+  CHECK(table.column("probability") == read_table(folder / "a.las").column("probability"));
+  CHECK(table.column("lacuna_probability") == std::vector<double>{0, 1, 2, 3, 4});
 }
 
 TEST_CASE("damaged LAS files are errors for the annotated scan, or read as they are, and never more",

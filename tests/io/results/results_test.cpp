@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -211,56 +210,6 @@ TEST_CASE("normals of the input stay, and are not written a second time", "[io]"
   CHECK(table.rows.at(0)[3] == 1);
 }
 
-TEST_CASE("a run replaces the results of an earlier one, its points.ply too", "[io]") {
-  const ScratchFolder folder;
-  FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
-  const auto detection = FakeDetection().with_results(1);
-  FilesConfig with_points;
-  with_points.results.points = true;
-  with_points.output.points_format = PointsFormat::kPly;
-  const Names all{"a.ply",     "boundary.ply", "holes.csv", "holes.json",
-                  "loops.ply", "points.ply",   "run.json",  "sample.ply"};
-  for (const FilesConfig& config : {with_points, with_points, FilesConfig{}, FilesConfig{}, with_points}) {
-    write_results(detection, scan, config, folder.path());
-    Names expected = all;
-    if (!config.results.points) std::erase(expected, "points.ply");
-    CHECK(folder.names() == expected);
-  }
-}
-
-TEST_CASE("a file that detect did not write is refused, and replaced on request", "[io]") {
-  FilesConfig with_points;
-  with_points.results.points = true;
-  with_points.output.points_format = PointsFormat::kPly;
-  for (const std::string name : {"loops.ply", "boundary.ply", "points.ply", "holes.json"}) {
-    const ScratchFolder folder;
-    FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
-    const auto detection = FakeDetection().with_results(1);
-    write_results(detection, scan, with_points, folder.path());
-    const std::string mine = name.ends_with(".json") ? "{ \"loops\": [] }" : ply(kXyz, 1, "1 2 3\n");
-    folder.write(name, mine);
-    const Names before = folder.names();
-    for (const auto& refused :
-         {std::function<void()>(
-              [&] { check_output_folder(scan, with_points, folder.path(), Overwrite::kOwn); }),
-          std::function<void()>([&] { write_results(detection, scan, with_points, folder.path()); })}) {
-      CHECK(error_of(refused).find(name + ": exists, and this command did not write it") !=
-            std::string::npos);
-      CHECK(folder.names() == before);
-      CHECK(read_file(folder / name) == mine);
-    }
-    if (name == "points.ply") {
-      for (const Overwrite overwrite : {Overwrite::kOwn, Overwrite::kAny}) {
-        write_results(detection, scan, FilesConfig{}, folder.path(), overwrite);
-        CHECK(read_file(folder / name) == mine);  // no result has its name
-      }
-    }
-    write_results(detection, scan, with_points, folder.path(), Overwrite::kAny);
-    CHECK(read_file(folder / name) != mine);
-    CHECK(folder.names() == before);
-  }
-}
-
 TEST_CASE("an input in the place of a result is never replaced", "[io]") {
   FilesConfig with_points;
   with_points.results.points = true;
@@ -302,43 +251,6 @@ TEST_CASE("an input that changed during the run is an error that leaves no resul
           }).find("the input has changed") != std::string::npos);
     CHECK(folder.names() == Names{"a.ply"});
   }
-}
-
-TEST_CASE("an input that was replaced leaves the results of the earlier run as they are", "[io]") {
-  const ScratchFolder folder;
-  const auto file = folder.write("a.xyz", "1 2 3\n");
-  FileScan scan({file}, {});
-  write_results(FakeDetection().with_results(1), scan, FilesConfig{}, folder / "out");
-  const std::string earlier = read_file(folder / "out" / "holes.json");
-  std::filesystem::rename(folder.write("b.xyz", "4 5 6\n"), file);
-  const std::string error = error_of([&] {
-    write_results(FakeDetection().with_results(1).with_loop({0}, LoopKind::kHole), scan, {}, folder / "out");
-  });
-  CHECK(error.find("a.xyz: has changed during the run") != std::string::npos);
-  CHECK(read_file(folder / "out" / "holes.json") == earlier);
-}
-
-TEST_CASE("a report that cannot be written leaves the earlier results and their report", "[io]") {
-  constexpr std::size_t kMoreThanOthers = 100'000;
-  const ScratchFolder folder;
-  FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
-  FilesConfig config;
-  config.output.report = true;
-  const auto contents = [&] {
-    std::map<std::string, std::string> files;
-    for (const std::string& name : folder.names()) files[name] = read_file(folder / name);
-    return files;
-  };
-  const auto written = write_results(FakeDetection().with_results(1), scan, config, folder.path());
-  REQUIRE(std::count(written.begin(), written.end(), folder / "report.html") == 1);
-  const auto before = contents();
-  REQUIRE(before.at("report.html").size() > kMoreThanOthers);
-  CHECK(error_of([&] {
-          const FileSizeLimit full(kMoreThanOthers);
-          write_results(FakeDetection().with_results(1).with_loop({0}, LoopKind::kHole), scan, config,
-                        folder.path());
-        }) == (folder / "report.html").string() + ": cannot be written: File too large");
-  CHECK(contents() == before);
 }
 
 TEST_CASE("a disk that takes no more of any result leaves none", "[io]") {

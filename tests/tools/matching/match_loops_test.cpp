@@ -88,22 +88,6 @@ LoopIds chain(LoopIds ids, const LoopIds& more) {
   return ids;
 }
 
-TEST_CASE("a loop along two true ones is joined") {
-  Drawing drawing;
-  const LoopIds left = square(drawing, 10, 0, 0);
-  const LoopIds right = square(drawing, 10, 20, 0);
-  const LoopAccuracy result = match(drawing, {chain(left, right)}, {left, right}, {.tolerance = 0.5});
-  CHECK(result.loops[0].verdict == EdgeDecision::kJoined);
-  CHECK(result.loops[0].true_loop == 0u);
-  CHECK(result.loops[0].on_any == 1);
-  CHECK(result.loops[0].on == 0.5);
-  CHECK(result.loops[0].covered == 1);
-  const LoopScores& scores = result.scores;
-  CHECK((scores.joined == 1 && scores.parted == 0 && scores.false_loops == 0 && scores.repeated == 0));
-  CHECK((scores.found == 0 && scores.missed == 2));
-  CHECK(scores.precision == 0);
-}
-
 TEST_CASE("a loop that covers a true one and most of which lies on another is joined") {
   Drawing drawing;
   const LoopIds small = square(drawing, 3, 0, 0);
@@ -140,49 +124,6 @@ TEST_CASE("the halves of a true loop are parted, unless one of them covers 70 pe
   const LoopAccuracy uneven = match(drawing, {most, rest}, {ring}, {.tolerance = 1});
   CHECK(uneven.loops[0].verdict == EdgeDecision::kFound);
   CHECK(uneven.loops[1].verdict == EdgeDecision::kParted);
-}
-
-TEST_CASE("a loop lies on true loops if 70 percent of its points do, of all true loops together") {
-  Drawing drawing;
-  const LoopIds left = square(drawing, 10, 0, 0);
-  const LoopIds right = square(drawing, 10, 20, 0);
-  LoopIds loop = chain(part(left, 0.5), part(right, 0.5));
-  for (int i = 0; i < 17; ++i) loop.push_back(drawing.point(i, 50));
-  const LoopAccuracy most = match(drawing, {loop}, {left, right}, {.tolerance = 0.5});
-  CHECK(most.loops[0].on_any == Approx(40.0 / 57));
-  CHECK(most.loops[0].verdict == EdgeDecision::kJoined);
-  loop.push_back(drawing.point(17, 50));
-  CHECK(match(drawing, {loop}, {left, right}, {.tolerance = 0.5}).loops[0].verdict == EdgeDecision::kFalse);
-}
-
-TEST_CASE("a short true loop that a loop covers does not make it joined") {
-  Drawing drawing;
-  const LoopIds small = square(drawing, 1, 0, 0);
-  const LoopIds large = square(drawing, 10, 20, 0);
-  const LoopAccuracy result =
-      match(drawing, {chain(small, part(large, 0.5))}, {small, large}, {.tolerance = 0.5});
-  CHECK(result.loops[0].verdict == EdgeDecision::kParted);
-  CHECK(result.loops[0].true_loop == 1u);
-}
-
-TEST_CASE("a loop along several short true loops is false") {
-  Drawing drawing;
-  const LoopIds left = square(drawing, 1, 0, 0);
-  const LoopIds right = square(drawing, 1, 5, 0);
-  const LoopIds loop = chain(left, right);
-  CHECK(match(drawing, {loop}, {left, right}, {.tolerance = 0.5}).loops[0].verdict == EdgeDecision::kFalse);
-  CHECK(match(drawing, {loop}, {left, right}, {.tolerance = 0.5, .min_vertices = 4}).loops[0].verdict ==
-        EdgeDecision::kJoined);
-}
-
-TEST_CASE("a loop that is near nothing has no true loop") {
-  Drawing drawing;
-  const LoopIds ring = drawing.ring(40, 0, 0);
-  const LoopIds far = drawing.ring(40, 100, 0);
-  const LoopAccuracy result = match(drawing, {far}, {ring});
-  CHECK(result.loops[0].verdict == EdgeDecision::kFalse);
-  CHECK_FALSE(result.loops[0].true_loop);
-  CHECK(result.scores.false_loops == 1);
 }
 
 TEST_CASE("short true loops count neither as found nor as missed, and loops on them are not false") {

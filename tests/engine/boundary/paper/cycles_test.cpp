@@ -45,27 +45,6 @@ Split split(LocalIndex vertices, const Edges& edges, const Vertices& open) {
   return found;
 }
 
-// Two triangles and a bridge between them.
-const Edges kTriangles = {{0, 1}, {1, 2}, {0, 2}, {2, 3}, {3, 4}, {4, 5}, {3, 5}};
-
-TEST_CASE("without open vertices all cycles are complete and no bridge is kept") {
-  const Split found = split(6, kTriangles, {});
-  CHECK(found.complete == Edges{{0, 1}, {0, 2}, {1, 2}, {3, 4}, {3, 5}, {4, 5}});
-  CHECK(found.leads_out.empty());
-}
-
-TEST_CASE("a cycle with one open vertex leads out, one beyond a bridge does not") {
-  const Split found = split(6, kTriangles, {1});
-  CHECK(found.complete == Edges{{3, 4}, {3, 5}, {4, 5}});
-  CHECK(found.leads_out == Vertices{0, 1, 2});
-}
-
-TEST_CASE("a path between open vertices leads out, the tree that hangs off it does not") {
-  const Split found = split(6, {{0, 1}, {1, 2}, {2, 3}, {1, 4}, {4, 5}}, {0, 3});
-  CHECK(found.complete.empty());
-  CHECK(found.leads_out == Vertices{0, 1, 2, 3});
-}
-
 TEST_CASE("an open vertex leads out even without an edge, and an empty graph is split") {
   CHECK(split(3, {{1, 2}}, {0}).leads_out == Vertices{0});
   CHECK(split(0, {}, {}).leads_out.empty());

@@ -83,41 +83,6 @@ Loops loops_by_parts(const Whole& whole, const std::vector<int>& part_of, int pa
   return loops;
 }
 
-// A ring 0, 1, ... n - 1, edges ever heavier.
-Whole ring(LocalIndex n) {
-  Whole whole;
-  for (LocalIndex v = 0; v < n; ++v) {
-    whole.ids.push_back(PointId{v});
-    whole.edges.push_back({v, (v + 1) % n, v * kProbabilityStep});
-  }
-  return whole;
-}
-
-TEST_CASE("a ring inside one part is complete there, one over two parts is passed on whole") {
-  const Whole whole = ring(10);
-  std::size_t passed_on = 0;
-  const Loops once = {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}};
-  CHECK(loops_by_parts(whole, std::vector<int>(10, 0), 1, 5, &passed_on) == once);
-  CHECK(passed_on == 0);
-  CHECK(loops_by_parts(whole, {0, 0, 0, 0, 0, 1, 1, 1, 1, 1}, 2, 5, &passed_on) == once);
-  CHECK(passed_on == 10);
-  CHECK(loops_by_parts(whole, {0, 0, 0, 0, 0, 1, 1, 1, 1, 1}, 2, 10).empty());
-}
-
-// 0 and 1 are of one part, which reports the edges between. The other is a path 2 3 4 5, with 6 next to 3.
-// Only it knows that neither (0, 6) nor (1, 6) closes a loop of more than 5 edges. The paths lead by way of
-// 3, where otherwise nothing leads out.
-TEST_CASE("a path that excludes an edge that the other part reports is passed on") {
-  Whole whole;
-  for (LocalIndex v = 0; v < 7; ++v) whole.ids.push_back(PointId{v});
-  for (const auto& [a, b] : std::vector<std::pair<LocalIndex, LocalIndex>>{
-           {2, 3}, {3, 4}, {4, 5}, {3, 6}, {0, 2}, {1, 5}, {0, 6}, {1, 6}}) {
-    whole.edges.push_back({a, b, static_cast<double>(whole.edges.size()) * kProbabilityStep});
-  }
-  CHECK(loops_of(whole.ids, whole.edges, 5).empty());
-  CHECK(loops_by_parts(whole, {1, 1, 0, 0, 0, 0, 0}, 2, 5).empty());
-}
-
 TEST_CASE("the loops found part by part are those of the whole, for random graphs in random parts") {
   std::size_t passed_on = 0, all = 0, loops = 0;
   for (std::uint64_t seed = 1; seed <= 600; ++seed) {

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <map>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -116,14 +115,6 @@ TEST_CASE("wedges of drawn clouds are those of a single tile, and close to curve
 
 TEST_CASE("wedges of many more drawn clouds are those of a single tile, and close to curves", "[.slow]") {
   check_drawn(13, 12 + draws(100));
-}
-
-TEST_CASE("the exchange between tiles does not depend on the number of threads") {
-  const Cloud cloud = hard_cloud(7);
-  const Found one = wedges_of(cloud, 40, 1);
-  CHECK(one.across_tiles);
-  const bool same = wedges_of(cloud, 40, 8).wedges == one.wedges;
-  CHECK(same);
 }
 
 }  // namespace

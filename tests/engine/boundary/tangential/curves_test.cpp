@@ -153,10 +153,6 @@ TEST_CASE(
                                               {Row{41}, Row{40}, Row{42}}});
 }
 
-TEST_CASE("no wedges: no curve") {
-  CHECK(follow({}).empty());
-}
-
 TEST_CASE("a curve starts at its smallest id and goes on to the smaller neighbour") {
   for (const std::vector<std::uint64_t>& way :
        {std::vector<std::uint64_t>{5, 2, 9, 7}, {7, 9, 2, 5}, {2, 5, 7, 9}, {9, 7, 5, 2}}) {
@@ -217,10 +213,6 @@ TEST_CASE("random curves are split into simple ones, in memory and in mapped fil
   check_random_curves(12, 1, 30'000);
 }
 
-TEST_CASE("long random curves are split into simple ones, in memory and in mapped files", "[.slow]") {
-  check_random_curves(13, 10, 30'000);
-}
-
 TEST_CASE("the clearness of a curve is the mean one along it, with some length more that is not clear") {
   const TangentialConfig config{.added_length = 5};
   const std::vector<std::uint64_t> twenty(20, 1);
@@ -277,16 +269,6 @@ TEST_CASE("wedges of both scales at the same points chain apart") {
   };
   CHECK(std::set{next_of_2(curves[0]), next_of_2(curves[1])} ==
         std::set<std::set<std::uint64_t>>{{1, 3}, {1, 4}});
-}
-
-TEST_CASE("the longer a clear curve is, the clearer it is") {
-  double before = 0;
-  for (std::size_t count = 3; count < 40; ++count) {
-    const double now =
-        evidence(curve_of(std::vector<std::uint64_t>(count, 1), std::vector<float>(count, 1)), {}).clearness;
-    CHECK(now > before);
-    before = now;
-  }
 }
 
 }  // namespace lacuna::tangential

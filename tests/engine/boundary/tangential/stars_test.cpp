@@ -198,19 +198,4 @@ TEST_CASE("nearly every star is decided side by side, from every instruction set
   CHECK(plain_ones > 3 * ambiguous);
 }
 
-TEST_CASE("a star is the same wherever its point is in a batch, and whatever the other points are") {
-  Random random(23);
-  std::size_t different = 0;
-  for (int round = 0; round < 300; ++round) {
-    const Neighbourhood drawn = drawn_neighbourhood(random);
-    const Link alone = found_side_by_side(Queries({drawn}))[0];
-    for (std::size_t place = 0; place < kBatchSize; ++place) {
-      std::vector<Neighbourhood> others = drawn_neighbourhoods(random);
-      others[place] = drawn;
-      different += !same_bits(found_side_by_side(Queries(others))[place], alone);
-    }
-  }
-  CHECK(different == 0);
-}
-
 }  // namespace lacuna::tangential
