@@ -29,6 +29,13 @@ class ArithmeticDecoder {
   ArithmeticDecoder(ArithmeticDecoder&&) = default;
   ArithmeticDecoder& operator=(ArithmeticDecoder&&) = default;
 
+  // The calls that an ArithmeticEncoder has, too: here they set the value.
+  static constexpr bool kEncodes = false;
+  template <unsigned kCapacity, class Value>
+  void code(SymbolModel<kCapacity>& model, Value& value) {
+    value = static_cast<Value>(symbol(model));
+  }
+
   template <unsigned kCapacity>
   unsigned symbol(SymbolModel<kCapacity>& model) {
     const std::uint32_t unit = length_ >> SymbolModel<kCapacity>::kShareBits;

@@ -23,16 +23,18 @@ class GpsTimeCoder {
  public:
   explicit GpsTimeCoder(std::uint64_t first) { times_[0] = first; }
 
-  // The next time, as the bits of a double.
-  std::uint64_t decode(ArithmeticDecoder& decoder) {
+  // Decodes the next time, as the bits of a double, or encodes it.
+  void code(ArithmeticDecoder& decoder, std::uint64_t& time) {
     // An encoder changes to a sequence only to go on with that one.
     for (int changes = 0; changes < 4; ++changes) {
-      if (differences_[current_] == 0 ? decode_first(decoder) : decode_next(decoder)) return times_[current_];
+      if (!(differences_[current_] == 0 ? decode_first(decoder) : decode_next(decoder))) continue;
+      time = times_[current_];
+      return;
     }
     throw Corrupt("the compressed GPS times are damaged");
   }
 
-  void encode(ArithmeticEncoder& encoder, std::uint64_t time) {
+  void code(ArithmeticEncoder& encoder, const std::uint64_t& time) {
     const bool is_first = differences_[current_] == 0;
     const auto put = [&](unsigned of_first, unsigned of_next) {
       is_first ? encoder.symbol(first_, of_first) : encoder.symbol(next_, of_next);
@@ -46,7 +48,7 @@ class GpsTimeCoder {
       if (!difference_to((current_ + step) % 4, time)) continue;
       put(kFirstFull + step, kFull + step);
       change_sequence(step);
-      return encode(encoder, time);
+      return code(encoder, time);
     }
     put(kFirstFull, kFull);
     integers_.encode(encoder, high_half(times_[current_]), high_half(time), kHighHalf);
