@@ -35,8 +35,8 @@ if(LACUNA_BENCH_PROGRAM)
 program has found: those of lacuna, or of any other program.")
 endif()
 lacuna_debian_package(gis lacuna-gis "files for GIS from lacuna, by GDAL"
-"With this package, lacuna writes GeoPackage, GeoJSON and Shapefile, and knows
-coordinate reference systems by their codes.")
+"With this package, lacuna writes GeoPackage and GeoJSON, and knows coordinate
+reference systems by their codes.")
 lacuna_debian_package(library liblacuna-dev "find holes in scanned surfaces: development files"
 "The library for C++20, shared and static, with its headers, its CMake package
 and its pkg-config file. The static one needs the recommended packages.")

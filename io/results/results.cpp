@@ -49,14 +49,8 @@ std::filesystem::path lids_obj(const OutputFile& out) {
   return out.place().parent_path() / "lids.obj";
 }
 
-// The parts of a Shapefile that GDAL makes together with its .shp.
-ResultFile shapefile_part(std::string_view name) {
-  return {name, shapefile_mark(), [](D, S, C, OutputFile&) {}, [](C c) { return c.output.shp; },
-          Writer::kLibrary};
-}
-
 bool needs_gis_library(const FilesConfig& config) {
-  return config.output.gpkg || config.output.geojson || config.output.shp || config.output.coverage > 0;
+  return config.output.gpkg || config.output.geojson || config.output.coverage > 0;
 }
 
 // In the order in which they appear: holes.json comes last, and stands for all the others.
@@ -78,13 +72,6 @@ const std::vector<ResultFile>& all_results() {
       {"loops.geojson", kGeoJsonMark,
        [](D d, S s, C c, OutputFile& out) { write_loops_gis(d, s, c.output, GisFormat::kGeoJson, out); },
        [](C c) { return c.output.geojson; }},
-      {"loops.shp", shapefile_mark(),
-       [](D d, S s, C c, OutputFile& out) { write_loops_gis(d, s, c.output, GisFormat::kShapefile, out); },
-       [](C c) { return c.output.shp; }, Writer::kLibrary},
-      shapefile_part("loops.shx"),
-      shapefile_part("loops.dbf"),
-      shapefile_part("loops.prj"),  // with a crs
-      shapefile_part("loops.cpg"),
       {"lids.obj", kLidsObjMark, [](D d, S, C, OutputFile& out) { write_lids_obj(d, out); }, has_lids},
       {"lids.ply", kPlyMark,
        [](D d, S s, C c, OutputFile& out) { write_lids_ply(lids_obj(out), d, s, c.output, out); }, has_lids,
