@@ -147,7 +147,7 @@ Json loops_of(const Scene::Loops& loops, int decimals) {
   return json;
 }
 
-Json report_of(const Scene& scene, const MatchedMarks& marks) {
+Json report_of(const Scene& scene) {
   const Json& holes = scene.holes;
   const Scene::Points& points = scene.points;
   return {{"lacuna", holes.at("lacuna")},
@@ -175,8 +175,7 @@ Json report_of(const Scene& scene, const MatchedMarks& marks) {
             {"spacing", points.spacing},
             {"has_normals", true},
             {"has_colours", !points.colours.empty()}}},
-          {"loops", loops_of(scene.loops, place_decimals(holes))},
-          {"marks", marks_json(marks, scene.loops)}};
+          {"loops", loops_of(scene.loops, place_decimals(holes))}};
 }
 
 // The text never ends the element that it is in.
@@ -188,12 +187,12 @@ std::string without_tags(std::string text) {
 
 }  // namespace
 
-void write_report(const Scene& scene, OutputFile& out, const MatchedMarks& marks) {
+void write_report(const Scene& scene, OutputFile& out) {
   const std::size_t data = kReportPage.find(kDataPlace);
   out.write(kReportPage.substr(0, data));
   Json report;
   try {
-    report = report_of(scene, marks);
+    report = report_of(scene);
   } catch (const Json::exception& error) {
     throw Error(out.path().string() +
                 ": holes.json and run.json are not as lacuna detect writes them: " + error.what());
