@@ -3,6 +3,7 @@
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/visible_text.hpp"
+#include "tools/run/folders.hpp"
 
 #include <filesystem>
 #include <iostream>
@@ -20,7 +21,8 @@ struct ReportArguments {
 
 void run_report(const ReportArguments& arguments) {
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
-  std::cout << "written: " << visible(write_report(arguments.folder, overwrite).string()) << "\n";
+  const std::filesystem::path file = write_report(arguments.folder, overwrite);
+  std::cout << "written: " << visible(file.string()) << "\n";
 }
 
 }  // namespace
@@ -29,9 +31,7 @@ void add_report_command(const Command& program) {
   const Command command = program.add_command(
       "report", "Write report.html, the scan and its holes in 3D, for the results in a folder");
   const auto arguments = std::make_shared<ReportArguments>();
-  command.add_option("DIR", arguments->folder, "Folder with the results of lacuna detect")
-      .type("DIR")
-      .required();
+  add_results_folder(command, arguments->folder);
   command.add_flag("--overwrite", arguments->overwrite,
                    "Replace a report.html that Lacuna did not write, too");
   command.runs([arguments] { run_report(*arguments); });
