@@ -140,7 +140,7 @@ class GpsTimeCoder {
     add(difference);
   }
 
-  // None: it does not fit 32 bits.
+  // Returns nothing if the difference does not fit 32 bits.
   std::optional<std::int32_t> difference_to(unsigned sequence, std::uint64_t time) const {
     const auto difference = static_cast<std::int64_t>(time - times_[sequence]);
     if (difference != static_cast<std::int32_t>(difference)) return std::nullopt;

@@ -137,8 +137,8 @@ class Records {
   std::size_t colours_at_ = 0, extra_bytes_at_ = 0;
 };
 
-// Reads layers of a chunk, whose bytes from `begin` on are: the number of points, 4 bytes; the size of each
-// layer, 4 bytes each; the layers.
+// Reads the layers of a chunk. From `begin` on, it has the number of points, the size of each layer, and the
+// layers. Numbers have 4 bytes.
 std::vector<DecodedLayer> read_layers(const ChunkBytes& bytes, std::uint64_t begin, std::size_t count) {
   const std::uint64_t sizes_at = begin + kNumberBytes;
   std::uint64_t at = sizes_at + kNumberBytes * count;

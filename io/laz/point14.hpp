@@ -30,7 +30,7 @@ class Point14 {
   bool changed_channel() const { return changed_channel_; }
 
  private:
-  // In the order of the chunk.
+  // The layers, in the order of the chunk.
   enum LayerIndex : std::size_t {
     kReturnsXy,
     kZ,

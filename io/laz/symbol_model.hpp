@@ -34,7 +34,7 @@ class SymbolModel {
   // Returns the sum of the shares of all symbols before `symbol`.
   std::uint32_t start(unsigned symbol) const { return starts_[symbol]; }
 
-  // The least and the largest symbol that a place in the interval may belong to, from the table.
+  // A place in the interval belongs to a symbol from `low` to `high`. The table has both.
   struct Bracket {
     unsigned low, high;
   };

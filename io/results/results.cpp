@@ -83,9 +83,9 @@ const std::vector<ResultFile>& all_results() {
       {"report.html", kReportMark,
        [](D, S, C, OutputFile& out) { write_report(read_scene(out.place().parent_path()), out); },
        [](C c) { return c.output.report; }, Writer::kThis, true},
-      // lacuna update writes it afterwards. It does not belong to the results of another run.
+      // lacuna update writes it afterwards, and lacuna stations writes the next one. They do not belong to
+      // the results of another run.
       {kChangesFile, kJsonMark, [](D, S, C, OutputFile&) {}, [](C) { return false; }},
-      // So does lacuna stations.
       {kNextStationsFile, kNextStationsMark, [](D, S, C, OutputFile&) {}, [](C) { return false; }},
       {"holes.csv", table_header(), [](D d, S, C, OutputFile& out) { write_table(d, out); }, always},
       {"run.json", kJsonMark, [](D d, S s, C c, OutputFile& out) { write_run(d, s, c, out); }, always},
@@ -100,7 +100,7 @@ std::vector<ResultFile> results_of(const FilesConfig& config) {
   return results;
 }
 
-// Those that this run does not write. An earlier run may have.
+// Returns the results that this run does not write. An earlier run may have written them.
 std::vector<ResultFile> unwanted_results(const FilesConfig& config) {
   std::vector<ResultFile> results;
   std::copy_if(all_results().begin(), all_results().end(), std::back_inserter(results),

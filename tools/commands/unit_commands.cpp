@@ -38,8 +38,8 @@ std::uint64_t about_points(const FileScan& scan) {
   return points;
 }
 
-// Returns whole minutes that a task takes at most: a whole run on its points, which is two times a step and
-// more, takes as long.
+// Returns whole minutes that a task takes at most. A whole run on its points takes more than twice as long as
+// a step, and is the bound.
 std::uint64_t minutes_of(const Step& step, const FileScan& scan, const Config& config) {
   const std::uint64_t points = step.points / step.tasks + 1;
   return static_cast<std::uint64_t>(std::ceil(1 + run_costs(scan, config, points, points).seconds / 60));
