@@ -86,11 +86,6 @@ class ArithmeticDecoder {
     return few_bits(count - 16) << 16 | low;
   }
 
-  std::uint64_t bits64() {
-    const std::uint64_t low = bits(32);
-    return std::uint64_t{bits(32)} << 32 | low;
-  }
-
  private:
   static constexpr std::uint32_t kMinLength = 1u << 24;
 

@@ -29,9 +29,6 @@ class IntegerCoder {
   std::uint32_t decode(ArithmeticDecoder& decoder, std::uint32_t prediction, unsigned context = 0) {
     return (prediction + difference(decoder, ks_[context])) & kMask;
   }
-  std::int32_t decode_signed(ArithmeticDecoder& decoder, std::int32_t prediction, unsigned context = 0) {
-    return static_cast<std::int32_t>(decode(decoder, static_cast<std::uint32_t>(prediction), context));
-  }
 
   // Encodes the value that decode() with the same prediction returns.
   void encode(ArithmeticEncoder& encoder, std::uint32_t prediction, std::uint32_t value,
