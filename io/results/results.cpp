@@ -5,7 +5,6 @@
 #include "engine/run/parallel.hpp"
 #include "io/ply/ply_writer.hpp"
 #include "io/report/report.hpp"
-#include "io/report/report_page.hpp"
 #include "io/report/scene.hpp"
 #include "io/results/cut_outs.hpp"
 #include "io/results/gis_library.hpp"
