@@ -27,8 +27,7 @@ endmacro()
 lacuna_debian_package(program lacuna "find holes in scanned surfaces, also in scans larger than memory"
 "Lacuna reads a registered laser scan, finds the loops around its holes and
 its outer boundaries, and writes them with their measures. The scan may be
-larger than memory. Formats: PLY, LAS, LAZ, E57, PTX, PCD, OBJ, OFF, STL and
-text.")
+larger than memory. Formats: PLY, LAS, LAZ, E57, PTX, PCD, OBJ, STL and text.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS lacuna-gis)
 if(LACUNA_BENCH_PROGRAM)
   lacuna_debian_package(bench lacuna-bench "benchmark for programs that find holes in scanned surfaces"
@@ -36,8 +35,8 @@ if(LACUNA_BENCH_PROGRAM)
 program has found: those of lacuna, or of any other program.")
 endif()
 lacuna_debian_package(gis lacuna-gis "files for GIS from lacuna, by GDAL"
-"With this package, lacuna writes GeoPackage, GeoJSON and Shapefile, and knows
-coordinate reference systems by their codes.")
+"With this package, lacuna writes GeoPackage and GeoJSON, and knows coordinate
+reference systems by their codes.")
 lacuna_debian_package(library liblacuna-dev "find holes in scanned surfaces: development files"
 "The library for C++20, shared and static, with its headers, its CMake package
 and its pkg-config file. The static one needs the recommended packages.")

@@ -5,7 +5,6 @@
 #include "io/files/input_file.hpp"
 #include "io/las/las_reader.hpp"
 #include "io/mesh/obj_reader.hpp"
-#include "io/mesh/off_reader.hpp"
 #include "io/mesh/stl_reader.hpp"
 #include "io/pcd/pcd_reader.hpp"
 #include "io/ply/ply_reader.hpp"
@@ -33,7 +32,6 @@ constexpr std::array kFormats = {
     Format{"E57", looks_like_e57, open_e57},
     Format{"STL", looks_like_stl, open_stl},
     Format{"OBJ", looks_like_obj, open_obj},
-    Format{"OFF", looks_like_off, open_off},
     Format{"PTX", looks_like_ptx, open_ptx},
     Format{"text (xyz, csv, pts)", looks_like_text, open_text},
 };
@@ -47,6 +45,7 @@ struct OtherFormat {
 };
 
 constexpr std::string_view kConvert = "CloudCompare or `pdal translate` convert it to LAS or PLY";
+constexpr std::string_view kMeshLab = "MeshLab saves it as PLY";
 constexpr std::string_view kUnpack = "unpack it first";
 
 constexpr std::string_view kSaveAsUtf8 = "an editor saves it as UTF-8";
@@ -61,6 +60,8 @@ constexpr std::array kOtherFormats = {
     OtherFormat{"# vtk DataFile"sv, "VTK", "ParaView exports it as PLY"},
     OtherFormat{"<VTKFile"sv, "VTK XML", "ParaView exports it as PLY"},
     OtherFormat{"CCB2"sv, "CloudCompare's BIN", "CloudCompare saves it as PLY or LAS"},
+    OtherFormat{"OFF\n"sv, "OFF", kMeshLab},
+    OtherFormat{"COFF\n"sv, "OFF", kMeshLab},
     OtherFormat{"glTF"sv, "binary glTF", "CloudCompare or Blender export it as PLY"},
     OtherFormat{"version https://git-lfs"sv, "a pointer of Git LFS",
                 "`git lfs pull` fetches the file itself"},

@@ -76,9 +76,9 @@ void for_each_block(const Found& found, const py::function& visit) {
       [&](PointId first, std::span<const PointResult> block) { visit(block_of(first, block)); });
 }
 
-fs::path write_report(const fs::path& folder, const std::optional<fs::path>& marks) {
+fs::path write_report(const fs::path& folder) {
   const py::gil_scoped_release unlocked;
-  return io::write_report(folder, io::Overwrite::kOwn, marks).file;
+  return io::write_report(folder, io::Overwrite::kOwn);
 }
 
 std::string evaluate(const fs::path& result_path, const fs::path& truth_path,

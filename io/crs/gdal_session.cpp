@@ -17,7 +17,6 @@ void register_gdal_drivers() {
     const GdalSetting no_file_of_the_user("GDAL_CONFIG_FILE", "");
     RegisterOGRGeoPackage();
     RegisterOGRGeoJSON();
-    RegisterOGRShape();
     GDALRegister_GTiff();
     OSRSetPROJEnableNetwork(FALSE);
     return true;

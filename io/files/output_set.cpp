@@ -85,8 +85,6 @@ void sync_file_system(const fs::path& folder) {
 bool is_own_file(const fs::path& file, const FileMark& mark) {
   const auto found = find(file);
   if (!found || !S_ISREG(found->st_mode)) return false;  // a pipe or a device is not even opened
-  if (!mark.sister.empty())
-    return is_own_file(fs::path(file).replace_extension(mark.sister), FileMark(mark.text, mark.fits));
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return false;
   const bool is_in_line = mark.offset == FileMark::kInFirstLine;

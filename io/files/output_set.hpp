@@ -44,8 +44,7 @@ enum class Overwrite { kOwn, kAny };
 struct FileMark {
   FileMark(std::string_view text, std::uint64_t offset = 0) : text(text), offset(offset) {}
   FileMark(const char* text) : text(text) {}
-  FileMark(std::string_view text, bool (*fits)(std::string_view), std::string_view sister = {})
-      : text(text), fits(fits), sister(sister) {}
+  FileMark(std::string_view text, bool (*fits)(std::string_view)) : text(text), fits(fits) {}
 
   // Anywhere in the first line, which ends within 1 MiB.
   static constexpr std::uint64_t kInFirstLine = UINT64_MAX;
@@ -55,7 +54,6 @@ struct FileMark {
   std::string_view text;
   std::uint64_t offset = 0;
   bool (*fits)(std::string_view first_bytes) = nullptr;  // and these fit, where more is to be checked
-  std::string_view sister;  // the file of this extension has the mark, not this file
 };
 
 // Whether `file` is a regular file with the mark.

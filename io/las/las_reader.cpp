@@ -59,8 +59,6 @@ class LasReader final : public ScanReader {
     });
   }
 
-  // A batch is no larger than this, nor its records; one row is below 1 MiB.
-
   InputFile in_;
   LasHeader header_;
   std::unique_ptr<LasPoints> points_;

@@ -82,7 +82,7 @@ void LasWriter::write_records(std::span<const LasExtraBytes> extra,
   }
 }
 
-void LasWriter::put(std::span<const std::byte> records) {
+void LasWriter::put_rows(std::span<const std::byte> records) {
   points_out_->put(records);
   points_ += records.size() / record_bytes_;
 }

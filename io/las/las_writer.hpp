@@ -6,6 +6,7 @@
 #include "io/files/output_file.hpp"
 #include "io/las/las_header.hpp"
 #include "io/las/las_points_writer.hpp"
+#include "io/rows/rows_writer.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +27,7 @@ inline constexpr std::uint64_t kLasSoftwareAt = 58;
 // The header of the other file goes over, as LAS 1.4 has it. It has the point format, scale, offset, bounds,
 // numbers of returns, identity and date, and maybe bytes behind its last field. All records go over byte for
 // byte, except the records of LASzip and COPC and the descriptors of extra bytes.
-class LasWriter {
+class LasWriter final : public RowsWriter {
  public:
   // Writes the header and the records before the points. `from` is the header of `file`. `extra`: all extra
   // bytes of the points to come, which have `record_bytes` each. With a compression, which is one for these
@@ -35,9 +36,9 @@ class LasWriter {
             std::span<const LasExtraBytes> extra, std::size_t record_bytes,
             std::optional<LasCompression> compression = {});
 
-  void put(std::span<const std::byte> records);
+  void put_rows(std::span<const std::byte> records) override;
   // Writes the extended records, and the header once more.
-  void finish();
+  void finish() override;
 
  private:
   void write_records(std::span<const LasExtraBytes> extra, const std::optional<LasCompression>& compression);

@@ -29,6 +29,13 @@ class ArithmeticDecoder {
   ArithmeticDecoder(ArithmeticDecoder&&) = default;
   ArithmeticDecoder& operator=(ArithmeticDecoder&&) = default;
 
+  // The calls that an ArithmeticEncoder has, too: here they set the value.
+  static constexpr bool kEncodes = false;
+  template <unsigned kCapacity, class Value>
+  void code(SymbolModel<kCapacity>& model, Value& value) {
+    value = static_cast<Value>(symbol(model));
+  }
+
   template <unsigned kCapacity>
   unsigned symbol(SymbolModel<kCapacity>& model) {
     const std::uint32_t unit = length_ >> SymbolModel<kCapacity>::kShareBits;
@@ -77,11 +84,6 @@ class ArithmeticDecoder {
     if (count <= 19) return few_bits(count);
     const std::uint32_t low = few_bits(16);
     return few_bits(count - 16) << 16 | low;
-  }
-
-  std::uint64_t bits64() {
-    const std::uint64_t low = bits(32);
-    return std::uint64_t{bits(32)} << 32 | low;
   }
 
  private:

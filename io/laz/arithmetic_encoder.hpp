@@ -14,6 +14,13 @@ namespace lacuna::io::laz {
 // length_ >= kMinLength holds.
 class ArithmeticEncoder {
  public:
+  // The calls that an ArithmeticDecoder has, too: here they read the value.
+  static constexpr bool kEncodes = true;
+  template <unsigned kCapacity, class Value>
+  void code(SymbolModel<kCapacity>& model, const Value& value) {
+    symbol(model, value);
+  }
+
   template <unsigned kCapacity>
   void symbol(SymbolModel<kCapacity>& model, unsigned symbol) {
     const std::uint32_t unit = length_ >> SymbolModel<kCapacity>::kShareBits;

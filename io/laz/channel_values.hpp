@@ -26,7 +26,8 @@ class ChannelValues {
     Values& last;  // to read, and to be set to the point's
     Models& models;
   };
-  // For a point of `channel`; `changed`: the point before it was of another one.
+  // Returns the values and models for a point of `channel`. `changed` says that the point before it was of
+  // another channel.
   Chosen choose(unsigned channel, bool changed) {
     const unsigned next = rule_ == ChannelRule::kVersion4 || changed ? channel : 0;
     Channel* of_values = &*channels_[channel_];

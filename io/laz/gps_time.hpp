@@ -23,30 +23,33 @@ class GpsTimeCoder {
  public:
   explicit GpsTimeCoder(std::uint64_t first) { times_[0] = first; }
 
-  // The next time, as the bits of a double.
-  std::uint64_t decode(ArithmeticDecoder& decoder) {
+  // Decodes the next time, as the bits of a double, or encodes it.
+  void code(ArithmeticDecoder& decoder, std::uint64_t& time) {
     // An encoder changes to a sequence only to go on with that one.
     for (int changes = 0; changes < 4; ++changes) {
-      if (differences_[current_] == 0 ? decode_first(decoder) : decode_next(decoder)) return times_[current_];
+      if (!(differences_[current_] == 0 ? decode_first(decoder) : decode_next(decoder))) continue;
+      time = times_[current_];
+      return;
     }
     throw Corrupt("the compressed GPS times are damaged");
   }
 
-  void encode(ArithmeticEncoder& encoder, std::uint64_t time) {
+  void code(ArithmeticEncoder& encoder, const std::uint64_t& time) {
     const bool is_first = differences_[current_] == 0;
     const auto put = [&](unsigned of_first, unsigned of_next) {
       is_first ? encoder.symbol(first_, of_first) : encoder.symbol(next_, of_next);
     };
     if (kHasUnchanged && time == times_[current_]) return put(0, kUnchanged);
-    if (const auto difference = difference_to(current_, time)) {
-      is_first ? encode_first(encoder, *difference) : encode_next(encoder, *difference);
-      return;
+    if (auto difference = difference_to(current_, time)) {
+      const unsigned symbol = is_first ? 0 : factor_symbol(*difference);
+      put(kFirstDifference, symbol);
+      return is_first ? code_first(encoder, *difference) : code_next(encoder, symbol, *difference);
     }
     for (unsigned step = 1; step < 4; ++step) {
       if (!difference_to((current_ + step) % 4, time)) continue;
       put(kFirstFull + step, kFull + step);
       change_sequence(step);
-      return encode(encoder, time);
+      return code(encoder, time);
     }
     put(kFirstFull, kFull);
     integers_.encode(encoder, high_half(times_[current_]), high_half(time), kHighHalf);
@@ -78,15 +81,10 @@ class GpsTimeCoder {
     if (symbol == kFirstFull) {
       decode_full(decoder);
     } else if (symbol == kFirstDifference) {
-      begin_differences(integers_.decode_signed(decoder, 0, kFirst));
+      std::int32_t difference = 0;
+      code_first(decoder, difference);
     }
     return true;
-  }
-
-  void encode_first(ArithmeticEncoder& encoder, std::int32_t difference) {
-    encoder.symbol(first_, kFirstDifference);
-    integers_.encode_signed(encoder, 0, difference, kFirst);
-    begin_differences(difference);
   }
 
   bool decode_next(ArithmeticDecoder& decoder) {
@@ -95,28 +93,38 @@ class GpsTimeCoder {
     if (symbol == kFull) {
       decode_full(decoder);
     } else if (symbol <= kSmallestFactor) {
-      go_on(symbol,
-            static_cast<std::int32_t>(integers_.decode(decoder, predict(symbol), factor_context(symbol))));
+      std::int32_t difference = 0;
+      code_next(decoder, symbol, difference);
     }
     return true;
   }
 
-  void encode_next(ArithmeticEncoder& encoder, std::int32_t difference) {
-    const double factor = std::round(static_cast<double>(difference) / differences_[current_]);
-    constexpr double kMost = kLargestFactor, kLeast = -static_cast<double>(kSmallestFactor - kLargestFactor);
-    const auto nearest = static_cast<int>(std::clamp(factor, kLeast, kMost));
-    const auto symbol =
-        nearest >= 0 ? static_cast<unsigned>(nearest) : kLargestFactor + static_cast<unsigned>(-nearest);
-    encoder.symbol(next_, symbol);
-    integers_.encode(encoder, predict(symbol), static_cast<std::uint32_t>(difference),
-                     factor_context(symbol));
+  template <class Coder>
+  void code_first(Coder& coder, std::int32_t& difference) {
+    integers_.code(coder, std::int32_t{0}, difference, kFirst);
+    differences_[current_] = difference;
+    extremes_[current_] = 0;
+    add(difference);
+  }
+
+  template <class Coder>
+  void code_next(Coder& coder, unsigned symbol, std::int32_t& difference) {
+    integers_.code(coder, predict(symbol), difference, factor_context(symbol));
     go_on(symbol, difference);
   }
 
-  // The difference that the symbol of a factor stands for.
-  std::uint32_t predict(unsigned symbol) const {
+  // Returns the symbol of the factor that is nearest.
+  unsigned factor_symbol(std::int32_t difference) const {
+    const double factor = std::round(static_cast<double>(difference) / differences_[current_]);
+    constexpr double kMost = kLargestFactor, kLeast = -static_cast<double>(kSmallestFactor - kLargestFactor);
+    const auto nearest = static_cast<int>(std::clamp(factor, kLeast, kMost));
+    return nearest >= 0 ? static_cast<unsigned>(nearest) : kLargestFactor + static_cast<unsigned>(-nearest);
+  }
+
+  // Returns the difference that the symbol of a factor stands for.
+  std::int32_t predict(unsigned symbol) const {
     const std::uint32_t factor = symbol > kLargestFactor ? 0u - (symbol - kLargestFactor) : symbol;
-    return factor * static_cast<std::uint32_t>(differences_[current_]);
+    return static_cast<std::int32_t>(factor * static_cast<std::uint32_t>(differences_[current_]));
   }
 
   void go_on(unsigned symbol, std::int32_t difference) {
@@ -132,13 +140,7 @@ class GpsTimeCoder {
     }
   }
 
-  void begin_differences(std::int32_t difference) {
-    differences_[current_] = difference;
-    extremes_[current_] = 0;
-    add(difference);
-  }
-
-  // None: it does not fit 32 bits.
+  // Returns nothing if the difference does not fit 32 bits.
   std::optional<std::int32_t> difference_to(unsigned sequence, std::uint64_t time) const {
     const auto difference = static_cast<std::int64_t>(time - times_[sequence]);
     if (difference != static_cast<std::int32_t>(difference)) return std::nullopt;

@@ -27,14 +27,7 @@ class IntegerCoder {
 
   // The value modulo 2^kBits; in 32 bits of two's complement where kBits is 32.
   std::uint32_t decode(ArithmeticDecoder& decoder, std::uint32_t prediction, unsigned context = 0) {
-    return decode(decoder, prediction, ks_[context]);
-  }
-  // Decodes with a context that the caller keeps.
-  std::uint32_t decode(ArithmeticDecoder& decoder, std::uint32_t prediction, KModel& ks) {
-    return (prediction + difference(decoder, ks)) & kMask;
-  }
-  std::int32_t decode_signed(ArithmeticDecoder& decoder, std::int32_t prediction, unsigned context = 0) {
-    return static_cast<std::int32_t>(decode(decoder, static_cast<std::uint32_t>(prediction), context));
+    return (prediction + difference(decoder, ks_[context])) & kMask;
   }
 
   // Encodes the value that decode() with the same prediction returns.
@@ -49,6 +42,16 @@ class IntegerCoder {
   }
   void encode_signed(ArithmeticEncoder& encoder, std::int32_t prediction, std::int32_t value,
                      unsigned context = 0) {
+    encode(encoder, static_cast<std::uint32_t>(prediction), static_cast<std::uint32_t>(value), context);
+  }
+
+  // Decodes the value, or encodes it.
+  template <class Value>
+  void code(ArithmeticDecoder& decoder, Value prediction, Value& value, unsigned context = 0) {
+    value = static_cast<Value>(decode(decoder, static_cast<std::uint32_t>(prediction), context));
+  }
+  template <class Value>
+  void code(ArithmeticEncoder& encoder, Value prediction, const Value& value, unsigned context = 0) {
     encode(encoder, static_cast<std::uint32_t>(prediction), static_cast<std::uint32_t>(value), context);
   }
 

@@ -1,42 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layers of a chunk of point formats 6 to 8 (LAZ, compressor 3).
+// The layers of a chunk of point formats 6 to 8: a stream for each attribute (LAZ, compressor 3).
 #pragma once
 
-#include "io/files/little_endian.hpp"
 #include "io/laz/arithmetic_decoder.hpp"
+#include "io/laz/arithmetic_encoder.hpp"
 
+#include <cstddef>
 #include <optional>
-#include <utility>
+#include <type_traits>
 #include <vector>
 
 namespace lacuna::io::laz {
 
-// A stream of one attribute, or nothing where the attribute is the first point's for all points.
-using Layer = std::optional<ArithmeticDecoder>;
+// A layer that is read. It has no stream where the attribute is the first point's for all points.
+struct DecodedLayer {
+  static constexpr bool kEncodes = false;
+  std::optional<ArithmeticDecoder> decoder;
 
-// Hands out layer after layer. The bytes of the chunk from `begin` on are: the number of points, 4 bytes; the
-// size of each layer, 4 bytes each; the layers.
-class Layers {
- public:
-  Layers(const ChunkBytes& bytes, std::uint64_t begin, std::size_t count)
-      : bytes_(bytes), layer_at_(begin + kPointsBytes + kSizeBytes * count) {
-    sizes_ = read_all(bytes, begin + kPointsBytes, layer_at_);
+  // Calls code(decoder), which sets `now` to the next point's value. Before, `now` is the last point's.
+  template <class Value, class Code>
+  void code(const Value& /*last*/, const Value& /*now*/, Code&& code) {
+    if (decoder) code(*decoder);
   }
-
-  Layer next() {
-    const std::uint64_t size = load<std::uint32_t>(&sizes_[kSizeBytes * next_++]);
-    if (size > bytes_.size() - layer_at_) throw Corrupt("a layer of compressed points is cut");
-    const std::uint64_t begin = layer_at_;
-    layer_at_ += size;
-    return size == 0 ? Layer() : Layer(std::in_place, bytes_, begin, layer_at_);
+  // Does the same for a layer that always has a stream.
+  template <class Code>
+  void code(Code&& code) {
+    code(*decoder);
   }
-
- private:
-  static constexpr std::size_t kPointsBytes = 4, kSizeBytes = 4;
-  const ChunkBytes& bytes_;
-  std::vector<std::byte> sizes_;
-  std::size_t next_ = 0;
-  std::uint64_t layer_at_;  // of the next layer, in the chunk
 };
+
+// A layer that is written.
+struct EncodedLayer {
+  static constexpr bool kEncodes = true;
+  ArithmeticEncoder encoder;
+  bool has_changes = false;  // any point has another value than the one before it in its channel
+
+  // Calls code(encoder), which reads `now`.
+  template <class Value, class Code>
+  void code(const Value& last, const Value& now, Code&& code) {
+    has_changes = has_changes || last != now;
+    code(encoder);
+  }
+  template <class Code>
+  void code(Code&& code) {
+    code(encoder);
+  }
+
+  // Nothing where the attribute is the first point's for all points. Nothing can be encoded afterwards.
+  std::vector<std::byte> finish() { return has_changes ? encoder.finish() : std::vector<std::byte>(); }
+};
+
+// A byte of a record: an encoder only reads it.
+template <class Layer>
+using ItemByte = std::conditional_t<Layer::kEncodes, const std::byte, std::byte>;
 
 }  // namespace lacuna::io::laz

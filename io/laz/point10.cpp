@@ -15,6 +15,10 @@ constexpr std::uint8_t kReturnContext[8][8] = {
     {9, 10, 11, 12, 13, 14, 15, 14}, {8, 9, 10, 11, 12, 13, 14, 15},
 };
 
+unsigned context_of(std::uint8_t returns) {
+  return kReturnContext[returns >> 3 & 7][returns & 7];
+}
+
 // Bits of the symbol that says which fields differ from the last point's.
 constexpr unsigned kPointSource = 1, kUserData = 2, kScanAngle = 4, kClassification = 8, kIntensity = 16,
                    kReturns = 32;
@@ -22,86 +26,65 @@ constexpr unsigned kPointSource = 1, kUserData = 2, kScanAngle = 4, kClassificat
 }  // namespace
 
 Point10::Point10(const std::byte* first) {
-  std::memcpy(&last_, first, kBytes);
+  std::memcpy(&last_, first, sizeof last_);
 }
 
-void Point10::decode(ArithmeticDecoder& decoder, std::byte* item) {
-  const unsigned changed = decoder.symbol(changed_);
-  if (changed & kReturns) {
-    last_.returns = static_cast<std::uint8_t>(decoder.symbol(returns_[last_.returns]));
-  }
-  const unsigned r = last_.returns & 7, n = last_.returns >> 3 & 7;
-  const unsigned context = kReturnContext[n][r];
-
-  if (changed & kIntensity) {
-    last_intensities_[context] = static_cast<std::uint16_t>(
-        intensity_.decode(decoder, last_intensities_[context], std::min(context, 3u)));
-  }
-  last_.intensity = last_intensities_[context];
-  if (changed & kClassification) {
-    last_.classification = static_cast<std::uint8_t>(decoder.symbol(classification_[last_.classification]));
-  }
-  if (changed & kScanAngle) {
-    const unsigned direction = last_.returns >> 6 & 1;
-    last_.scan_angle = static_cast<std::uint8_t>(last_.scan_angle + decoder.symbol(scan_angle_[direction]));
-  }
-  if (changed & kUserData) {
-    last_.user_data = static_cast<std::uint8_t>(decoder.symbol(user_data_[last_.user_data]));
-  }
-  if (changed & kPointSource) {
-    last_.point_source = static_cast<std::uint16_t>(point_source_.decode(decoder, last_.point_source));
-  }
-
-  const bool only = n == 1;
-  const std::int32_t dx = dx_.decode_signed(decoder, x_medians_[context].middle(), only);
-  x_medians_[context].add(dx);
-  last_.x = wrapped_sum(last_.x, dx);
-  const std::int32_t dy =
-      dy_.decode_signed(decoder, y_medians_[context].middle(), k_context(dx_.k(), kLargestYContext, only));
-  y_medians_[context].add(dy);
-  last_.y = wrapped_sum(last_.y, dy);
-  std::int32_t& height = last_heights_[return_level(n, r)];
-  height = z_.decode_signed(decoder, height, k_context((dx_.k() + dy_.k()) / 2, kLargestZContext, only));
-  last_.z = height;
-
-  std::memcpy(item, &last_, kBytes);
+void Point10::code(ArithmeticDecoder& decoder, std::byte* item) {
+  Fields now = last_;
+  code_fields(decoder, now);
+  std::memcpy(item, &now, sizeof now);
 }
 
-void Point10::encode(ArithmeticEncoder& encoder, const std::byte* item) {
+void Point10::code(ArithmeticEncoder& encoder, const std::byte* item) {
   Fields now;
-  std::memcpy(&now, item, kBytes);
-  const unsigned r = now.returns & 7, n = now.returns >> 3 & 7;
-  const unsigned context = kReturnContext[n][r];
-  std::uint16_t& intensity = last_intensities_[context];
+  std::memcpy(&now, item, sizeof now);
+  code_fields(encoder, now);
+}
 
-  const unsigned changed = (now.returns != last_.returns ? kReturns : 0) |
-                           (now.intensity != intensity ? kIntensity : 0) |
-                           (now.classification != last_.classification ? kClassification : 0) |
-                           (now.scan_angle != last_.scan_angle ? kScanAngle : 0) |
-                           (now.user_data != last_.user_data ? kUserData : 0) |
-                           (now.point_source != last_.point_source ? kPointSource : 0);
-  encoder.symbol(changed_, changed);
-  if (changed & kReturns) encoder.symbol(returns_[last_.returns], now.returns);
+unsigned Point10::changes_to(const Fields& now) const {
+  return (now.returns != last_.returns ? kReturns : 0) |
+         (now.intensity != last_intensities_[context_of(now.returns)] ? kIntensity : 0) |
+         (now.classification != last_.classification ? kClassification : 0) |
+         (now.scan_angle != last_.scan_angle ? kScanAngle : 0) |
+         (now.user_data != last_.user_data ? kUserData : 0) |
+         (now.point_source != last_.point_source ? kPointSource : 0);
+}
+
+// `now` is the next point. A decoder changes it from the last point to that.
+template <class Coder>
+void Point10::code_fields(Coder& coder, Fields& now) {
+  unsigned changed = Coder::kEncodes ? changes_to(now) : 0;
+  coder.code(changed_, changed);
+  if (changed & kReturns) coder.code(returns_[last_.returns], now.returns);
+  const unsigned r = now.returns & 7, n = now.returns >> 3 & 7;
+  const unsigned context = context_of(now.returns);
+
+  std::uint16_t& intensity = last_intensities_[context];
   if (changed & kIntensity) {
-    intensity_.encode(encoder, intensity, now.intensity, std::min(context, 3u));
+    intensity_.code(coder, intensity, now.intensity, std::min(context, 3u));
     intensity = now.intensity;
   }
-  if (changed & kClassification) encoder.symbol(classification_[last_.classification], now.classification);
+  now.intensity = intensity;
+  if (changed & kClassification) coder.code(classification_[last_.classification], now.classification);
   if (changed & kScanAngle) {
     const unsigned direction = now.returns >> 6 & 1;
-    encoder.symbol(scan_angle_[direction], static_cast<std::uint8_t>(now.scan_angle - last_.scan_angle));
+    auto turn = static_cast<std::uint8_t>(now.scan_angle - last_.scan_angle);
+    coder.code(scan_angle_[direction], turn);
+    now.scan_angle = static_cast<std::uint8_t>(last_.scan_angle + turn);
   }
-  if (changed & kUserData) encoder.symbol(user_data_[last_.user_data], now.user_data);
-  if (changed & kPointSource) point_source_.encode(encoder, last_.point_source, now.point_source);
+  if (changed & kUserData) coder.code(user_data_[last_.user_data], now.user_data);
+  if (changed & kPointSource) point_source_.code(coder, last_.point_source, now.point_source);
 
   const bool only = n == 1;
-  const std::int32_t dx = wrapped_difference(now.x, last_.x), dy = wrapped_difference(now.y, last_.y);
-  dx_.encode_signed(encoder, x_medians_[context].middle(), dx, only);
+  std::int32_t dx = wrapped_difference(now.x, last_.x), dy = wrapped_difference(now.y, last_.y);
+  dx_.code(coder, x_medians_[context].middle(), dx, only);
   x_medians_[context].add(dx);
-  dy_.encode_signed(encoder, y_medians_[context].middle(), dy, k_context(dx_.k(), kLargestYContext, only));
+  now.x = wrapped_sum(last_.x, dx);
+  dy_.code(coder, y_medians_[context].middle(), dy, k_context(dx_.k(), kLargestYContext, only));
   y_medians_[context].add(dy);
+  now.y = wrapped_sum(last_.y, dy);
   std::int32_t& height = last_heights_[return_level(n, r)];
-  z_.encode_signed(encoder, height, now.z, k_context((dx_.k() + dy_.k()) / 2, kLargestZContext, only));
+  z_.code(coder, height, now.z, k_context((dx_.k() + dy_.k()) / 2, kLargestZContext, only));
   height = now.z;
   last_ = now;
 }

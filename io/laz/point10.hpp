@@ -13,15 +13,12 @@ namespace lacuna::io::laz {
 
 class Point10 {
  public:
-  static constexpr std::size_t kBytes = 20;
-
   // `first`: the chunk's first point, which is not compressed.
   explicit Point10(const std::byte* first);
 
-  // Writes the next point.
-  void decode(ArithmeticDecoder& decoder, std::byte* item);
-  // Reads the next point.
-  void encode(ArithmeticEncoder& encoder, const std::byte* item);
+  // Decodes the next point to `item`, or encodes it from there.
+  void code(ArithmeticDecoder& decoder, std::byte* item);
+  void code(ArithmeticEncoder& encoder, const std::byte* item);
 
  private:
   struct Fields {
@@ -33,7 +30,11 @@ class Point10 {
     std::uint8_t user_data;
     std::uint16_t point_source;
   };
-  static_assert(sizeof(Fields) == kBytes);
+  static_assert(sizeof(Fields) == 20);
+
+  unsigned changes_to(const Fields& now) const;
+  template <class Coder>
+  void code_fields(Coder& coder, Fields& now);
 
   Fields last_;
   std::array<std::uint16_t, 16> last_intensities_{};       // by context of return numbers

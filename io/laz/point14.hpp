@@ -8,32 +8,49 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <span>
 
 namespace lacuna::io::laz {
 
-// Decodes nine layers.
-class Point14Decoder {
+// Decodes or encodes points, by the kind of their layers.
+template <class Layer>
+class Point14 {
  public:
-  // `first`: the chunk's first point, which is not compressed. Takes its layers' sizes from `layers`.
-  Point14Decoder(const std::byte* first, Layers& layers);
+  static constexpr std::size_t kLayers = 9;
 
-  // Writes the next point.
-  void decode(std::byte* item);
+  // `first`: the chunk's first point, which is not compressed. The layers outlive this. Throws `Corrupt` if
+  // the first one, which every chunk has, is empty.
+  Point14(const std::byte* first, std::span<Layer, kLayers> layers);
+
+  // Decodes the next point to `item`, or encodes it from there.
+  void code(ItemByte<Layer>* item);
 
   unsigned channel() const { return channel_; }
   // Whether the last point was the first after one of another channel.
   bool changed_channel() const { return changed_channel_; }
 
  private:
-  unsigned decode_changes();
-  void decode_returns(point14::Channel& channel, unsigned changed);
-  void decode_position(point14::Channel& channel, bool new_time);
-  void decode_attributes(point14::Channel& channel, unsigned changed);
+  // The layers, in the order of the chunk.
+  enum LayerIndex : std::size_t {
+    kReturnsXy,
+    kZ,
+    kClassification,
+    kFlags,
+    kIntensity,
+    kScanAngle,
+    kUserData,
+    kPointSource,
+    kGpsTime
+  };
+  static_assert(kGpsTime + 1 == kLayers);
 
-  // Layers are in the order of the chunk. Layers that hold one value for all points are empty, but the first
-  // never is.
-  Layer returns_xy_, z_, classification_, flags_, intensity_, scan_angle_, user_data_, point_source_,
-      gps_time_;
+  unsigned changes_to(const point14::Fields& now, unsigned channel) const;
+  unsigned code_changes(const point14::Fields& now, unsigned channel);
+  void code_returns(point14::Channel& channel, point14::Fields& now, unsigned changed);
+  void code_position(point14::Channel& channel, point14::Fields& now, bool new_time);
+  void code_attributes(point14::Channel& channel, point14::Fields& now, unsigned changed);
+
+  std::span<Layer, kLayers> layers_;
   std::array<std::unique_ptr<point14::Channel>, point14::kChannels> channels_;
   unsigned channel_;
   bool changed_channel_ = false;

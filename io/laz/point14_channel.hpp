@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Code that the decoder and the encoder of POINT14 share: a point's fields, and the state of a channel.
+// The fields of a POINT14, and the state of a scanner channel.
 #pragma once
 
 #include "io/files/little_endian.hpp"
@@ -15,8 +15,6 @@
 
 namespace lacuna::io::laz::point14 {
 
-inline constexpr std::size_t kBytes = 30;
-inline constexpr std::size_t kLayers = 9;
 inline constexpr unsigned kChannels = 4;
 
 // Bits of the symbol that says what changed. The two lowest are of the return number: equal, one more, one

@@ -2,6 +2,7 @@
 #include "io/laz/rgb.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace lacuna::io::laz {
 namespace {
@@ -9,86 +10,63 @@ namespace {
 // Bit 6 of the symbol that says which bytes changed: green and blue are not both equal to red.
 constexpr unsigned kColoured = 1u << 6;
 
-int low(std::uint16_t value) {
-  return value & 255;
+// Returns the bits of the bytes that differ, from the low one of the first value on.
+unsigned changed_bytes(std::span<const std::uint16_t> last, std::span<const std::uint16_t> now) {
+  unsigned changed = 0;
+  for (unsigned i = 0; i < now.size(); ++i) {
+    const unsigned different = last[i] ^ now[i];
+    if (different & 255) changed |= 1u << (2 * i);
+    if (different >> 8) changed |= 2u << (2 * i);
+  }
+  return changed;
 }
-int high(std::uint16_t value) {
-  return value >> 8;
+
+// Codes the byte of `now` at a bit, 0 or 8, as its difference to a predicted one.
+template <class Coder>
+void code_byte(Coder& coder, SymbolModel<256>& model, unsigned at, int predicted, std::uint16_t& now) {
+  auto difference = static_cast<std::uint8_t>((now >> at) - predicted);
+  coder.code(model, difference);
+  const int byte = (predicted + difference) & 255;
+  now = static_cast<std::uint16_t>((now & ~(255 << at)) | byte << at);
 }
 
 }  // namespace
 
-Rgb RgbModels::decode(ArithmeticDecoder& decoder, const Rgb& last) {
-  const unsigned changed = decoder.symbol(changed_);
-  // Codes a byte; `change` is how far the bytes of the channels before changed.
-  const auto byte = [&](unsigned index, int last_byte, int change) {
-    if (!(changed & 1u << index)) return last_byte;
-    const int predicted = std::clamp(last_byte + change, 0, 255);
-    return (predicted + static_cast<int>(decoder.symbol(bytes_[index]))) & 255;
+template <class Coder>
+void RgbModels::code(Coder& coder, const Rgb& last, Rgb& now) {
+  unsigned changed = 0;
+  if constexpr (Coder::kEncodes)
+    changed = changed_bytes(last, now) | (now[0] != now[1] || now[0] != now[2] ? kColoured : 0);
+  coder.code(changed_, changed);
+  // Codes a byte. The bytes of the channels before changed by `change`. Returns how far this one changed.
+  const auto byte = [&](unsigned index, int change) {
+    const unsigned channel = index / 2, at = index % 2 * 8;
+    const int before = last[channel] >> at & 255;
+    if (changed & 1u << index)
+      code_byte(coder, bytes_[index], at, std::clamp(before + change, 0, 255), now[channel]);
+    return (now[channel] >> at & 255) - before;
   };
-  const auto value = [](int low_byte, int high_byte) {
-    return static_cast<std::uint16_t>(high_byte << 8 | low_byte);
-  };
-
-  const int red_low = byte(0, low(last[0]), 0);
-  const int red_high = byte(1, high(last[0]), 0);
-  const std::uint16_t red = value(red_low, red_high);
-  if (!(changed & kColoured)) return {red, red, red};
-
-  int change = red_low - low(last[0]);
-  const int green_low = byte(2, low(last[1]), change);
-  change = (change + green_low - low(last[1])) / 2;
-  const int blue_low = byte(4, low(last[2]), change);
-
-  change = red_high - high(last[0]);
-  const int green_high = byte(3, high(last[1]), change);
-  change = (change + green_high - high(last[1])) / 2;
-  const int blue_high = byte(5, high(last[2]), change);
-  return {red, value(green_low, green_high), value(blue_low, blue_high)};
-}
-
-void RgbModels::encode(ArithmeticEncoder& encoder, const Rgb& last, const Rgb& now) {
-  unsigned changed = now[0] != now[1] || now[0] != now[2] ? kColoured : 0;
-  for (unsigned channel = 0; channel < 3; ++channel) {
-    if (low(now[channel]) != low(last[channel])) changed |= 1u << (2 * channel);
-    if (high(now[channel]) != high(last[channel])) changed |= 2u << (2 * channel);
+  const int red_low = byte(0, 0), red_high = byte(1, 0);
+  if (!(changed & kColoured)) {
+    now[1] = now[2] = now[0];
+    return;
   }
-  encoder.symbol(changed_, changed);
-  const auto byte = [&](unsigned index, int last_byte, int change, int now_byte) {
-    if (!(changed & 1u << index)) return;
-    const int predicted = std::clamp(last_byte + change, 0, 255);
-    encoder.symbol(bytes_[index], static_cast<unsigned>(now_byte - predicted) & 255);
-  };
-
-  byte(0, low(last[0]), 0, low(now[0]));
-  byte(1, high(last[0]), 0, high(now[0]));
-  if (!(changed & kColoured)) return;
-
-  int change = low(now[0]) - low(last[0]);
-  byte(2, low(last[1]), change, low(now[1]));
-  change = (change + low(now[1]) - low(last[1])) / 2;
-  byte(4, low(last[2]), change, low(now[2]));
-
-  change = high(now[0]) - high(last[0]);
-  byte(3, high(last[1]), change, high(now[1]));
-  change = (change + high(now[1]) - high(last[1])) / 2;
-  byte(5, high(last[2]), change, high(now[2]));
+  byte(4, (red_low + byte(2, red_low)) / 2);
+  byte(5, (red_high + byte(3, red_high)) / 2);
 }
 
-std::uint16_t NirModels::decode(ArithmeticDecoder& decoder, std::uint16_t last) {
-  const unsigned changed = decoder.symbol(changed_);
-  unsigned low_byte = last & 255, high_byte = last >> 8;
-  if (changed & 1) low_byte = (low_byte + decoder.symbol(bytes_[0])) & 255;
-  if (changed & 2) high_byte = (high_byte + decoder.symbol(bytes_[1])) & 255;
-  return static_cast<std::uint16_t>(high_byte << 8 | low_byte);
+template <class Coder>
+void NirModels::code(Coder& coder, std::uint16_t last, std::uint16_t& now) {
+  unsigned changed = 0;
+  if constexpr (Coder::kEncodes) changed = changed_bytes(std::span(&last, 1), std::span(&now, 1));
+  coder.code(changed_, changed);
+  if (changed & 1) code_byte(coder, bytes_[0], 0, last & 255, now);
+  if (changed & 2) code_byte(coder, bytes_[1], 8, last >> 8, now);
 }
 
-void NirModels::encode(ArithmeticEncoder& encoder, std::uint16_t last, std::uint16_t now) {
-  const unsigned low_change = static_cast<unsigned>(low(now) - low(last)) & 255,
-                 high_change = static_cast<unsigned>(high(now) - high(last)) & 255;
-  encoder.symbol(changed_, (low_change > 0 ? 1u : 0u) | (high_change > 0 ? 2u : 0u));
-  if (low_change > 0) encoder.symbol(bytes_[0], low_change);
-  if (high_change > 0) encoder.symbol(bytes_[1], high_change);
-}
+template void RgbModels::code(ArithmeticDecoder&, const Rgb&, Rgb&);
+template void RgbModels::code(ArithmeticEncoder&, const Rgb&, Rgb&);
+template void NirModels::code(ArithmeticDecoder&, std::uint16_t, std::uint16_t&);
+template void NirModels::code(ArithmeticEncoder&, std::uint16_t, std::uint16_t&);
 
 }  // namespace lacuna::io::laz

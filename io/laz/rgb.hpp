@@ -13,11 +13,11 @@ namespace lacuna::io::laz {
 using Rgb = std::array<std::uint16_t, 3>;
 
 // Codes the bytes of a colour that differ from the last colour's; green and blue as difference to what red's,
-// and then green's, difference predicts.
+// and then green's, difference predicts. A decoder changes `now` from the last colour to the next.
 class RgbModels {
  public:
-  Rgb decode(ArithmeticDecoder& decoder, const Rgb& last);
-  void encode(ArithmeticEncoder& encoder, const Rgb& last, const Rgb& now);
+  template <class Coder>
+  void code(Coder& coder, const Rgb& last, Rgb& now);
 
  private:
   SymbolModel<128> changed_;
@@ -26,8 +26,8 @@ class RgbModels {
 
 class NirModels {
  public:
-  std::uint16_t decode(ArithmeticDecoder& decoder, std::uint16_t last);
-  void encode(ArithmeticEncoder& encoder, std::uint16_t last, std::uint16_t now);
+  template <class Coder>
+  void code(Coder& coder, std::uint16_t last, std::uint16_t& now);
 
  private:
   SymbolModel<4> changed_;

@@ -34,17 +34,13 @@ class SymbolModel {
   // Returns the sum of the shares of all symbols before `symbol`.
   std::uint32_t start(unsigned symbol) const { return starts_[symbol]; }
 
-  // The symbol at a place in the interval is not before `low` and not after `high`.
+  // A place in the interval belongs to a symbol from `low` to `high`. The table has both.
   struct Bracket {
     unsigned low, high;
   };
   Bracket bracket(std::uint32_t place) const {
-    if constexpr (kHasTable) {
-      const std::uint32_t slot = place >> table_shift_;
-      return {table_[slot], table_[slot + 1]};
-    } else {
-      return {0, symbols_ - 1};
-    }
+    const std::uint32_t slot = place >> table_shift_;
+    return {table_[slot], table_[slot + 1]};
   }
 
   void count(unsigned symbol) {

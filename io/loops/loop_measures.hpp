@@ -12,7 +12,6 @@ namespace lacuna::io {
 
 struct LoopMeasure {
   std::string_view name;
-  std::string_view short_name;  // at most 10 characters: a column of a Shapefile
   double (*of)(const ExplainedLoop& loop);
   bool is_count = false;  // a whole number
 };
@@ -23,21 +22,21 @@ double share_of(const ExplainedLoop& loop) {
 }
 
 inline constexpr auto kLoopMeasures = std::to_array<LoopMeasure>({
-    {"points", "points", [](const ExplainedLoop& loop) { return static_cast<double>(loop.points); }, true},
-    {"confidence", "confidence", [](const ExplainedLoop& loop) { return loop.track.confidence; }},
-    {"persistence", "persist", [](const ExplainedLoop& loop) { return loop.track.persistence; }},
-    {"first_scale", "first_scal", [](const ExplainedLoop& loop) { return loop.track.first_scale; }},
-    {"last_scale", "last_scale", [](const ExplainedLoop& loop) { return loop.track.last_scale; }},
-    {"perimeter", "perimeter", [](const ExplainedLoop& loop) { return loop.perimeter; }},
-    {"area", "area", [](const ExplainedLoop& loop) { return loop.area; }},
-    {"diameter", "diameter", [](const ExplainedLoop& loop) { return loop.diameter; }},
-    {"planarity", "planarity", [](const ExplainedLoop& loop) { return loop.planarity; }},
-    {"mean_probability", "mean_prob", [](const ExplainedLoop& loop) { return loop.mean_probability; }},
-    {"hidden", "hidden", share_of<Cause::kHidden>},
-    {"opening", "opening", share_of<Cause::kOpening>},
-    {"out_of_view", "out_view", share_of<Cause::kOutOfView>},
-    {"no_return", "no_return", share_of<Cause::kNoReturn>},
-    {"filtered", "filtered", share_of<Cause::kFiltered>},
+    {"points", [](const ExplainedLoop& loop) { return static_cast<double>(loop.points); }, true},
+    {"confidence", [](const ExplainedLoop& loop) { return loop.track.confidence; }},
+    {"persistence", [](const ExplainedLoop& loop) { return loop.track.persistence; }},
+    {"first_scale", [](const ExplainedLoop& loop) { return loop.track.first_scale; }},
+    {"last_scale", [](const ExplainedLoop& loop) { return loop.track.last_scale; }},
+    {"perimeter", [](const ExplainedLoop& loop) { return loop.perimeter; }},
+    {"area", [](const ExplainedLoop& loop) { return loop.area; }},
+    {"diameter", [](const ExplainedLoop& loop) { return loop.diameter; }},
+    {"planarity", [](const ExplainedLoop& loop) { return loop.planarity; }},
+    {"mean_probability", [](const ExplainedLoop& loop) { return loop.mean_probability; }},
+    {"hidden", share_of<Cause::kHidden>},
+    {"opening", share_of<Cause::kOpening>},
+    {"out_of_view", share_of<Cause::kOutOfView>},
+    {"no_return", share_of<Cause::kNoReturn>},
+    {"filtered", share_of<Cause::kFiltered>},
 });
 
 }  // namespace lacuna::io

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cstring>
 #include <optional>
 #include <utility>
@@ -142,25 +141,23 @@ class ObjReader final : public ScanReader {
   std::optional<std::uint64_t> expected_rows() const override { return content_.vertices; }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
-    assert(max_rows > 0);
-    const std::size_t rows = std::min(max_rows, kBatchBytes / layout_.stride);
-    batch.bytes.resize(rows * layout_.stride);
-    std::byte* to = batch.bytes.data();
-    for (batch.count = 0; batch.count < rows; ++batch.count) {
+    return fill_batch(batch, max_rows, layout_.stride, [&](std::byte* to) {
       auto vertex = vertices_.next("v");
-      if (!vertex) break;
+      if (!vertex) return false;
       to = read_vertex(*vertex, to);
-      if (!normals_) continue;
-      auto normal = normals_->next("vn");
-      if (!normal) normals_->in().fail("has fewer normals than when it was opened");
-      for (int i = 0; i < 3; ++i) to = put(to, normal->number<double>(kNormal));
-      normal->require_end(kNormal);
-    }
-    batch.bytes.resize(batch.count * layout_.stride);
-    return batch.count > 0;
+      if (normals_) read_normal(to);
+      return true;
+    });
   }
 
  private:
+  void read_normal(std::byte* to) {
+    auto normal = normals_->next("vn");
+    if (!normal) normals_->in().fail("has fewer normals than when it was opened");
+    for (int i = 0; i < 3; ++i) to = put(to, normal->number<double>(kNormal));
+    normal->require_end(kNormal);
+  }
+
   std::byte* read_vertex(LineWords& words, std::byte* to) const {
     for (int i = 0; i < 3; ++i) to = put(to, words.number<double>(kVertex));
     if (content_.has_colours) {

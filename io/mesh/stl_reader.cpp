@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cassert>
 #include <cstring>
 
 namespace lacuna::io {
@@ -59,16 +58,14 @@ class BinaryStl final : public ScanReader {
   std::optional<std::uint64_t> expected_rows() const override { return triangles_ * 3; }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
-    assert(max_rows > 0);
-    const std::size_t rows = std::min(max_rows, kBatchBytes / kVertexBytes);
-    batch.count = static_cast<std::size_t>(std::min<std::uint64_t>(left_, rows));
-    batch.bytes.resize(batch.count * kVertexBytes);
-    for (std::size_t row = 0; row < batch.count; ++row, --left_) {
+    return fill_batch(batch, max_rows, kVertexBytes, [&](std::byte* to) {
+      if (left_ == 0) return false;
       if (left_ % 3 == 0) in_.skip(kNormalBytes);
-      in_.read(batch.bytes.data() + row * kVertexBytes, kVertexBytes);
+      in_.read(to, kVertexBytes);
       if (left_ % 3 == 1) in_.skip(kTriangleBytes - kNormalBytes - 3 * kVertexBytes);
-    }
-    return batch.count > 0;
+      --left_;
+      return true;
+    });
   }
 
  private:
@@ -87,32 +84,24 @@ class AsciiStl final : public ScanReader {
   std::optional<std::uint64_t> expected_rows() const override { return std::nullopt; }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
-    assert(max_rows > 0);
-    const std::size_t rows = std::min(max_rows, kBatchBytes / layout_.stride);
-    batch.bytes.resize(rows * layout_.stride);
-    batch.count = 0;
-    while (batch.count < rows) {
-      const auto line = in_.next_line();
-      if (!line) {
-        if (place_ != Place::kOutside) {
-          in_.fail_at_line(in_.line(), "the file ends here within a solid; 'endsolid' must follow");
-        }
-        break;
+    return fill_batch(batch, max_rows, layout_.stride, [&](std::byte* to) {
+      while (const auto line = in_.next_line()) {
+        if (read_line(*line, to)) return true;
       }
-      batch.count += read_line(*line, batch.bytes.data() + batch.count * layout_.stride);
-    }
-    batch.bytes.resize(batch.count * layout_.stride);
-    return batch.count > 0;
+      if (place_ != Place::kOutside)
+        in_.fail_at_line(in_.line(), "the file ends here within a solid; 'endsolid' must follow");
+      return false;
+    });
   }
 
  private:
   enum class Place : std::uint8_t { kOutside, kSolid, kFacet, kLoop, kClosed };
 
-  // Returns the number of vertices of the line: 1 or 0.
-  std::size_t read_line(std::string_view line, std::byte* to) {
+  // Whether the line has a vertex.
+  bool read_line(std::string_view line, std::byte* to) {
     LineWords words(in_, line);
     const std::string keyword = first_word(words);
-    if (keyword.empty()) return 0;
+    if (keyword.empty()) return false;
     if (keyword == "vertex") {
       if (place_ != Place::kLoop || corners_ == 3) words.fail("a vertex outside of a loop of three");
       constexpr const char* kNeeded = "'vertex x y z' is allowed";
@@ -122,7 +111,7 @@ class AsciiStl final : public ScanReader {
       }
       words.require_end(kNeeded);
       ++corners_;
-      return 1;
+      return true;
     }
     if (keyword == "endloop" && corners_ != 3) {
       words.fail(std::to_string(corners_) + " vertices of a facet; three are needed");
@@ -141,7 +130,7 @@ class AsciiStl final : public ScanReader {
       if (place_ != step.from || keyword != step.keyword) continue;
       place_ = step.to;
       corners_ = 0;
-      return 0;
+      return false;
     }
     words.fail(in_quotes(keyword) + " is not expected here; allowed are " + allowed_here());
   }

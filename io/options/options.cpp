@@ -16,7 +16,7 @@ constexpr std::string_view kUnitNames[] = {"input", "m", "km", "cm", "mm", "ft",
 constexpr std::string_view kPointsFormats[] = {"input", "ply", "csv"};
 
 bool is_gis(const OutputConfig& output) {
-  return output.gpkg || output.geojson || output.shp;
+  return output.gpkg || output.geojson;
 }
 
 // Min along each axis, then max along each.
@@ -69,7 +69,7 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
   const bool has_points = config.results.points;
   const std::string_view no_points = has_points ? "" : "--points";
   const std::string_view no_points_files = has_points || output.cut_outs > 0 ? "" : "--points or --cut-outs";
-  const std::string_view no_gis = is_gis(output) ? "" : "--gpkg, --geojson or --shp";
+  const std::string_view no_gis = is_gis(output) ? "" : "--gpkg or --geojson";
   return {
       {"input", "columns", &input.columns, 0, 0, "column names, separated by spaces",
        "Names of a text file's columns, such as x y z nx ny nz; empty: from its header line."},
@@ -101,8 +101,6 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
        "Write loops.gpkg too: the loops as a GeoPackage, for QGIS and other GIS."},
       {"output", "geojson", &output.geojson, 0, 1, "true or false",
        "Write loops.geojson too: the loops as GeoJSON, for GIS and the web."},
-      {"output", "shp", &output.shp, 0, 1, "true or false",
-       "Write loops.shp too, with its .shx, .dbf and .prj: the loops as a Shapefile."},
       {"output", "lids", &output.lids, 0, 1, "true or false",
        "Write lids.obj, lids.ply and lids.csv too: a triangulated lid for each hole, a preview of filling."},
       {"output", "polygons", &output.polygons, 0, 1, "true or false",

@@ -49,7 +49,6 @@ struct OutputConfig {
   bool normals = false;                // with nx ny nz where they were estimated
   bool obj = false;                    // write the loops for CAD
   bool gpkg = false, geojson = false;  // for GIS: GeoPackage, GeoJSON
-  bool shp = false;                    // Shapefile
   bool lids = false;                   // triangulated lids of the holes
   bool polygons = false;               // files for GIS have the loops as polygons, too
   double coverage = 0;                 // write coverage.tif with cells of this edge; 0: off

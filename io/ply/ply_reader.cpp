@@ -5,7 +5,7 @@
 #include "io/ply/ply_body.hpp"
 #include "io/ply/ply_camera.hpp"
 #include "io/ply/ply_header.hpp"
-#include "io/rows/offset_reader.hpp"
+#include "io/rows/moved_reader.hpp"
 #include "io/rows/scalar.hpp"
 
 #include <algorithm>
@@ -14,8 +14,6 @@
 
 namespace lacuna::io {
 namespace {
-
-// A batch is no larger than this, however many properties a row has.
 
 std::size_t find_vertex(const InputFile& in, const PlyHeader& header) {
   for (std::size_t i = 0; i < header.elements.size(); ++i) {

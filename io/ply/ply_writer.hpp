@@ -5,6 +5,7 @@
 #include "io/files/output_file.hpp"
 #include "io/ply/ply_header.hpp"
 #include "io/rows/local_offset.hpp"
+#include "io/rows/rows_writer.hpp"
 
 #include <cstdint>
 #include <span>
@@ -17,7 +18,7 @@ namespace lacuna::io {
 // Each file of a PlyWriter begins with this text, by which a program recognises an earlier one.
 inline constexpr std::string_view kPlyMark = "ply\nformat binary_little_endian 1.0\ncomment lacuna detect\n";
 
-class PlyWriter {
+class PlyWriter final : public RowsWriter {
  public:
   // Writes the header. The counts of the elements are final. Coordinates are relative to the offset, if there
   // is one. `list_bytes` counts all lists and the numbers before them, which are put like other values.
@@ -35,9 +36,10 @@ class PlyWriter {
   // Puts some values, with the `Scalar` type of the header.
   void put_as(Scalar type, double value);
   void put_bytes(std::span<const std::byte> bytes);
+  void put_rows(std::span<const std::byte> rows) override { put_bytes(rows); }
 
   // Asserts that every value that the header declares was put.
-  void finish();
+  void finish() override;
 
  private:
   OutputFile& out_;

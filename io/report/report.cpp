@@ -1,29 +1,226 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/report/report.hpp"
 
-#include "io/report/match_marks.hpp"
-#include "io/report/report_page.hpp"
+#include "engine/run/error.hpp"
+#include "io/files/number.hpp"
+#include "io/loops/loop_measures.hpp"
+#include "io/report/base64.hpp"
+#include "io/report/page.hpp"
 #include "io/report/scene.hpp"
 
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string>
 #include <utility>
 
 namespace lacuna::io {
+namespace {
 
 namespace fs = std::filesystem;
 
-WrittenReport write_report(const fs::path& folder, Overwrite overwrite,
-                           const std::optional<fs::path>& marks) {
+constexpr int kBits = 21;  // of a coordinate: three in eight bytes
+
+std::uint64_t packed(const Eigen::Vector3f& position, double edge) {
+  std::uint64_t bits = 0;
+  for (int axis = 2; axis >= 0; --axis) {
+    const double steps = position[axis] / edge * (1 << kBits);
+    bits = bits << kBits | static_cast<std::uint64_t>(std::clamp(steps, 0.0, double((1 << kBits) - 1)));
+  }
+  return bits;
+}
+
+// Octahedral coding: a unit vector in two bytes (Meyer, Suessmuth, Sussner, Stamminger, Greiner, 2010).
+std::array<std::int8_t, 2> octahedral(const Eigen::Vector3f& normal) {
+  const float sum = normal.cwiseAbs().sum();
+  if (!(sum > 0)) return {0, 0};
+  float u = normal.x() / sum, v = normal.y() / sum;
+  if (normal.z() < 0) {
+    const float folded = (1 - std::abs(v)) * (u < 0 ? -1.0f : 1.0f);
+    v = (1 - std::abs(u)) * (v < 0 ? -1.0f : 1.0f);
+    u = folded;
+  }
+  return {static_cast<std::int8_t>(std::lround(u * 127)), static_cast<std::int8_t>(std::lround(v * 127))};
+}
+
+std::uint8_t byte_of(float probability) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(probability, 0.0f, 1.0f) * 255));
+}
+
+// Writes an element of the page with the bytes of all items.
+template <class Items, class Encode>
+void write_bytes(std::string_view id, const Items& items, Encode&& encode, OutputFile& out) {
+  out.write("<script type=\"application/base64\" id=\"" + std::string(id) + "\">");
+  Base64 base64(out);
+  for (const auto& item : items) {
+    const auto bytes = encode(item);
+    base64.write(std::as_bytes(std::span(&bytes, 1)));
+  }
+  base64.finish();
+  out.write("</script>\n");
+}
+
+// Returns the keys of the run that the user has changed.
+Json changed_parameters(const Json& parameters) {
+  const Json defaults = parameter_values(FilesConfig{}, [](std::string_view) { return true; });
+  Json changed = Json::array();
+  for (const auto& [section, values] : parameters.items()) {
+    for (const auto& [key, value] : values.items()) {
+      if (defaults.contains(section) && defaults[section].contains(key) && defaults[section][key] != value)
+        changed.push_back(key);
+    }
+  }
+  return changed;
+}
+
+std::string title_of(const Json& inputs) {
+  if (inputs.size() != 1) return std::to_string(inputs.size()) + " files";
+  return fs::path(inputs[0].at("file").get<std::string>()).filename().string();
+}
+
+Json inputs_of(const Json& inputs) {
+  Json short_inputs = Json::array();
+  for (const Json& input : inputs)
+    short_inputs.push_back({{"file", input.at("file")}, {"points", input.at("points")}});
+  return short_inputs;
+}
+
+Json run_of(const Json& run) {
+  if (run.is_null()) return nullptr;
+  Json phases = Json::array();
+  for (const Json& phase : run.at("phases"))
+    phases.push_back({{"name", phase.at("name")}, {"seconds", phase.at("seconds")}});
+  return {{"threads", run.at("tiling").at("threads")},
+          {"memory_limit_bytes", run.at("tiling").at("memory_limit_bytes")},
+          {"peak_memory_bytes", run.at("peak_memory_bytes")},
+          {"cores", run.at("cores")},
+          {"phases", std::move(phases)},
+          {"seconds", run.at("total_seconds")}};
+}
+
+// The number of the shortest digits: 0.1 + 0.2 rounded by arithmetic would be 0.30000000000000004.
+double reread(double value, std::chars_format format, int digits) {
+  std::array<char, 800> text;
+  const char* const end = std::to_chars(text.data(), text.data() + text.size(), value, format, digits).ptr;
+  parse_number({text.data(), end}, value);
+  return value;
+}
+
+// Six digits are more than a reader wants, and keep the page small.
+double rounded(double value) {
+  return std::isfinite(value) ? reread(value, std::chars_format::general, 6) : value;
+}
+
+// Returns the decimals of places, down to a thousandth of the distance of neighbours.
+int place_decimals(const Json& holes) {
+  const double distance = holes.at("median_distance").get<double>();
+  return distance > 0 ? static_cast<int>(std::clamp(std::ceil(3 - std::log10(distance)), 0.0, 300.0)) : 17;
+}
+
+Json loops_of(const Scene::Loops& loops, int decimals) {
+  Json json = {{"shown", loops.ids.size()}, {"all", loops.all}, {"id", loops.ids}};
+  const auto add = [&](std::string_view name, auto&& value_of) {
+    Json& column = json[std::string(name)] = Json::array();
+    for (const ExplainedLoop& loop : loops.measures) column.push_back(value_of(loop));
+  };
+  add("kind", [](const ExplainedLoop& loop) { return Json(name_of(loop.kind)); });
+  for (const LoopMeasure& measure : kLoopMeasures)
+    add(measure.name, [&](const ExplainedLoop& loop) {
+      return measure.is_count ? Json(loop.points) : Json(rounded(measure.of(loop)));
+    });
+  add("centroid", [decimals](const ExplainedLoop& loop) {
+    return list(loop.centroid.unaryExpr([decimals](double value) {
+      return std::isfinite(value) ? reread(value, std::chars_format::fixed, decimals) : value;
+    }));
+  });
+  add("normal", [](const ExplainedLoop& loop) { return list(loop.normal.unaryExpr(&rounded)); });
+  add("cause",
+      [](const ExplainedLoop& loop) { return loop.cause.name().empty() ? Json() : Json(loop.cause.name()); });
+  add("hidden_by", [](const ExplainedLoop& loop) {
+    return loop.cause.hidden_from < 0 ? Json() : list(loop.cause.hidden_by);
+  });
+  add("hidden_from_place", [](const ExplainedLoop& loop) {
+    return loop.cause.hidden_from < 0 ? Json() : list(loop.cause.hidden_from_place);
+  });
+  add("hidden_from", [](const ExplainedLoop& loop) { return Json(loop.cause.hidden_from); });
+  json["first"] = loops.first;
+  return json;
+}
+
+Json report_of(const Scene& scene) {
+  const Json& holes = scene.holes;
+  const Scene::Points& points = scene.points;
+  return {{"lacuna", holes.at("lacuna")},
+          {"title", title_of(holes.at("inputs"))},
+          {"crs", holes.at("crs")},
+          {"unit", holes.at("unit")},
+          {"inputs", inputs_of(holes.at("inputs"))},
+          {"counts", holes.at("counts")},
+          {"bounds", corners(scene.bounds)},
+          {"strays", scene.strays},
+          {"resolution", holes.at("resolution")},
+          {"median_distance", holes.at("median_distance")},
+          {"surface_area", holes.value("surface_area", 0.0)},
+          {"stations", holes.value("stations", Json::array())},
+          {"next_stations", scene.next_stations},
+          {"method", holes.at("parameters").at("loops").at("method")},
+          {"parameters", holes.at("parameters")},
+          {"changed", changed_parameters(holes.at("parameters"))},
+          {"run", run_of(scene.run)},
+          {"probability", holes.at("probability")},
+          {"frame", {{"origin", list(scene.origin)}, {"edge", scene.edge}}},
+          {"sample",
+           {{"points", points.positions.size()},
+            {"of", holes.at("counts").at("points")},
+            {"spacing", points.spacing},
+            {"has_normals", true},
+            {"has_colours", !points.colours.empty()}}},
+          {"loops", loops_of(scene.loops, place_decimals(holes))}};
+}
+
+// The text never ends the element that it is in.
+std::string without_tags(std::string text) {
+  std::string escaped;
+  for (const char c : text) escaped += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  return escaped;
+}
+
+}  // namespace
+
+fs::path write_report(const fs::path& folder, Overwrite overwrite) {
   const fs::path file = folder / "report.html";
   check_output(file, kReportMark, overwrite);
-  MatchedMarks matched;
-  if (marks) matched.marks = read_marks(*marks);
   Scene scene = read_scene(folder);
   scene.next_stations = read_next_stations(folder);
-  matched.matches = match_marks(matched.marks, scene.loops);
   OutputSet set(overwrite);
-  write_report(scene, set.add(file, kReportMark), matched);
+  write_report(scene, set.add(file, kReportMark));
   set.commit();
-  return {file, std::move(matched)};
+  return file;
+}
+
+void write_report(const Scene& scene, OutputFile& out) {
+  const std::size_t data = kReportPage.find(kDataPlace);
+  out.write(kReportPage.substr(0, data));
+  Json report;
+  try {
+    report = report_of(scene);
+  } catch (const Json::exception& error) {
+    throw Error(out.path().string() +
+                ": holes.json and run.json are not as lacuna detect writes them: " + error.what());
+  }
+  out.write("<script type=\"application/json\" id=\"report\">" + without_tags(print(report, -1)) +
+            "</script>\n");
+  const auto position = [&](const Eigen::Vector3f& p) { return packed(p, scene.edge); };
+  write_bytes("positions", scene.points.positions, position, out);
+  write_bytes("probabilities", scene.points.probabilities, byte_of, out);
+  write_bytes("normals", scene.points.normals, octahedral, out);
+  if (!scene.points.colours.empty()) {
+    write_bytes(
+        "colours", scene.points.colours, [](const Colour& c) { return c; }, out);
+  }
+  write_bytes("loop_vertices", scene.loops.vertices, position, out);
+  out.write(kReportPage.substr(data + kDataPlace.size()));
 }
 
 }  // namespace lacuna::io

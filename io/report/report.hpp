@@ -4,25 +4,23 @@
 
 #include "engine/export.hpp"
 #include "io/files/output_set.hpp"
-#include "io/report/marks.hpp"
 
 #include <filesystem>
-#include <optional>
 #include <string_view>
 
 namespace lacuna::io {
 
+struct Scene;
+
 // A report.html begins with this text, by which a program recognises an earlier one.
 inline constexpr std::string_view kReportMark = "<!doctype html>\n<!-- Lacuna report";
 
-struct WrittenReport {
-  std::filesystem::path file;
-  MatchedMarks marks;  // the marks that the page starts with
-};
-
 // Writes report.html into the folder of a run's results, from these results. Replaces an earlier report.
-// `marks` is a file of marks that the page starts with. Throws `Error`.
-LACUNA_API WrittenReport write_report(const std::filesystem::path& folder, Overwrite overwrite,
-                                      const std::optional<std::filesystem::path>& marks = {});
+// Returns the name of the file. Throws `Error`.
+LACUNA_API std::filesystem::path write_report(const std::filesystem::path& folder, Overwrite overwrite);
+
+// Writes the page with a scene as its data. Positions are 21 bits along each axis, of the cube of the scene.
+// A point takes about 15 bytes, a vertex of a loop 11.
+void write_report(const Scene& scene, OutputFile& out);
 
 }  // namespace lacuna::io

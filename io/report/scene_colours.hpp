@@ -15,7 +15,7 @@ class ColourColumns {
   explicit ColourColumns(const RowLayout& layout);
 
   void load(const RowBatch& rows);
-  void take(std::size_t row);  // of those loaded last
+  void take(std::size_t row);  // of the batch that was loaded last
 
   // Returns one colour for each row taken; none if the layout has no colours. Values of 16 bits are scaled if
   // any is above 255, as some programs write bytes there. Intensities are stretched from their 2nd to their

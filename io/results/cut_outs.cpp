@@ -100,7 +100,7 @@ void collect(const JoinedForm& form, const BoxTree& boxes, RowLists& lists) {
 
 // Writes the rows of a list, each with the id of the hole behind it where the format has that column.
 void write_rows(const RowLists& lists, std::size_t list, std::size_t row_bytes, std::size_t result_bytes,
-                std::uint32_t hole, PointsWriter& writer) {
+                std::uint32_t hole, RowsWriter& writer) {
   constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
   const std::size_t stride = row_bytes + result_bytes;
   std::vector<std::byte> block;
@@ -116,13 +116,13 @@ void write_rows(const RowLists& lists, std::size_t list, std::size_t row_bytes, 
       const auto* id = reinterpret_cast<const std::byte*>(&hole);
       block.insert(block.end(), id, id + result_bytes);
       if (block.size() + stride > kBlockBytes) {
-        writer.put(block);
+        writer.put_rows(block);
         block.clear();
       }
     }
   };
   lists.read(list, put);
-  writer.put(block);
+  writer.put_rows(block);
   writer.finish();
 }
 

@@ -12,7 +12,7 @@
 namespace lacuna::io {
 namespace {
 
-constexpr const char* kUser = "--gpkg, --geojson, --shp and --coverage";
+constexpr const char* kUser = "--gpkg, --geojson and --coverage";
 
 // A run gives one warning for all files.
 void warn_not_understood(const FileScan& scan) {

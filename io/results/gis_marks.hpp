@@ -14,9 +14,6 @@ inline constexpr std::string_view kGeoJsonMark =
 // The file is an SQLite file that names the layer and its description in its first pages.
 FileMark geopackage_mark();
 
-// The .dbf has the fields of the loops' measures. It is the mark of the .shp, .shx, .prj and .cpg, too.
-FileMark shapefile_mark();
-
 // The file is a TIFF that names the software of coverage.tif.
 FileMark coverage_mark();
 

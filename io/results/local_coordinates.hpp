@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coordinates of the PLY and PCD files of a run: the scan's, or with --local-coordinates floats relative to
-// an offset.
+// Coordinates of the PLY files of a run: the scan's, or with --local-coordinates floats relative to an
+// offset.
 #pragma once
 
 #include "engine/model/detection.hpp"

@@ -4,9 +4,7 @@
 #include "engine/run/error.hpp"
 #include "io/crs/gdal_session.hpp"
 #include "io/loops/loop_measures.hpp"
-#include "io/results/shapefile_check.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -20,10 +18,7 @@
 namespace lacuna::io {
 namespace {
 
-namespace fs = std::filesystem;
-
-// The date in the head of the GeoPackage and of the Shapefile: the same in every run.
-constexpr const char* kDay = "1970-01-01";
+// The date in the head of the GeoPackage: the same in every run.
 constexpr const char* kTime = "1970-01-01T00:00:00.000Z";
 
 struct CloseDataset {
@@ -37,16 +32,9 @@ struct Format {
 };
 
 Format format_of(GisFormat format) {
-  switch (format) {
-    case GisFormat::kGeoPackage:
-      return {"GPKG", {std::string("DESCRIPTION=") + kGisDescription}};
-    case GisFormat::kGeoJson:
-      // With digits behind the point instead, GDAL takes zeros before the last one for a rounding error.
-      return {"GeoJSON", {"RFC7946=NO", "SIGNIFICANT_FIGURES=17"}};
-    case GisFormat::kShapefile:
-      break;
-  }
-  return {"ESRI Shapefile", {"SHPT=ARCZ", "ENCODING=UTF-8", std::string("DBF_DATE_LAST_UPDATE=") + kDay}};
+  if (format == GisFormat::kGeoPackage) return {"GPKG", {std::string("DESCRIPTION=") + kGisDescription}};
+  // With digits behind the point instead, GDAL takes zeros before the last one for a rounding error.
+  return {"GeoJSON", {"RFC7946=NO", "SIGNIFICANT_FIGURES=17"}};
 }
 
 struct Layer {
@@ -71,7 +59,6 @@ class LoopsWriter {
     if (has_transaction_) require(dataset_->CommitTransaction() == OGRERR_NONE);
     dataset_.reset();
     require(true);
-    if (task_.format == GisFormat::kShapefile) check_parts();
     return result;
   }
 
@@ -82,13 +69,6 @@ class LoopsWriter {
     const std::string& reason = failures_.first();
     throw Error(task_.name.string() +
                 ": cannot be written: GDAL: " + (reason.empty() ? "no reason given" : reason));
-  }
-
-  void check_parts() const {
-    const fs::path cut = find_cut_part(task_.place, has_crs_);
-    if (cut.empty()) return;
-    const fs::path name = fs::path(task_.name).replace_extension(cut.extension());
-    throw Error(name.string() + ": cannot be written: its end is missing; is the disk full?");
   }
 
   GisCrs set_crs() {
@@ -136,12 +116,11 @@ class LoopsWriter {
   }
 
   void create_layer(const char* name, bool is_of_polygons) {
-    std::vector<std::string> options = format_of(task_.format).options;
-    if (is_of_polygons && task_.format == GisFormat::kShapefile)
-      std::replace(options.begin(), options.end(), std::string("SHPT=ARCZ"), std::string("SHPT=POLYGONZ"));
+    CPLStringList options;
+    for (const std::string& option : format_of(task_.format).options) options.AddString(option.c_str());
     OGRLayer* const layer =
         dataset_->CreateLayer(name, crs_.IsEmpty() ? nullptr : &crs_,
-                              is_of_polygons ? wkbPolygon25D : wkbLineString25D, list_of(options).List());
+                              is_of_polygons ? wkbPolygon25D : wkbLineString25D, options.List());
     require(layer != nullptr);
     layers_.push_back({layer, is_of_polygons});
     add_field("id", OFTInteger64);
@@ -149,17 +128,7 @@ class LoopsWriter {
     add_field("cause", OFTString);
     add_field("unit", OFTString);
     for (const LoopMeasure& measure : kLoopMeasures)
-      add_field(name_of_field(measure), measure.is_count ? OFTInteger64 : OFTReal);
-  }
-
-  static CPLStringList list_of(const std::vector<std::string>& options) {
-    CPLStringList list;
-    for (const std::string& option : options) list.AddString(option.c_str());
-    return list;
-  }
-
-  std::string name_of_field(const LoopMeasure& measure) const {
-    return std::string(task_.format == GisFormat::kShapefile ? measure.short_name : measure.name);
+      add_field(std::string(measure.name), measure.is_count ? OFTInteger64 : OFTReal);
   }
 
   void add_field(const std::string& name, OGRFieldType type) {
@@ -171,8 +140,6 @@ class LoopsWriter {
   void put(std::size_t id, const ReportedLoop& loop, const Layer& layer) {
     const ExplainedLoop explained = task_.detection.loop(id);
     OGRFeature feature(layer.layer->GetLayerDefn());
-    // A Shapefile's field of 24 characters would keep only the first ones of longer numbers.
-    const double most = task_.format == GisFormat::kShapefile ? 1e20 : HUGE_VAL;
     int field = 0;
     feature.SetField(field++, static_cast<GIntBig>(id));
     feature.SetField(field++, lacuna::name_of(loop.measures.kind));
@@ -181,7 +148,7 @@ class LoopsWriter {
     feature.SetField(field++, task_.unit.c_str());
     for (const LoopMeasure& measure : kLoopMeasures) {
       const double value = measure.of(explained);
-      if (!std::isfinite(value) || std::abs(value) >= most) {
+      if (!std::isfinite(value)) {
         feature.SetFieldNull(field++);
       } else if (measure.is_count) {
         feature.SetField(field++, static_cast<GIntBig>(value));
@@ -195,7 +162,7 @@ class LoopsWriter {
     require(layer.layer->CreateFeature(&feature) == OGRERR_NONE);
   }
 
-  // RFC 7946 wants the outline counter-clockwise, a Shapefile clockwise, for which GDAL cares.
+  // RFC 7946 wants the outline counter-clockwise.
   static std::unique_ptr<OGRGeometry> polygon_of(const OGRLineString& line) {
     auto outline = std::make_unique<OGRLinearRing>();
     outline->addSubLineString(&line);

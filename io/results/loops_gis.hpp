@@ -15,7 +15,7 @@
 
 namespace lacuna::io {
 
-enum class GisFormat : std::uint8_t { kGeoPackage, kGeoJson, kShapefile };
+enum class GisFormat : std::uint8_t { kGeoPackage, kGeoJson };
 
 // The layer of each file, by which a program recognises an earlier file.
 inline constexpr const char* kGisLayer = "lacuna_loops";
@@ -29,7 +29,7 @@ struct GisTask {
   std::string unit;                                 // as FileScan::length_unit
   std::string crs;                                  // as FileScan::common_crs
   std::filesystem::path name;                       // what errors call it
-  std::filesystem::path place;                      // of a GeoPackage or Shapefile, where it is made
+  std::filesystem::path place;                      // of a GeoPackage, where it is made
   std::function<void(std::string_view text)> take;  // of a GeoJSON; may throw
 };
 
@@ -42,8 +42,8 @@ enum class GisCrs : std::uint8_t {
 };
 
 // Writes the loops in order, each a closed line with z. Fields are id, kind, unit and the measures, empty if
-// a measure is not finite. With polygons, a GeoPackage has these in a layer of their own, and the other
-// formats have polygons in place of lines. The coordinates are the scan's, with all digits. The coordinates
+// a measure is not finite. With polygons, a GeoPackage has these in a layer of their own, and GeoJSON
+// has polygons in place of lines. The coordinates are the scan's, with all digits. The coordinates
 // of a GeoJSON are longitude and latitude of WGS 84 if the system is known, as RFC 7946 demands. There z
 // stays as it is, but for geocentric scans it is the ellipsoidal height. Holds one loop in memory. Equal
 // loops give equal bytes. Throws `Error` with GDAL's text.

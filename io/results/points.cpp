@@ -169,7 +169,7 @@ class AnnotatedFile {
       if (rows > *missing_) fail_changed(out_->path().string());
       *missing_ -= rows;
     }
-    writer_->put(block_);
+    writer_->put_rows(block_);
     return rows;
   }
 
@@ -185,7 +185,7 @@ class AnnotatedFile {
   std::unique_ptr<OutputFile> out_;
   std::unique_ptr<PointsForm> form_;
   std::unique_ptr<InputRows> input_;
-  std::unique_ptr<PointsWriter> writer_;
+  std::unique_ptr<RowsWriter> writer_;
   std::optional<std::uint64_t> missing_;  // rows that the file declares and that are not written yet
   std::vector<std::byte> block_;
 };

@@ -1,9 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/results/points_form.hpp"
 
+#include "io/ply/ply_writer.hpp"
+#include "io/results/local_coordinates.hpp"
 #include "io/rows/scalar.hpp"
+#include "io/text/csv_writer.hpp"
 
 namespace lacuna::io {
+namespace {
+
+class CsvForm final : public JoinedForm {
+ public:
+  using JoinedForm::JoinedForm;
+  std::unique_ptr<RowsWriter> writer(OutputFile& out, std::uint64_t) const override {
+    return std::make_unique<CsvWriter>(out, with_results());
+  }
+};
+
+class PlyForm final : public JoinedForm {
+ public:
+  using JoinedForm::JoinedForm;
+  std::unique_ptr<RowsWriter> writer(OutputFile& out, std::uint64_t rows) const override {
+    PlyElement vertex{.name = "vertex", .count = rows, .properties = {}};
+    for (const Property& property : with_results().properties)
+      vertex.properties.push_back({property.name, property.type, {}});
+    return std::make_unique<PlyWriter>(out, std::vector{std::move(vertex)}, offset());
+  }
+};
+
+}  // namespace
 
 JoinedForm::JoinedForm(const PointsPlan& plan, const std::vector<RowLayout>& layouts)
     : scan_(plan.scan),
@@ -25,6 +50,14 @@ RowLayout JoinedForm::with_results() const {
     all.stride += size_of(result.type);
   }
   return all;
+}
+
+std::unique_ptr<JoinedForm> csv_form(const PointsPlan& plan) {
+  return std::make_unique<CsvForm>(plan, plan.scan.layouts());
+}
+
+std::unique_ptr<JoinedForm> ply_form(const PointsPlan& plan) {
+  return std::make_unique<PlyForm>(plan, written_layouts(plan.scan, plan.config));
 }
 
 }  // namespace lacuna::io

@@ -6,26 +6,16 @@
 #include "io/options/options.hpp"
 #include "io/results/annotated_rows.hpp"
 #include "io/rows/local_offset.hpp"
+#include "io/rows/rows_writer.hpp"
 #include "io/scan/file_scan.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
 namespace lacuna::io {
-
-// A file that is being written.
-class PointsWriter {
- public:
-  virtual ~PointsWriter() = default;
-  // Takes whole rows of the form, each with its results behind it. Throws `Error`.
-  virtual void put(std::span<const std::byte> rows) = 0;
-  // Ends the file; called once, after all rows. Throws `Error`.
-  virtual void finish() {}
-};
 
 // The input of the forms. The scan must outlive them.
 struct PointsPlan {
@@ -44,8 +34,9 @@ class PointsForm {
   virtual std::size_t row_bytes() const = 0;  // without results
   // Reads all rows, from the first one on. Throws `Error`.
   virtual std::unique_ptr<InputRows> open() const = 0;
-  // Begins a file of so many rows. `out` must outlive the writer. Throws `Error`.
-  virtual std::unique_ptr<PointsWriter> writer(OutputFile& out, std::uint64_t rows) const = 0;
+  // Begins a file of so many rows, each with its results behind it. `out` must outlive the writer. Throws
+  // `Error`.
+  virtual std::unique_ptr<RowsWriter> writer(OutputFile& out, std::uint64_t rows) const = 0;
 };
 
 // Rows of files of any formats, joined by the names of columns. It offers the `positions` of its rows.

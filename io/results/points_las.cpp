@@ -107,17 +107,6 @@ void add_results(std::span<const ResultColumn> results, std::vector<LasExtraByte
   }
 }
 
-class LasRecords final : public PointsWriter {
- public:
-  template <class... Arguments>
-  explicit LasRecords(Arguments&&... arguments) : writer_(std::forward<Arguments>(arguments)...) {}
-  void put(std::span<const std::byte> rows) override { writer_.put(rows); }
-  void finish() override { writer_.finish(); }
-
- private:
-  LasWriter writer_;
-};
-
 class LasForm final : public PointsForm {
  public:
   LasForm(const PointsPlan& plan, bool is_compressed)
@@ -137,9 +126,9 @@ class LasForm final : public PointsForm {
   std::unique_ptr<InputRows> open() const override {
     return std::make_unique<LasRows>(scan_, file_, input_.kept);
   }
-  std::unique_ptr<PointsWriter> writer(OutputFile& out, std::uint64_t) const override {
-    return std::make_unique<LasRecords>(out, scan_.files()[file_], input_.header, input_.extra,
-                                        written_bytes_, compression_);
+  std::unique_ptr<RowsWriter> writer(OutputFile& out, std::uint64_t) const override {
+    return std::make_unique<LasWriter>(out, scan_.files()[file_], input_.header, input_.extra, written_bytes_,
+                                       compression_);
   }
 
  private:

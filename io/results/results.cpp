@@ -5,7 +5,6 @@
 #include "engine/run/parallel.hpp"
 #include "io/ply/ply_writer.hpp"
 #include "io/report/report.hpp"
-#include "io/report/report_page.hpp"
 #include "io/report/scene.hpp"
 #include "io/results/cut_outs.hpp"
 #include "io/results/gis_library.hpp"
@@ -49,14 +48,8 @@ std::filesystem::path lids_obj(const OutputFile& out) {
   return out.place().parent_path() / "lids.obj";
 }
 
-// The parts of a Shapefile that GDAL makes together with its .shp.
-ResultFile shapefile_part(std::string_view name) {
-  return {name, shapefile_mark(), [](D, S, C, OutputFile&) {}, [](C c) { return c.output.shp; },
-          Writer::kLibrary};
-}
-
 bool needs_gis_library(const FilesConfig& config) {
-  return config.output.gpkg || config.output.geojson || config.output.shp || config.output.coverage > 0;
+  return config.output.gpkg || config.output.geojson || config.output.coverage > 0;
 }
 
 // In the order in which they appear: holes.json comes last, and stands for all the others.
@@ -78,13 +71,6 @@ const std::vector<ResultFile>& all_results() {
       {"loops.geojson", kGeoJsonMark,
        [](D d, S s, C c, OutputFile& out) { write_loops_gis(d, s, c.output, GisFormat::kGeoJson, out); },
        [](C c) { return c.output.geojson; }},
-      {"loops.shp", shapefile_mark(),
-       [](D d, S s, C c, OutputFile& out) { write_loops_gis(d, s, c.output, GisFormat::kShapefile, out); },
-       [](C c) { return c.output.shp; }, Writer::kLibrary},
-      shapefile_part("loops.shx"),
-      shapefile_part("loops.dbf"),
-      shapefile_part("loops.prj"),  // with a crs
-      shapefile_part("loops.cpg"),
       {"lids.obj", kLidsObjMark, [](D d, S, C, OutputFile& out) { write_lids_obj(d, out); }, has_lids},
       {"lids.ply", kPlyMark,
        [](D d, S s, C c, OutputFile& out) { write_lids_ply(lids_obj(out), d, s, c.output, out); }, has_lids,
@@ -96,9 +82,9 @@ const std::vector<ResultFile>& all_results() {
       {"report.html", kReportMark,
        [](D, S, C, OutputFile& out) { write_report(read_scene(out.place().parent_path()), out); },
        [](C c) { return c.output.report; }, Writer::kThis, true},
-      // lacuna update writes it afterwards. It does not belong to the results of another run.
+      // lacuna update writes it afterwards, and lacuna stations writes the next one. They do not belong to
+      // the results of another run.
       {kChangesFile, kJsonMark, [](D, S, C, OutputFile&) {}, [](C) { return false; }},
-      // So does lacuna stations.
       {kNextStationsFile, kNextStationsMark, [](D, S, C, OutputFile&) {}, [](C) { return false; }},
       {"holes.csv", table_header(), [](D d, S, C, OutputFile& out) { write_table(d, out); }, always},
       {"run.json", kJsonMark, [](D d, S s, C c, OutputFile& out) { write_run(d, s, c, out); }, always},
@@ -113,7 +99,7 @@ std::vector<ResultFile> results_of(const FilesConfig& config) {
   return results;
 }
 
-// Those that this run does not write. An earlier run may have.
+// Returns the results that this run does not write. An earlier run may have written them.
 std::vector<ResultFile> unwanted_results(const FilesConfig& config) {
   std::vector<ResultFile> results;
   std::copy_if(all_results().begin(), all_results().end(), std::back_inserter(results),

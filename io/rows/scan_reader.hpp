@@ -4,6 +4,8 @@
 
 #include "engine/export.hpp"
 
+#include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -87,6 +89,20 @@ struct ReadOptions {
   // The bytes that a reader may hold of a file whose points cannot be read one by one: LAZ.
   std::uint64_t memory = std::uint64_t{64} << 20;
 };
+
+// Fills a batch with rows of `stride` bytes, at most `max_rows`, for a reader that has them one by one.
+// `put(to)` puts the next row there, and returns false at the end. Returns whether there is a row.
+template <class Put>
+bool fill_batch(RowBatch& batch, std::size_t max_rows, std::size_t stride, const Put& put) {
+  assert(max_rows > 0);
+  const std::size_t rows = std::min(max_rows, std::max<std::size_t>(1, kBatchBytes / stride));
+  batch.bytes.resize(rows * stride);
+  for (batch.count = 0; batch.count < rows; ++batch.count) {
+    if (!put(batch.bytes.data() + batch.count * stride)) break;
+  }
+  batch.bytes.resize(batch.count * stride);
+  return batch.count > 0;
+}
 
 // The data by which a format is recognised.
 struct FileStart {

@@ -19,14 +19,12 @@ void load_column(const RowBatch& rows, std::size_t stride, const Property& prope
               rows.count);
 }
 
-bool is_component(std::string_view property, const VectorNames& names) {
-  return std::find(names.begin(), names.end(), property) != names.end();
-}
-
 RowLayout with_components_as(Scalar type, const VectorNames& names, const RowLayout& layout) {
   std::vector<std::pair<std::string, Scalar>> columns;
-  for (const Property& property : layout.properties)
-    columns.emplace_back(property.name, is_component(property.name, names) ? type : property.type);
+  for (const Property& property : layout.properties) {
+    const bool is_component = std::find(names.begin(), names.end(), property.name) != names.end();
+    columns.emplace_back(property.name, is_component ? type : property.type);
+  }
   return packed_layout(columns);
 }
 

@@ -21,7 +21,6 @@ using VectorNames = std::array<const char*, 3>;
 inline constexpr VectorNames kPositionNames = {"x", "y", "z"};
 inline constexpr VectorNames kNormalNames = {"nx", "ny", "nz"};
 
-bool is_component(std::string_view property, const VectorNames& names);
 // Returns the same columns, packed. The components have this type.
 RowLayout with_components_as(Scalar type, const VectorNames& names, const RowLayout& layout);
 bool has_vectors(const RowLayout& layout, const VectorNames& names);

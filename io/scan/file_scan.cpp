@@ -3,8 +3,8 @@
 
 #include "engine/run/error.hpp"
 #include "io/formats.hpp"
+#include "io/rows/moved_reader.hpp"
 #include "io/rows/vectors.hpp"
-#include "io/scan/posed_reader.hpp"
 
 #include <algorithm>
 #include <functional>

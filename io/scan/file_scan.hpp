@@ -119,7 +119,7 @@ class LACUNA_API FileScan : public PointSource {
 
   std::vector<std::filesystem::path> files_;
   std::vector<std::optional<Pose>> poses_;                 // one per file
-  std::vector<std::shared_ptr<const ScanArrays>> arrays_;  // one per file; null: it is one
+  std::vector<std::shared_ptr<const ScanArrays>> arrays_;  // one per file; null for a file on disk
   InputConfig config_;
   std::uint64_t memory_;
   std::vector<FileState> states_;  // of each file; nothing for arrays

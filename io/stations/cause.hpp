@@ -41,14 +41,14 @@ struct LoopCause {
   Eigen::Vector3d hidden_from_place = Eigen::Vector3d::Constant(kUnknown);  // of its scanner, at that time
 
   double share(Cause cause) const { return shares[static_cast<std::size_t>(cause)]; }
-  // The cause with the largest share, the first of equal ones; none where no station is known.
+  // Returns the cause with the largest share, the first of equal ones; nothing where no station is known.
   std::optional<Cause> main() const {
     std::size_t largest = 0;
     for (std::size_t i = 1; i < kCauses; ++i)
       if (shares[i] > shares[largest]) largest = i;
     return shares[largest] > 0 ? std::optional(static_cast<Cause>(largest)) : std::nullopt;
   }
-  // Its name; empty where it is not known.
+  // Returns the name of that cause; empty where it is not known.
   std::string_view name() const {
     const std::optional<Cause> cause = main();
     return cause ? kCauseNames[static_cast<std::size_t>(*cause)] : std::string_view();
@@ -59,7 +59,7 @@ struct LoopCause {
 struct StationSummary {
   std::string name;
   Eigen::Vector3d place{0, 0, 0};  // of a path: halfway
-  double path = 0;                 // length of the path of a moving scanner; 0: it stood there
+  double path = 0;                 // length of the path of a moving scanner; 0 for a fixed one
   std::uint64_t points = 0;
   double certainty = 0;            // share of points that fit it: seen from there, or at its times
   double lowest = 0, highest = 0;  // sines of the elevations of its points

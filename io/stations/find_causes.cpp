@@ -19,13 +19,14 @@ namespace {
 
 constexpr double kFarther = 1.02;  // of the farthest point: beyond the range
 constexpr double kThrough = 0.05;  // share of longer ranges, of places without points
-constexpr double kShadow = 0.2;    // hidden area over that of a floor without return: all is hidden
-constexpr double kLevel = 0.7;     // cosine between the normal of a floor and the axis
+constexpr double kShadow =
+    0.2;  // hidden area over the area of floors without return, from which on both are hidden
+constexpr double kLevel = 0.7;  // cosine between the normal of a floor and the axis
 
 enum class Finding { kSurface, kLeftOut, kFarther, kNothing, kNearer, kOutOfView };
 constexpr std::size_t kFindings = 6;
 
-// The finding of the least rank counts, among equal ones that of the nearest station.
+// The finding of the least rank counts; among equal ranks, the finding of the nearest station.
 int rank_of(Finding finding) {
   return std::min(static_cast<int>(finding), static_cast<int>(Finding::kNearer));
 }
@@ -151,7 +152,7 @@ class Findings {
     return view.certainty() >= StationView::kLeastCertain;
   }
 
-  // By the station that has the most of them.
+  // Describes the hiders of the station that has the most of them.
   void describe_hiders(LoopCause& cause) const {
     std::map<std::int32_t, std::size_t> counts;
     for (const Hider& hider : hiders_) ++counts[hider.station];

@@ -22,11 +22,11 @@ inline constexpr double kLeastIncidence = 0.0523;
 // Places inside of a hole stand for its area. A station finds at each place:
 //   1. a point at the same range: the place does not count
 //   2. a point that a filter has left out: filtered
-//   3. a longer range than that of the place: opening
+//   3. a longer range than the place's: opening
 //   4. no return: opening, or no return, see below
 //   5. a shorter range: hidden; or nothing, as the place is outside of its field of view, beyond its farthest
 //      point, or seen at less than kLeastIncidence: out of view
-// The first finding of this list counts among all stations, and in 5 that of the nearest one.
+// The first finding of this list counts among all stations. In 5, the nearest station decides.
 //
 // A place without return is an opening where a twentieth of the hole has longer ranges. Else it is an opening
 // in a wall or a ceiling, and no return in a floor: rays that go down end on something. But where a part of
@@ -35,9 +35,9 @@ inline constexpr double kLeastIncidence = 0.0523;
 //
 // Holes keep unknown causes where there are no stations, or all places have points. Stations of little
 // certainty do not count. Cost: some 0.3 ms for each hole and station.
-// `tolerance`: a range that differs by less is the same; that of rays is added.
-// `path`: of a moving scanner; null: there is none. Each section of it counts as a station, in the directions
-// in which the scanner sweeps.
+// `tolerance`: ranges that differ by less are the same; the angle between rays adds to it.
+// `path` belongs to a moving scanner, and is null without one. Each section of it counts as a station, in the
+// directions in which the scanner sweeps.
 LoopCause cause_of(std::span<const InsidePlace> places, std::span<const StationView> views,
                    const PathView* path, double tolerance);
 double tolerance_of(const LoopMeasures& loop);  // two mean edges of it

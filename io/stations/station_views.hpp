@@ -23,7 +23,7 @@ namespace lacuna::io {
 
 struct StationView {
   Station station;
-  std::uint64_t points = 0;     // finite ones, with those that a filter leaves out
+  std::uint64_t points = 0;     // finite points, also the ones that a filter leaves out
   std::uint64_t conflicts = 0;  // at ranges that differ by a tenth from others in their directions
   double farthest = 0;          // range of a point
   double step = 0;              // mean angle between rays, radians

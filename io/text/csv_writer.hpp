@@ -3,6 +3,7 @@
 #pragma once
 
 #include "io/files/output_file.hpp"
+#include "io/rows/rows_writer.hpp"
 #include "io/rows/scan_reader.hpp"
 
 #include <cstddef>
@@ -10,7 +11,7 @@
 
 namespace lacuna::io {
 
-class CsvWriter {
+class CsvWriter final : public RowsWriter {
  public:
   // Writes the header line. Names are changed or quoted where this project's reader, or another, would
   // misread them. The characters ',' ';' '"' and control characters become '_'. A '_' comes before = + - and
@@ -20,7 +21,7 @@ class CsvWriter {
 
   // Writes rows of the layout, one after the other. Each number is the shortest text that reads back as the
   // same value of its type; `nan` has no sign. Several threads format; the bytes do not depend on them.
-  void put_rows(std::span<const std::byte> rows);
+  void put_rows(std::span<const std::byte> rows) override;
 
  private:
   OutputFile& out_;

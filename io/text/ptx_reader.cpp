@@ -66,24 +66,18 @@ class PtxReader final : public ScanReader {
   std::vector<ScannerPose> scanners() const override { return scanners_; }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
-    assert(max_rows > 0);
-    constexpr std::size_t kMostRows = 1 << 16;
-    const std::size_t rows = std::min(max_rows, kMostRows);
-    batch.bytes.resize(rows * layout_.stride);
-    batch.count = 0;
-    while (batch.count < rows) {
-      if (left_ == 0 && !begin_block()) break;
-      if (left_ == 0) continue;  // an empty grid
+    return fill_batch(batch, max_rows, layout_.stride, [&](std::byte* to) {
+      while (left_ == 0) {  // after a block, which may be an empty grid
+        if (!begin_block()) return false;
+      }
       if (!is_pending_ && read_ray() != values_)
         in_.fail_at_line(in_.line(),
                          "a ray needs " + std::to_string(values_) + " numbers, as the first one has");
       is_pending_ = false;
-      put_ray(batch.bytes.data() + batch.count * layout_.stride);
-      ++batch.count;
+      put_ray(to);
       --left_;
-    }
-    batch.bytes.resize(batch.count * layout_.stride);
-    return batch.count > 0;
+      return true;
+    });
   }
 
  private:

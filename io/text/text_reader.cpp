@@ -8,10 +8,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <set>
+#include <utility>
 
 namespace lacuna::io {
 namespace {
@@ -191,25 +191,20 @@ class TextReader final : public ScanReader {
   std::optional<std::uint64_t> expected_rows() const override { return std::nullopt; }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
-    assert(max_rows > 0);
-    const std::size_t rows = std::min(max_rows, std::max<std::size_t>(1, kBatchBytes / layout_.stride));
-    batch.bytes.resize(rows * layout_.stride);
-    batch.count = 0;
-    if (!pending_.empty()) {
-      add_row(pending_, batch);
-      pending_.clear();
-    }
-    while (batch.count < rows) {
-      const auto line = in_.next_line();
-      if (!line) break;
-      const std::string_view text = without_blanks(*line);
-      if (text.empty() || is_comment(text) || begins_block(text)) continue;
-      add_row(text, batch);
-    }
-    batch.bytes.resize(batch.count * layout_.stride);
-    if (batch.count == 0 && block_rows_ && rows_ < *block_rows_)
-      fail_number_of_rows("the file ends here with fewer");
-    return batch.count > 0;
+    return fill_batch(batch, max_rows, layout_.stride, [&](std::byte* to) {
+      if (!pending_.empty()) {
+        put_row(std::exchange(pending_, {}), to);
+        return true;
+      }
+      while (const auto line = in_.next_line()) {
+        const std::string_view text = without_blanks(*line);
+        if (text.empty() || is_comment(text) || begins_block(text)) continue;
+        put_row(text, to);
+        return true;
+      }
+      if (block_rows_ && rows_ < *block_rows_) fail_number_of_rows("the file ends here with fewer");
+      return false;
+    });
   }
 
  private:
@@ -288,11 +283,10 @@ class TextReader final : public ScanReader {
     is_separator_of_rows_ = true;
   }
 
-  void add_row(std::string_view row, RowBatch& batch) {
+  void put_row(std::string_view row, std::byte* to) {
     if (!is_separator_of_rows_) find_row_separator(row);
     if (rows_ == block_rows_) fail_number_of_rows("more");
-    parse_row(row, batch.bytes.data() + batch.count * layout_.stride);
-    ++batch.count;
+    parse_row(row, to);
     ++rows_;
   }
 

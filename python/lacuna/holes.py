@@ -283,15 +283,14 @@ class Holes:
         target.mkdir(parents=True, exist_ok=True)
         return [Path(shutil.copy2(file, target)) for file in sorted(self._folder.iterdir()) if file.is_file()]
 
-    def report(self, file: Union[str, os.PathLike], *, marks: Union[str, os.PathLike, None] = None) -> Path:
-        """Writes the scan and its holes in 3D as one HTML file, for a browser. Returns its name. marks: a file
-        that "Save marks" of an earlier report wrote; its marks are shown at the loops that they fit."""
+    def report(self, file: Union[str, os.PathLike]) -> Path:
+        """Writes the scan and its holes in 3D as one HTML file, for a browser. Returns its name."""
         with tempfile.TemporaryDirectory(prefix="lacuna-") as folder:
             if self._found is not None:
                 self.save(folder, cut_outs=0)
             else:
                 self._copy_files(Path(folder))
-            made = _core.write_report(folder, None if marks is None else os.fspath(marks))
+            made = _core.write_report(folder)
             return Path(shutil.copyfile(made, file))
 
     # ---- pictures

@@ -68,7 +68,7 @@ def detect(
     """Finds the holes of scan files, which together are one registered scan and may be larger than memory.
 
     files: names of scans, of folders with scans, or "@list" of a list of names. LAS, LAZ, E57, PLY, PCD, PTX,
-        OBJ, OFF, STL and text are read.
+        OBJ, STL and text are read.
     Other arguments are those of `find_holes`.
     """
     names = [files] if isinstance(files, (str, os.PathLike)) else list(files)

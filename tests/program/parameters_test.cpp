@@ -212,8 +212,8 @@ TEST_CASE("each option without effect has its warning, each other none") {
         "lacuna: warning: --points-format changes nothing without --points or --cut-outs\n");
   CHECK(runs.warnings({"--points-format", "ply", "--cut-outs", "1"}).empty());
   CHECK(runs.warnings({"--polygons"}) ==
-        "lacuna: warning: --polygons changes nothing without --gpkg, --geojson or --shp\n");
-  CHECK(runs.warnings({"--polygons", "--shp"}).empty());
+        "lacuna: warning: --polygons changes nothing without --gpkg or --geojson\n");
+  CHECK(runs.warnings({"--polygons", "--gpkg"}).empty());
 }
 
 TEST_CASE("a config file's value without effect has its warning, unless it is the default") {

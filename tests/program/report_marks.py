@@ -200,10 +200,10 @@ def check_links(driver):
 
 
 def check_has(driver, file):
-    """The page begins with the marks and notes of a file, whatever the ids."""
+    """The page has the marks and notes of a file, whatever the ids."""
     wanted = sorted((entry["mark"], entry["note"]) for entry in json.loads(file.read_text(encoding="utf-8"))["marks"])
     have = sorted((entry["mark"], entry["note"]) for entry in json.loads(value(driver, "lacuna.marks_text()"))["marks"])
-    require(len(wanted) > 1 and have == wanted, f"the page begins with the {len(wanted)} marks of the file")
+    require(len(wanted) > 1 and have == wanted, f"the page has the {len(wanted)} marks of the file")
     require(value(driver, "document.querySelectorAll('#body .mark-cell svg').length") > 0, "the table shows them")
     require(value(driver, "window.foreign === undefined"), "no script of a note runs")
 

@@ -3,13 +3,12 @@
 """Checks report.html in a real browser: headless Chromium, with WebGL in software.
 
     report_page.py REPORT.html [--screenshot OUT.png] [--size 1400x900] [--dark] [--no-webgl] [--run SCRIPT] [--no-checks] [--causes]
-                   [--save-marks FILE] [--has-marks FILE] [--load-marks FILE]
+                   [--save-marks FILE] [--load-marks FILE]
 
 --screenshot  a picture at the end (with --run: after that JavaScript and its flight)
 --causes      checks causes and stations alone, or that the page says how to give stations
 --save-marks  writes the marks that the checks have made
---has-marks   checks that the page begins with the marks and notes of this file
---load-marks  loads a file of marks, as by hand
+--load-marks  loads a file of marks, as by hand, and checks that the page has them
 --no-webgl    a browser without WebGL: the message, the table and the facts
 Prints what it checked; exits with 1 and one line on failure, with 77 if Selenium or Chromium is missing.
 Debian: python3-selenium chromium chromium-driver.
@@ -197,10 +196,9 @@ def run(driver, arguments):
     messages = [entry["message"] for entry in driver.get_log("browser") if "GPU stall" not in entry["message"]
                 and "GL Driver Message" not in entry["message"]]
     require(not messages, "no message in the console" + (f": {messages[0]}" if messages else ""))
-    if arguments.has_marks:
-        report_marks.check_has(driver, arguments.has_marks)
     if arguments.load_marks:
         print(report_marks.load(driver, arguments.load_marks.read_text(encoding="utf-8")))
+        report_marks.check_has(driver, arguments.load_marks)
     if arguments.causes:
         report_causes.check(driver, driver.execute_script("return lacuna.visible_loops()"))
     elif not arguments.no_checks:
@@ -244,7 +242,6 @@ def main():
     parser.add_argument("--no-checks", action="store_true")
     parser.add_argument("--causes", action="store_true")
     parser.add_argument("--save-marks", type=Path)
-    parser.add_argument("--has-marks", type=Path)
     parser.add_argument("--load-marks", type=Path)
     parser.add_argument("--run", help="JavaScript before the picture")
     arguments = parser.parse_args()

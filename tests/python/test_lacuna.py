@@ -247,13 +247,6 @@ class Files(Folder):
         report = holes.report(self.folder / "x.html").read_text()
         self.assertTrue(report.startswith("<!doctype html>\n<!-- Lacuna report"))
         self.assertEqual(loaded.report(self.folder / "y.html").read_text().split("<body")[0], report.split("<body")[0])
-        hole = next(loop for loop in holes.loops if loop.kind == "hole")
-        mark = {"id": 999, "kind": "hole", "centroid": list(hole.centroid), "diameter": hole.diameter, "mark": "scan again",
-                "note": "a note from Python"}
-        marks = self.folder / "marks.json"
-        marks.write_text(json.dumps({"schema": "marks 1", "marks": [mark]}))
-        self.assertIn(mark["note"], holes.report(self.folder / "x.html", marks=marks).read_text())
-        self.assertNotIn(mark["note"], report)
 
     def test_files_of_others_stay(self):
         (self.folder / "holes.csv").write_text("mine")

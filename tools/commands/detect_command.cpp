@@ -122,8 +122,7 @@ FilesConfig config_of(const StoredRun& run, const fs::path& workspace) {
 }
 
 std::unique_ptr<FileScan> open_inputs(const std::vector<ScanInput>& inputs, const FilesConfig& config) {
-  auto scan =
-      std::make_unique<FileScan>(inputs, config.input, Memory::share(config.run.memory_limit).reading);
+  auto scan = std::make_unique<FileScan>(inputs, config.input, read_options(config).memory);
   refuse_degrees(*scan);
   for (const std::string& warning : input_warnings(*scan)) spdlog::warn("{}", warning);
   return scan;
@@ -208,9 +207,8 @@ void run_detect(const Command& command, const DetectArguments& arguments) {
   require(command, "SCAN");
   require(command, "--out");
   if (arguments.run.out.empty()) throw WrongOption("--out", "a folder name is needed");
-  const ReadOptions options{.columns = config.input.columns,
-                            .memory = Memory::share(config.run.memory_limit).reading};
-  const std::string summary = detect_to(expand_inputs(arguments.scans, options), config, arguments.run);
+  const std::string summary =
+      detect_to(expand_inputs(arguments.scans, read_options(config)), config, arguments.run);
   if (!arguments.run.quiet) std::cout << summary;
 }
 
@@ -221,10 +219,7 @@ void add_detect_command(const Command& program) {
       program.add_command("detect", "Find the holes of a scan and write them to a folder");
   // Its life ends with the callback's, the app's own.
   const auto arguments = std::make_shared<DetectArguments>(command);
-  command
-      .add_option("SCAN", arguments->scans,
-                  "Scan files, folders of them, or @LIST of their names; several are one registered scan")
-      .type("SCAN");
+  add_scans(command, arguments->scans);
   command
       .add_flag("--print-config", arguments->print_config,
                 "Print the parameters in effect as a config file, and end")

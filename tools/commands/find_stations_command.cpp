@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/error.hpp"
-#include "engine/run/job.hpp"
 #include "engine/store/temporary_folder.hpp"
 #include "io/stations/find_station.hpp"
 #include "io/stations/list_lines.hpp"
@@ -105,9 +104,8 @@ void find_certainties(std::vector<Listed>& stations, FileScan& scan, const RunCo
 void run_find_stations(const FindArguments& arguments) {
   const FilesConfig config = arguments.parameters.read().config;
   prepare_process(config.run);
-  const std::uint64_t memory = Memory::share(config.run.memory_limit).reading;
-  FileScan scan(expand_inputs(arguments.scans, {.columns = config.input.columns, .memory = memory}),
-                config.input, memory);
+  const ReadOptions options = read_options(config);
+  FileScan scan(expand_inputs(arguments.scans, options), config.input, options.memory);
   std::vector<Listed> stations;
   std::vector<std::string> others;
   for (const Sweep& sweep : read_sweeps(scan)) {
@@ -147,9 +145,7 @@ void add_find_stations_command(const Command& program) {
   const Command command = program.add_command(
       "find-stations", "Find where scanners stood, from scans that are single sweeps in their order");
   const auto arguments = std::make_shared<FindArguments>(command);
-  command.add_option("SCAN", arguments->scans, "Scan files, folders of them, or @LIST of their names")
-      .type("SCAN")
-      .required();
+  add_scans(command, arguments->scans).required();
   command.runs([arguments] { run_find_stations(*arguments); });
 }
 

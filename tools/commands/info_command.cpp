@@ -243,9 +243,8 @@ void print_json(const std::vector<FileInfo>& files, const FileScan& scan, const 
 void run_info(const InfoArguments& arguments) {
   const FilesConfig config = arguments.parameters.read().config;
   prepare_process(config.run);
-  const std::uint64_t memory = Memory::share(config.run.memory_limit).reading;
-  const ReadOptions options{.columns = config.input.columns, .memory = memory};
-  FileScan scan(expand_inputs(arguments.scans, options), config.input, memory);
+  const ReadOptions options = read_options(config);
+  FileScan scan(expand_inputs(arguments.scans, options), config.input, options.memory);
   std::vector<FileInfo> files;
   for (std::size_t i = 0; i < scan.files().size(); ++i) files.push_back(read_file_info(scan, i, options));
   const RunInfo run = inspect_run(scan, config);
@@ -265,11 +264,7 @@ void add_info_command(const Command& program) {
   const Command command =
       program.add_command("info", "Show what scan files hold and what a run on them would take");
   const auto arguments = std::make_shared<InfoArguments>(command);
-  command
-      .add_option("SCAN", arguments->scans,
-                  "Scan files, folders of them, or @LIST of their names; several are one registered scan")
-      .type("SCAN")
-      .required();
+  add_scans(command, arguments->scans).required();
   command.add_flag("--json", arguments->json, "Print the same as JSON, for programs");
   command.runs([arguments] { run_info(*arguments); });
 }

@@ -7,6 +7,7 @@
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/visible_text.hpp"
+#include "tools/run/folders.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -70,9 +71,7 @@ void add_render_command(const Command& program) {
   const Command command =
       program.add_command("render", "Draw the scan and its holes as a PNG, without a browser");
   const auto arguments = std::make_shared<RenderArguments>();
-  command.add_option("DIR", arguments->folder, "Folder with the results of lacuna detect")
-      .type("DIR")
-      .required();
+  add_results_folder(command, arguments->folder);
   command.add_option("--out", arguments->out, "Picture to write, in PNG; its name ends in .png")
       .type("FILE")
       .name_ending_in(".png")

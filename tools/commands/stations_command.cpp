@@ -12,6 +12,7 @@
 #include "tools/console/command_line.hpp"
 #include "tools/console/measures_text.hpp"
 #include "tools/console/visible_text.hpp"
+#include "tools/run/folders.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -204,9 +205,7 @@ void add_stations_command(const Command& program) {
   const Command command =
       program.add_command("stations", "Say where a scanner should stand next, to see what is hidden");
   const auto arguments = std::make_shared<StationsArguments>();
-  command.add_option("DIR", arguments->folder, "Folder with the results of lacuna detect")
-      .type("DIR")
-      .required();
+  add_results_folder(command, arguments->folder);
   command.add_option("--count", arguments->count, "How many places at most").whole_number().show_default();
   const auto length = [&](const char* name, double& value, const char* help) {
     return command.add_option(name, value, help).real_number().type("LENGTH").show_default();

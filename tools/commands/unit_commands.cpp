@@ -11,6 +11,7 @@
 #include "tools/console/measures_text.hpp"
 #include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
+#include "tools/run/run_costs.hpp"
 #include "tools/run/signals.hpp"
 
 #include <algorithm>
@@ -37,13 +38,11 @@ std::uint64_t about_points(const FileScan& scan) {
   return points;
 }
 
-// Returns whole minutes that a task takes at most, on a slow core.
-std::uint64_t minutes_of(const Step& step, std::int64_t threads) {
-  // Seconds of one thread. Measured on rough scans: 1.4e-6, and up to 0.7e-6 (bench/NOTES.md).
-  const double of_point = step.evaluates ? 3e-6 : 2e-6;
-  const double share = static_cast<double>(step.points) / static_cast<double>(step.tasks);
-  return static_cast<std::uint64_t>(
-      std::ceil(1 + share * of_point / static_cast<double>(std::max<std::int64_t>(threads, 1)) / 60));
+// Returns whole minutes that a task takes at most. A whole run on its points takes more than twice as long as
+// a step, and is the bound.
+std::uint64_t minutes_of(const Step& step, const FileScan& scan, const Config& config) {
+  const std::uint64_t points = step.points / step.tasks + 1;
+  return static_cast<std::uint64_t>(std::ceil(1 + run_costs(scan, config, points, points).seconds / 60));
 }
 
 struct PlanArguments {
@@ -55,7 +54,8 @@ struct PlanArguments {
   RunArguments run;
 };
 
-void print_plan(const PlanArguments& arguments, const std::vector<Step>& steps, const Config& config) {
+void print_plan(const PlanArguments& arguments, const std::vector<Step>& steps, const FileScan& scan,
+                const Config& config) {
   const std::uint64_t memory = config.run.memory_limit;
   std::vector<std::vector<std::string>> rows = {{"step", "tasks", "points", "memory of a task", "minutes"}};
   const auto add = [&](const std::string& name, std::size_t tasks, std::uint64_t points,
@@ -69,11 +69,11 @@ void print_plan(const PlanArguments& arguments, const std::vector<Step>& steps, 
   };
   std::uint64_t all = 0;
   for (const Step& step : steps) {
-    add(step.name(), step.tasks, step.points, minutes_of(step, config.run.threads));
+    add(step.name(), step.tasks, step.points, minutes_of(step, scan, config));
     all += step.evaluates ? step.points : 0;
   }
   // All tiles are read again, and their loops found; the levels that are no steps are made.
-  add("finish", 1, all, minutes_of({.points = all}, config.run.threads));
+  add("finish", 1, all, minutes_of({.points = all}, scan, config));
   if (!arguments.tsv) std::cout << print_table(rows);
 }
 
@@ -84,11 +84,11 @@ void run_plan(const PlanArguments& arguments) {
   constexpr std::uint64_t kMemoryOfTask = std::uint64_t{4} << 30;
   if (config.run.memory_limit == 0) config.run.memory_limit = kMemoryOfTask;
   const std::unique_ptr<FileScan> scan =
-      open_inputs(expand_inputs(arguments.scans, {.columns = config.input.columns}), config);
+      open_inputs(expand_inputs(arguments.scans, read_options(config)), config);
   config.run.note = print_config(config);
   const MadeFolder folder(workspace);
   const FolderLock alone(folder.path());
-  print_plan(arguments, plan(*scan, config, arguments.tasks, about_points(*scan)), config);
+  print_plan(arguments, plan(*scan, config, arguments.tasks, about_points(*scan)), *scan, config);
 }
 
 struct WorkArguments {
@@ -108,7 +108,7 @@ void run_work(const WorkArguments& arguments) {
   if (!step) throw WrongOption("--step", "allowed: a step of lacuna plan, such as evaluate-0");
   if (arguments.task >= step->tasks)
     throw WrongOption("--task", "allowed: 0 to " + std::to_string(step->tasks - 1));
-  FileScan scan(inputs_of(stored.names), config.input, Memory::share(config.run.memory_limit).reading);
+  FileScan scan(inputs_of(stored.names), config.input, read_options(config).memory);
   watch_workspace(arguments.workspace);
   const fs::path parent = config.run.scratch.empty() ? arguments.workspace : fs::path(config.run.scratch);
   const TemporaryFolder scratch(parent, "lacuna-");
@@ -144,11 +144,7 @@ void add_workspace(const Command& command, fs::path& workspace) {
 void add_plan_command(const Command& program) {
   const Command command = program.add_command("plan", "Prepare a run that several processes share");
   const auto arguments = std::make_shared<PlanArguments>(command);
-  command
-      .add_option("SCAN", arguments->scans,
-                  "Scan files, folders of them, or @LIST of their names; several are one registered scan")
-      .required()
-      .type("SCAN");
+  add_scans(command, arguments->scans).required();
   command.add_option("--tasks", arguments->tasks, "Tasks that evaluate the tiles of a level at the same time")
       .required()
       .whole_number(1, kMostTasks)

@@ -16,8 +16,8 @@ struct TypicalTime {
   double weight;
 };
 
-// Percent of a run with default options, measured on scans of 0.8 to 3 million points (dragon_30scans,
-// balm_23scans, a synthetic plane) with 2 threads. Stages that only some runs have are in the same unit.
+// Times of stages, of which 100 are about the time of a default run without `levels`. Measured on scans of
+// 0.8 to 3 million points (dragon_30scans, balm_23scans, a synthetic plane) with 2 threads.
 constexpr std::array<TypicalTime, 15> kTypicalTimes{{{"survey", 3},
                                                      {"bucket", 11},
                                                      {"thin", 30},
@@ -81,8 +81,9 @@ void OverallProgress::end() {
   behind_ += std::exchange(current_, 0);
 }
 
-// For a stage without a total, the pace so far gives an expected time. After this time the share is one half.
-// If no time is expected, the share is 1 as soon as time has passed.
+// For a stage without a total, the stages before it give its expected time: its weight at their pace. After
+// this time, the share is one half. The first stage has one second. If the stages before took no time at all,
+// nothing is expected, and the share is 1 at once.
 double OverallProgress::share_of_stage(double seconds, std::uint64_t done, std::uint64_t total) const {
   if (total > 0) return std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
   const double spent = std::max(seconds - begin_, 0.0);

@@ -22,7 +22,7 @@ struct Shares {
 
 struct Overlap {
   std::map<std::size_t, Shares> of;  // the true loops that the loop comes near to
-  double on_any = 0;                 // share of its points on those that count
+  double on_any = 0;                 // share of its points on true loops that count
 };
 
 EdgeTree tree_of_loops(std::span<const LoopIds> loops, Positions positions) {

@@ -89,7 +89,7 @@ void decide_false_loops(std::span<const io::LoopIds> loops, std::span<const True
 
 // The probability that a loop that matches a true one has a higher confidence than a false one, ties being
 // half. This is the area under the ROC curve. Loops without a confidence (NaN) take no part, and neither do
-// those that are neither right nor wrong (short, joined, parted, step, unsampled). There is no value where
+// loops that are neither right nor wrong (short, joined, parted, step, unsampled). There is no value where
 // either kind is missing.
 std::optional<double> area_under_roc(std::span<const LoopMatch> loops, std::span<const double> confidence);
 

@@ -15,7 +15,7 @@ struct AttributeCounts {
   std::uint64_t rows = 0;
   std::map<int, std::uint64_t> classes;  // empty if the file has no property classification
   bool has_returns = false;
-  std::uint64_t only = 0, first = 0, later = 0;  // of pulses with one return, and of those with several
+  std::uint64_t only = 0, first = 0, later = 0;  // of pulses with one return, and with several
 };
 
 // Reads the file to its end, `rows_at_a_time`. Throws `Error`.

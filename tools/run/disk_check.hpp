@@ -2,8 +2,8 @@
 // Checks before a run whether the disks hold its files.
 #pragma once
 
-#include "io/options/options.hpp"
 #include "engine/run/disk_space.hpp"
+#include "io/options/options.hpp"
 #include "io/scan/file_scan.hpp"
 
 #include <filesystem>

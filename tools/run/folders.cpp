@@ -72,6 +72,10 @@ void MadeFolder::remove_empty() const {
   }
 }
 
+Option add_results_folder(const Command& command, fs::path& folder) {
+  return command.add_option("DIR", folder, "Folder with the results of lacuna detect").type("DIR").required();
+}
+
 fs::path scratch_folder(const RunConfig& run) {
   return run.scratch.empty() ? fs::temp_directory_path() : fs::path(run.scratch);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/config/config.hpp"
+#include "tools/console/command_line.hpp"
 
 #include <filesystem>
 #include <vector>
@@ -28,6 +29,9 @@ class MadeFolder {
   std::filesystem::path folder_;
   std::vector<std::filesystem::path> made_;  // innermost first
 };
+
+// Adds the argument DIR of commands that begin with the results of a run.
+Option add_results_folder(const Command& command, std::filesystem::path& folder);
 
 // Returns the folder for temporary files of commands without a folder of results: the config's, else the
 // system's.

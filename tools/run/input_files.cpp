@@ -2,6 +2,7 @@
 #include "tools/run/input_files.hpp"
 
 #include "engine/run/error.hpp"
+#include "engine/run/job.hpp"
 #include "io/files/input_file.hpp"
 #include "io/files/number.hpp"
 #include "io/formats.hpp"
@@ -136,6 +137,17 @@ std::vector<ScanInput> expand_inputs(const std::vector<fs::path>& given, const R
     }
   }
   return files;
+}
+
+Option add_scans(const Command& command, std::vector<fs::path>& scans) {
+  return command
+      .add_option("SCAN", scans,
+                  "Scan files, folders of them, or @LIST of their names; several are one registered scan")
+      .type("SCAN");
+}
+
+ReadOptions read_options(const FilesConfig& config) {
+  return {.columns = config.input.columns, .memory = Memory::share(config.run.memory_limit).reading};
 }
 
 }  // namespace lacuna::tools

@@ -2,7 +2,9 @@
 // The scan files that the user names, one by one, by folder or in a list.
 #pragma once
 
+#include "io/options/options.hpp"
 #include "io/scan/file_scan.hpp"
+#include "tools/console/command_line.hpp"
 
 #include <filesystem>
 #include <vector>
@@ -17,5 +19,11 @@ namespace lacuna::tools {
 // scan, if a pose is not valid, and for "-".
 std::vector<io::ScanInput> expand_inputs(const std::vector<std::filesystem::path>& given,
                                          const io::ReadOptions& options);
+
+// Adds the argument SCAN of a command, for `expand_inputs`.
+Option add_scans(const Command& command, std::vector<std::filesystem::path>& scans);
+
+// Returns the options by which a run with this config reads its files.
+io::ReadOptions read_options(const io::FilesConfig& config);
 
 }  // namespace lacuna::tools

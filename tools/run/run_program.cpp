@@ -33,8 +33,8 @@ int fail(const std::string& reason, ExitCode code) {
   return code;
 }
 
-// A full disk behind stdout is a failure like any other. A reader that has closed the pipe, as `head` does,
-// has all that it wants.
+// Returns the exit code. A full disk behind stdout is a failure like any other. A reader that has closed the
+// pipe, as `head` does, has all that it wants, so this is none.
 int flush_output() {
   std::cout.flush();
   if (std::cout || output_failure() == EPIPE) return kDone;
@@ -54,8 +54,9 @@ std::string one_line(std::string text) {
   return text;
 }
 
-// If one of the three is closed, the next file to be opened would take its number, and messages would go into
-// that file. Writing to the opened one fails, as it does to a closed one.
+// If stdin, stdout or stderr is closed, the next file that the program opens would take its number, and
+// messages would go into that file. So /dev/null takes the number. It is open for reading alone: writing to
+// it fails, as it does for a closed stdout.
 void open_standard_descriptors() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(descriptor, F_GETFD) >= 0) continue;
@@ -67,7 +68,8 @@ void open_standard_descriptors() {
 
 void prepare_process(const std::string& name) {
   open_standard_descriptors();
-  // A closed pipe and a file over the size limit are errors to report, after the workspace is removed.
+  // These signals would end the process. Ignored, they are errors of writing, which it reports after it has
+  // removed its temporary files.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   start_log(name);

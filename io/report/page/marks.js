@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Marks of loops: what a reader decides about each, with a note. docs/formats.md has the form of a file of them.
 //
-// The program writes marks into a page as the initial state. From then on the browser keeps them, by result and by that
-// initial state: a page that is written with other marks starts with these.
+// The browser keeps them, by result.
 
 const kMarksSchema = "marks 1";
 // In the order of the filter and of the sort; `key` sets the mark.
@@ -24,7 +23,7 @@ class Marks {
     this.clear();
     this.is_kept = can_keep();
     const kept = this.kept();
-    if (kept) this.take(kept); else this.take_page(report.marks || {});
+    if (kept) this.take(kept);
     window.addEventListener("storage", (event) => { if (event.key === this.key) this.take_again(); });
     window.addEventListener("pagehide", () => this.keep());
   }
@@ -103,18 +102,6 @@ class Marks {
     return {by_place, unmatched};
   }
 
-  // What the program has written into the page.
-  take_page({id = [], mark = [], note = [], unmatched = []}) {
-    const index_of = new Map(Array.from(this.loops.id, (value, i) => [value, i]));
-    id.forEach((value, i) => {
-      const index = index_of.get(value);
-      if (index === undefined || !kMarkNames.includes(mark[i])) return;
-      this.mark[index] = mark[i];
-      this.note[index] = String(note[i]);
-    });
-    this.unmatched = unmatched;
-  }
-
   // Another window of this page has changed them.
   take_again() {
     const kept = this.kept();
@@ -160,10 +147,10 @@ function can_keep() {
   }
 }
 
-// Equal for pages of equal results that start with equal marks.
-function result_code({title, inputs, loops, marks}) {
+// Equal for pages of equal results.
+function result_code({title, inputs, loops}) {
   const {id, centroid, diameter} = loops || {};
-  return text_code(JSON.stringify([title, inputs, id, centroid, diameter, marks || {}]));
+  return text_code(JSON.stringify([title, inputs, id, centroid, diameter]));
 }
 
 // 64 bits of a text, as hexadecimal digits: FNV-1a (Fowler, Noll, Vo) from two starts.
@@ -209,7 +196,7 @@ function read_marks(text) {
   });
 }
 
-// Finds the loop of each entry, as io/report/marks.cpp does: by id, then by place. Returns {loop_of, by_place}:
+// Finds the loop of each entry: by id, then by place, as docs/formats.md says. Returns {loop_of, by_place}:
 // an index of a loop, or -1, for each entry, and how many were found by place.
 function match_marks(entries, loops) {
   const loop_of = new Array(entries.length).fill(-1), is_taken = new Uint8Array(loops.count);

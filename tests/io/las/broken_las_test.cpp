@@ -85,10 +85,8 @@ std::vector<WholeFile> all_files() {
   std::vector<WholeFile> files;
   for (int format = 0; format <= 10; ++format) files.push_back(plain(format < 6 ? format % 4 : 4, format));
   for (const int format : {0, 1, 2, 3}) {
-    files.push_back(compressed(1, format, 1, {12}, false));
-    for (const std::uint16_t version : {1, 2}) {
-      for (const auto& chunks : {kFixed, kVarying}) files.push_back(compressed(2, format, version, chunks));
-    }
+    files.push_back(compressed(1, format, 2, {12}, false));
+    for (const auto& chunks : {kFixed, kVarying}) files.push_back(compressed(2, format, 2, chunks));
   }
   for (const int format : {6, 7, 8}) {
     for (const std::uint16_t version : {3, 4}) {
@@ -100,7 +98,7 @@ std::vector<WholeFile> all_files() {
 
 TEST_CASE("LAZ without a chunk table: more points than its bytes can hold are an error at once", "[io]") {
   const ScratchFolder folder;
-  std::string bytes = compressed(1, 0, 1, {12}, false).bytes;
+  std::string bytes = compressed(1, 0, 2, {12}, false).bytes;
   const std::size_t points_at = 227 + 54 + 192 + 54 + 46;
   put(bytes, 107, std::uint32_t{10'000'000});
   CHECK(error_of([&] { open_scan(folder.write("a.laz", bytes), {}); })
@@ -145,7 +143,7 @@ bool same_row(const std::vector<double>& a, const std::vector<double>& b) {
 TEST_CASE("LAZ gives the same points, whether its chunks fit into the memory or not", "[io]") {
   const ScratchFolder folder;
   for (const WholeFile& file : {compressed(2, 3, 2, {60'000, 60'000}), compressed(4, 7, 3, {60'000, 5}),
-                                compressed(1, 1, 1, {60'000}, false)}) {
+                                compressed(1, 1, 2, {60'000}, false)}) {
     const auto path = folder.write("a.laz", file.bytes);
     INFO(file.name);
     // Little more than what the models take, and much more than a chunk.

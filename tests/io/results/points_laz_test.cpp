@@ -47,7 +47,7 @@ std::filesystem::path compress(const ScratchFolder& folder, int format, const la
   LasWriter writer(out, origin, header, {}, bytes, LasCompression{.layout = layout, .memory = memory});
   const auto records = std::as_bytes(std::span(points));
   for (std::size_t at = 0; at < records.size(); at += 7'001 * bytes)
-    writer.put(records.subspan(at, std::min(7'001 * bytes, records.size() - at)));
+    writer.put_rows(records.subspan(at, std::min(7'001 * bytes, records.size() - at)));
   writer.finish();
   out.close();
   return file;

@@ -68,7 +68,7 @@ TEST_CASE(
   std::filesystem::create_directory(folder / "in");
   const std::vector<std::pair<std::string, std::string>> inputs = {
       {"a.xyz", kText},       {"b.ply", kPly}, {"c.d.pcd", kPcd},
-      {"e.LAS", las_bytes()}, {"f", kPly},     {"g.off", "OFF\n1 0 0\n1 2 3\n"}};
+      {"e.LAS", las_bytes()}, {"f", kPly},     {"g.obj", "v 1 2 3\n"}};
   std::vector<ScanInput> names;
   for (const auto& [name, content] : inputs) names.emplace_back(folder.write("in/" + name, content));
   FileScan scan(names, {});

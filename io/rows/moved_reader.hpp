@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scan moved to its place in the registered scan.
+// A file with coordinates of its own, read in the coordinates of the scan.
 #pragma once
 
+#include "io/rows/local_offset.hpp"
 #include "io/rows/pose.hpp"
 #include "io/rows/scan_reader.hpp"
 
 #include <memory>
 
 namespace lacuna::io {
+
+// Returns the rows of `reader`, a PLY file, with the offset added to their positions, which become doubles.
+// Places of scanners have the offset already. Returns `reader` itself without an offset.
+std::unique_ptr<ScanReader> with_offset(std::unique_ptr<ScanReader> reader, const LocalOffset& offset);
 
 // Returns the rows of `reader` with their positions moved by the pose, and their normals turned. Positions
 // and normals become doubles; all else stays as it is.
