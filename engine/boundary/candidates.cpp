@@ -5,6 +5,7 @@
 
 #include <mutex>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace lacuna {
@@ -39,7 +40,7 @@ void emit_candidates(const EvaluatedTile& tile, TileOutput& output) {
     const std::vector<Row>& rows = tile.points.rows;
     candidates.push_back({{rows[p], rows[e.gap_near], rows[e.gap_far]}, tile.stored(p), tile.probability(p)});
   }
-  output.add(kCandidates, candidates);
+  output.add(kCandidates, std::move(candidates));
 }
 
 RowSet coherent_candidates(const TileOutputs& outputs, const Tiling& tiling, Job& job) {

@@ -20,6 +20,7 @@
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace lacuna {
@@ -53,22 +54,19 @@ class TileOutput {
  public:
   // `stream`: a stream that was not added before.
   template <class Record>
-  void add(const RecordStream<Record>& stream, std::span<const Record> records) {
+  void add(const RecordStream<Record>& stream, std::vector<Record> records) {
     if (records.empty()) return;
-    const std::span<const std::byte> bytes = std::as_bytes(records);
-    streams_.push_back({stream.name, {bytes.begin(), bytes.end()}, nullptr});
+    const auto kept = std::make_shared<std::vector<Record>>(std::move(records));
+    streams_.push_back({stream.name, std::as_writable_bytes(std::span(*kept)), kept, nullptr});
     if constexpr (HasRows<Record>) streams_.back().store_rows = store_rows_of<Record>;
-  }
-  template <class Record>
-  void add(const RecordStream<Record>& stream, const std::vector<Record>& records) {
-    add(stream, std::span<const Record>(records));
   }
 
  private:
   friend class TileOutputs;
   struct Stream {
     std::string_view name;
-    std::vector<std::byte> bytes;
+    std::span<std::byte> bytes;
+    std::shared_ptr<void> records;  // that have these bytes
     void (*store_rows)(std::span<std::byte> records, const Tiling& tiling);  // null: the records have no rows
   };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace lacuna {
 namespace {
@@ -90,10 +91,10 @@ void emit_totals(const Totals& sums, TileOutput& output) {
                     .probabilities = sums.probabilities,
                     .edge_length_low = static_cast<std::uint64_t>(sums.edge_length),
                     .edge_length_high = static_cast<std::int64_t>(sums.edge_length >> 64)};
-  output.add(kSums, stored);
+  output.add(kSums, std::move(stored));
   std::vector<DistanceBin> bins;
   for (const auto& [bin, count] : sums.distances.counts) bins.push_back({bin, count});
-  output.add(kDistances, bins);
+  output.add(kDistances, std::move(bins));
 }
 
 Totals read_totals(const TileOutputs& outputs, const Tiling& tiling, double extent) {

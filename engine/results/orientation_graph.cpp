@@ -90,7 +90,7 @@ bool points_down(const StoredNormal& n) {
 void emit_orientation(const EvaluatedTile& tile, TileOutput& output) {
   std::vector<StoredNormal> normals;
   for (const Evaluation& e : tile.evaluations) normals.push_back({e.normal.x(), e.normal.y(), e.normal.z()});
-  output.add(kNormals, normals);
+  output.add(kNormals, std::move(normals));
 
   std::vector<OrientationEdge> edges;
   std::vector<OrientationCrossing> crossings;
@@ -110,7 +110,7 @@ void emit_orientation(const EvaluatedTile& tile, TileOutput& output) {
     }
   }
   output.add(kForest, spanning_forest(std::move(edges), value(tile.tile.first_row), points.owned));
-  output.add(kCrossings, crossings);
+  output.add(kCrossings, std::move(crossings));
 }
 
 RowSet opposed_normals(const TileOutputs& outputs, const TileStore& store, Job& job) {

@@ -32,7 +32,7 @@ void emit_point_results(const EvaluatedTile& tile, TileOutput& output) {
       put(&criterion, sizeof criterion);
     }
   }
-  output.add(kResults, records);
+  output.add(kResults, std::move(records));
 }
 
 PointResults::PointResults(const TileOutputs& outputs, std::uint64_t ids, const TileStore& store,

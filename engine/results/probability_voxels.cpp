@@ -99,7 +99,7 @@ constexpr RecordStream<float> kProbabilities{"probabilities"};  // of all points
 void emit_probabilities(const EvaluatedTile& tile, TileOutput& output) {
   std::vector<float> probabilities(tile.points.owned);
   for (LocalIndex p = 0; p < tile.points.owned; ++p) probabilities[p] = tile.probability(p);
-  output.add(kProbabilities, probabilities);
+  output.add(kProbabilities, std::move(probabilities));
 }
 
 ProbabilityGrid probability_voxels(const TileOutputs& outputs, double typical_distance,

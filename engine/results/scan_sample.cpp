@@ -64,7 +64,7 @@ void ScanSample::emit(const EvaluatedTile& tile, TileOutput& output) {
     const std::lock_guard lock(mutex_);
     bins_.take(points, most_points_);
   }
-  output.add(kDrawnPoints, points);
+  output.add(kDrawnPoints, std::move(points));
 }
 
 // Returns the largest key of the sample. Only the keys of the last bin have to be ordered.

@@ -87,14 +87,14 @@ void PaperBoundary::emit(const EvaluatedTile& tile, TileOutput& output) const {
     border.push_back(p);
     strengths.push_back(strength(p));
   }
-  output.add(kBorder, border);
-  output.add(kStrengths, strengths);
+  output.add(kBorder, std::move(border));
+  output.add(kStrengths, std::move(strengths));
   const TileEdges edges = eligible_edges(tile.points, tile.neighbourhoods, tile.evaluations, config_);
   output.add(kInside, edges.inside);
   std::vector<StoredCrossing> undecided;
   for (const Crossing& c : edges.crossings)
     undecided.push_back({tile.vertex(c.owned), tile.vertex(c.foreign), strength(c.owned), c.distance});
-  output.add(kUndecided, undecided);
+  output.add(kUndecided, std::move(undecided));
 
   // These points are ends of eligible edges. Another tile may find edges that cross the border, so all points
   // with foreign neighbours count.
@@ -104,7 +104,7 @@ void PaperBoundary::emit(const EvaluatedTile& tile, TileOutput& output) const {
   for (LocalIndex p = 0; p < tile.points.owned; ++p) {
     if (is_end[p] != 0) vertices.push_back({p, loop_point_of(tile, p)});
   }
-  output.add(kVertices, vertices);
+  output.add(kVertices, std::move(vertices));
 }
 
 void PaperBoundary::complete_edges(const TileOutputs& outputs) {

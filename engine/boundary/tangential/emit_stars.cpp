@@ -111,10 +111,10 @@ void emit_wedges(const EvaluatedTile& tile, const TileStars& found, TileRadii& r
                  wedges);
     }
   }
-  output.add(kActive, active);
-  output.add(kOpenStars, open.stars);
-  output.add(kOpenVertices, open.vertices);
-  output.add(kWedges, wedges);
+  output.add(kActive, std::move(active));
+  output.add(kOpenStars, std::move(open.stars));
+  output.add(kOpenVertices, std::move(open.vertices));
+  output.add(kWedges, std::move(wedges));
 }
 
 // Puts out the belt, and the sites and samplings that its stars need, here and in other tiles.
@@ -148,9 +148,9 @@ void emit_belt(const EvaluatedTile& tile, const TileStars& found, TileRadii& rad
                     .is_border = found.states[p] == PointState::kBorder});
     for (const LocalIndex q : tile.neighbourhoods[p]) neighbours.push_back(place[q]);
   }
-  output.add(kBelt, belt);
-  output.add(kBeltRows, rows);
-  output.add(kBeltNeighbours, neighbours);
+  output.add(kBelt, std::move(belt));
+  output.add(kBeltRows, std::move(rows));
+  output.add(kBeltNeighbours, std::move(neighbours));
 
   std::vector<LocalIndex> owned;
   std::vector<Site> sites;
@@ -161,9 +161,9 @@ void emit_belt(const EvaluatedTile& tile, const TileStars& found, TileRadii& rad
     sites.push_back(site_of(tile.points.positions[p], tile.points.ids[p], tile.evaluations[p]));
     samples.push_back({found.samplings[p], radii.of_star(p), tile.evaluations[p].surface_share});
   }
-  output.add(kSampled, owned);
-  output.add(kSites, sites);
-  output.add(kSamples, samples);
+  output.add(kSampled, std::move(owned));
+  output.add(kSites, std::move(sites));
+  output.add(kSamples, std::move(samples));
 }
 
 }  // namespace
