@@ -16,7 +16,7 @@ constexpr std::size_t kHead = 60;  // of an extended record
 
 // Sizes by point format.
 constexpr std::array<std::size_t, 11> kPointBytes = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
-constexpr std::array<std::size_t, 5> kHeaderBytes = {227, 227, 227, 235, 375};  // by minor version
+constexpr std::array<std::size_t, 6> kHeaderBytes = {227, 227, 227, 235, 375, 393};  // by minor version
 constexpr std::size_t kRecordHeader = 54, kExtraDescriptor = 192;
 
 template <class T>
@@ -147,9 +147,9 @@ LasHeader read_las_header(InputFile& in) {
   in.read(head.data(), head.size());
   LasHeader header;
   const auto major = value_at<std::uint8_t>(head, 24), minor = value_at<std::uint8_t>(head, 25);
-  if (major != 1 || minor > 4) {
+  if (major != 1 || minor > 5) {
     in.fail_at_byte(
-        24, "LAS " + std::to_string(major) + "." + std::to_string(minor) + "; versions 1.0 to 1.4 are read");
+        24, "LAS " + std::to_string(major) + "." + std::to_string(minor) + "; versions 1.0 to 1.5 are read");
   }
   header.minor = minor;
   const auto header_bytes = value_at<std::uint16_t>(head, 94);
@@ -172,7 +172,7 @@ LasHeader read_las_header(InputFile& in) {
   header.points_at = value_at<std::uint32_t>(head, 96);
   header.record_bytes = value_at<std::uint16_t>(head, 105);
   header.points = value_at<std::uint32_t>(head, 107);
-  if (minor == 4 && value_at<std::uint64_t>(head, 247) != 0)
+  if (minor >= 4 && value_at<std::uint64_t>(head, 247) != 0)
     header.points = value_at<std::uint64_t>(head, 247);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     header.scale[axis] = value_at<double>(head, 131 + 8 * axis);
@@ -188,7 +188,7 @@ LasHeader read_las_header(InputFile& in) {
                       std::to_string(records) + " variable length records do not fit before the first point");
     read_record(in, header);
   }
-  if (minor == 4)
+  if (minor >= 4)
     read_extended_records(in.file(), value_at<std::uint64_t>(head, 235), value_at<std::uint32_t>(head, 243),
                           header);
   if (minor >= 3) find_waveforms(in.file(), value_at<std::uint64_t>(head, 227), header);

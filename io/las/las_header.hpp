@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The public header block of a LAS file, versions 1.0 to 1.4, and what its variable length records say of the
+// The public header block of a LAS file, versions 1.0 to 1.5, and what its variable length records say of the
 // points. Source: ASPRS LAS specification 1.4 R15, sections 2.4 to 2.7.
 #pragma once
 

@@ -16,12 +16,47 @@
 namespace lacuna::io {
 namespace {
 
+// Returns the bytes of points and of nothing else: up to the records behind them.
+std::uint64_t point_bytes(const InputFile& in, const LasHeader& header) {
+  std::uint64_t end = in.position() + in.remaining();
+  for (const LasRecordPlace& record : header.extended) {
+    if (record.at >= header.points_at) end = std::min(end, record.at);
+  }
+  return end - header.points_at;
+}
+
+// Returns the header with the number of points that holds. Throws `Error` where the file has others and
+// nobody says which number to trust.
+LasHeader counted_header(InputFile& in, Trust trust) {
+  LasHeader header = read_las_header(in);
+  const std::uint64_t bytes = point_bytes(in, header);
+  const auto fail = [&](const std::string& found) {
+    in.fail_at_byte(107, "the header counts " + std::to_string(header.points) + " points, but " + found);
+  };
+  if (header.is_compressed) {
+    constexpr std::uint64_t kTablePlace = 8;
+    if (header.points == 0 && bytes > kTablePlace && trust != Trust::kHeader)
+      fail(
+          "compressed points follow; --trust header reads none, and `laszip` or `lasinfo -repair` count "
+          "them");
+    return header;
+  }
+  const std::uint64_t records = bytes / header.record_bytes;
+  if (records == header.points || trust == Trust::kHeader) return header;
+  if (trust == Trust::kNeither)
+    fail(std::to_string(records) + " whole ones of " + std::to_string(header.record_bytes) +
+         " bytes follow; --trust file reads these" +
+         (records > header.points ? ", --trust header the others" : ""));
+  header.points = records;
+  return header;
+}
+
 class LasReader final : public ScanReader {
  public:
-  LasReader(const std::filesystem::path& file, std::uint64_t memory)
+  LasReader(const std::filesystem::path& file, const ReadOptions& options)
       : in_(file),
-        header_(read_las_header(in_)),
-        points_(las_points(in_, header_, memory)),
+        header_(counted_header(in_, options.trust)),
+        points_(las_points(in_, header_, options.memory)),
         columns_(header_),
         left_(header_.points) {}
 
@@ -74,7 +109,7 @@ bool looks_like_las(const FileStart& start) {
 }
 
 std::unique_ptr<ScanReader> open_las(const std::filesystem::path& file, const ReadOptions& options) {
-  return std::make_unique<LasReader>(file, options.memory);
+  return std::make_unique<LasReader>(file, options);
 }
 
 }  // namespace lacuna::io

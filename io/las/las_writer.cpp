@@ -5,6 +5,7 @@
 #include "io/las/las_records.hpp"
 #include "io/laz/laz_encoder.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <utility>
@@ -24,7 +25,7 @@ bool goes_over(const LasRecordPlace& record) {
 std::string header_of(const LasHeader& from, std::size_t record_bytes) {
   constexpr std::array<std::size_t, 5> kBytes = {227, 227, 227, 235, 375};
   std::string header(kHeaderBytes, '\0');
-  const std::size_t bytes = kBytes.at(static_cast<std::size_t>(from.minor));
+  const std::size_t bytes = kBytes.at(std::min<std::size_t>(static_cast<std::size_t>(from.minor), 4));
   std::memcpy(header.data(), from.bytes.data(), bytes);
   // These fields were reserved before these versions.
   if (from.minor < 1) put_at<std::uint16_t>(header, 4, 0);

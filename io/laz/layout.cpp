@@ -20,21 +20,20 @@ struct KnownItem {
   const char* name;
   std::uint16_t size;  // 0: any but 0
   Order order;
-  bool supported;
 };
 
 // The items of each order as they follow each other in a record.
 constexpr KnownItem kKnownItems[] = {
-    {item_type::kPoint10, "POINT10", 20, Order::kPointwise, true},
-    {item_type::kGpsTime11, "GPSTIME11", 8, Order::kPointwise, true},
-    {item_type::kRgb12, "RGB12", 6, Order::kPointwise, true},
-    {item_type::kWavepacket13, "WAVEPACKET13", 29, Order::kPointwise, false},
-    {item_type::kByte, "BYTE", 0, Order::kPointwise, true},
-    {item_type::kPoint14, "POINT14", 30, Order::kLayered, true},
-    {item_type::kRgb14, "RGB14", 6, Order::kLayered, true},
-    {item_type::kRgbNir14, "RGBNIR14", 8, Order::kLayered, true},
-    {item_type::kWavepacket14, "WAVEPACKET14", 29, Order::kLayered, false},
-    {item_type::kByte14, "BYTE14", 0, Order::kLayered, true},
+    {item_type::kPoint10, "POINT10", 20, Order::kPointwise},
+    {item_type::kGpsTime11, "GPSTIME11", 8, Order::kPointwise},
+    {item_type::kRgb12, "RGB12", 6, Order::kPointwise},
+    {item_type::kWavepacket13, "WAVEPACKET13", 29, Order::kPointwise},
+    {item_type::kByte, "BYTE", 0, Order::kPointwise},
+    {item_type::kPoint14, "POINT14", 30, Order::kLayered},
+    {item_type::kRgb14, "RGB14", 6, Order::kLayered},
+    {item_type::kRgbNir14, "RGBNIR14", 8, Order::kLayered},
+    {item_type::kWavepacket14, "WAVEPACKET14", 29, Order::kLayered},
+    {item_type::kByte14, "BYTE14", 0, Order::kLayered},
 };
 
 const KnownItem& known(const Item& item) {
@@ -52,9 +51,9 @@ std::string described(const Item& item) {
 void check(const Item& item, Order order) {
   const KnownItem& expected = known(item);
   const auto fail = [&](const std::string& why) { throw Corrupt(described(item) + " " + why); };
-  if (!expected.supported) fail("is not supported (point formats 0 to 3 and 6 to 8 are)");
   if (expected.size ? item.size != expected.size : item.size == 0) fail("has a wrong size");
   if (expected.order != order) fail("does not belong to the compressor of the file");
+  if (item.type == item_type::kWavepacket13 && item.version == 1) return;
   if (order == Order::kPointwise && item.version != 2)
     fail("is not supported (version 2 is); `laszip` decompresses files from before 2011");
   if (order == Order::kLayered && item.version != 3 && item.version != 4)
@@ -102,7 +101,8 @@ Layout parse_layout(std::span<const std::byte> record) {
       const Item& before = layout.items.back();
       const bool both_rgb = before.type == item_type::kRgb14 && item.type == item_type::kRgbNir14;
       if (&known(before) >= &known(item) || both_rgb) throw Corrupt(described(item) + " is in a wrong place");
-      if (before.version != item.version) {
+      const bool is_packet = before.type == item_type::kWavepacket13 || item.type == item_type::kWavepacket13;
+      if (before.version != item.version && !is_packet) {
         throw Corrupt(described(item) + " has not the version of the items before");
       }
     }

@@ -6,6 +6,7 @@
 #include "io/laz/gps_time.hpp"
 #include "io/laz/point10.hpp"
 #include "io/laz/rgb.hpp"
+#include "io/laz/wavepacket.hpp"
 
 #include <cstring>
 #include <memory>
@@ -49,6 +50,24 @@ class Rgb12 {
   RgbModels models_;
 };
 
+class Wavepacket13 {
+ public:
+  explicit Wavepacket13(const std::byte* first) { std::memcpy(&last_, first, sizeof last_); }
+  void code(ArithmeticDecoder& decoder, std::byte* item) {
+    models_.code(decoder, Wavepacket(last_), last_);
+    std::memcpy(item, &last_, sizeof last_);
+  }
+  void code(ArithmeticEncoder& encoder, const std::byte* item) {
+    const Wavepacket before = last_;
+    std::memcpy(&last_, item, sizeof last_);
+    models_.code(encoder, before, last_);
+  }
+
+ private:
+  Wavepacket last_;
+  WavepacketModels models_;
+};
+
 // BYTE (LAZ, "BYTE"): the difference of each byte to the same byte of the last point.
 class ExtraBytes {
  public:
@@ -68,8 +87,9 @@ struct Items {
   std::optional<Point10> point;
   std::optional<GpsTime11> gps_time;
   std::optional<Rgb12> rgb;
+  std::optional<Wavepacket13> wavepacket;
   std::optional<ExtraBytes> extra_bytes;
-  std::size_t gps_time_at = 0, rgb_at = 0, extra_bytes_at = 0;
+  std::size_t gps_time_at = 0, rgb_at = 0, wavepacket_at = 0, extra_bytes_at = 0;
 
   Items(const Layout& layout, const std::byte* first) {
     std::size_t at = 0;
@@ -86,6 +106,10 @@ struct Items {
           rgb.emplace(first + at);
           rgb_at = at;
           break;
+        case item_type::kWavepacket13:
+          wavepacket.emplace(first + at);
+          wavepacket_at = at;
+          break;
         default:
           extra_bytes.emplace(first + at, item.size);
           extra_bytes_at = at;
@@ -99,6 +123,7 @@ struct Items {
     point->code(coder, record);
     if (gps_time) gps_time->code(coder, record + gps_time_at);
     if (rgb) rgb->code(coder, record + rgb_at);
+    if (wavepacket) wavepacket->code(coder, record + wavepacket_at);
     if (extra_bytes) extra_bytes->code(coder, record + extra_bytes_at);
   }
 };

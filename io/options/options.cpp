@@ -12,6 +12,7 @@ namespace {
 
 // In the order of their enumerations.
 constexpr std::string_view kReturns[] = {"all", "first", "last", "only"};
+constexpr std::string_view kTrust[] = {"neither", "header", "file"};
 constexpr std::string_view kUnitNames[] = {"input", "m", "km", "cm", "mm", "ft", "us-ft", "in", "yd"};
 constexpr std::string_view kPointsFormats[] = {"input", "ply", "csv"};
 
@@ -85,6 +86,14 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
        "Other returns of a laser pulse do not take part; only: of pulses with one return."},
       {"input", "drop_origin", &input.drop_origin, 0, 1, "true or false",
        "Points at 0 0 0, or at the scanner where a file has its place, do not take part."},
+      {"input", "keep_withheld", &input.keep_withheld, 0, 1, "true or false",
+       "Points of LAS that are flagged as withheld take part."},
+      {"input", "keep_noise", &input.keep_noise, 0, 1, "true or false",
+       "Points of LAS of the classes 7 and 18, which are noise, take part."},
+      {"input", "where", &input.where, 0, 0, "a condition such as Classification == 2 and PointSourceId != 7",
+       "Points that do not meet this condition of their attributes do not take part; empty: all."},
+      {"input", "trust", named(input.trust, kTrust), 0, 2, "neither, header or file",
+       "Which number of points holds where the header of LAS counts others than follow; neither: an error."},
       {"input", "crs", &input.crs, 0, 0,
        "a code such as EPSG:25832, well-known text, or a file that has one of them",
        "Coordinate reference system of the scan, over what its files state; empty: as they state it."},

@@ -5,6 +5,7 @@
 #include "engine/config/config.hpp"
 #include "engine/config/config_file.hpp"
 #include "engine/export.hpp"
+#include "io/options/trust.hpp"
 
 #include <cstdint>
 #include <string>
@@ -36,8 +37,11 @@ struct InputConfig {
   std::vector<double> leave_out;      // boxes, of min x y z max x y z each; points in them take no part
   std::vector<std::int64_t> classes;  // of property classification; empty: all
   Returns returns = Returns::kAll;
-  bool drop_origin = false;  // without points at 0 0 0 or at the scanner
-  std::string crs;           // coordinate reference system: a code, WKT or a file; empty: as the files say
+  bool drop_origin = false;                        // without points at 0 0 0 or at the scanner
+  bool keep_withheld = false, keep_noise = false;  // of LAS: points that are flagged, or of classes 7 and 18
+  std::string where;                               // a condition of attributes that points meet; empty: none
+  Trust trust = Trust::kNeither;
+  std::string crs;  // coordinate reference system: a code, WKT or a file; empty: as the files say
   LengthUnit unit = LengthUnit::kInput;
 };
 
@@ -69,8 +73,8 @@ LACUNA_API std::vector<Parameter> file_parameters(FilesConfig& config);
 // All parameters, in the order of the config file.
 LACUNA_API std::vector<Parameter> parameters(FilesConfig& config);
 
-// Checks what `check_config` of the engine checks, and boxes. Throws, too, where the memory limit is too small
-// for a report or for files of GIS.
+// Checks what `check_config` of the engine checks, and boxes. Throws, too, where the memory limit is too
+// small for a report or for files of GIS.
 LACUNA_API void check_config(const FilesConfig& config);
 
 }  // namespace lacuna::io

@@ -128,9 +128,7 @@ void require_types(const Parser& parser) {
       parser.fail("field " + in_quotes(field.name) + " has type " + field.type + " of " +
                   std::to_string(size) + " bytes; allowed are I and U of 1, 2, 4 or 8 bytes and F of 4 or 8");
     }
-    if (field.count == 0)
-      parser.fail("field " + in_quotes(field.name) + " has COUNT 0; at least 1 is needed");
-    // Each count is below 2^32 and the sum stops early, so that it cannot overflow.
+    // A field of COUNT 0 has no values, as in exports of padded records. Each count is below 2^32 and the sum stops early, so that it cannot overflow.
     values += field.count;
     if (values > kMostColumns) parser.fail(kTooManyColumns);
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/export.hpp"
+#include "io/options/trust.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -88,6 +89,7 @@ struct ReadOptions {
   std::string columns;  // text files: column names, space separated; empty: from the header line
   // The bytes that a reader may hold of a file whose points cannot be read one by one: LAZ.
   std::uint64_t memory = std::uint64_t{64} << 20;
+  Trust trust = Trust::kNeither;
 };
 
 // Fills a batch with rows of `stride` bytes, at most `max_rows`, for a reader that has them one by one.

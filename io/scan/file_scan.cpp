@@ -77,7 +77,8 @@ void FileScan::choose_crs() {
 std::unique_ptr<ScanReader> FileScan::open(std::size_t file) const {
   if (arrays_[file]) return read_arrays(*arrays_[file]);
   io::check_unchanged(files_[file], states_[file]);
-  auto reader = open_scan(files_[file], {.columns = config_.columns, .memory = memory_});
+  auto reader =
+      open_scan(files_[file], {.columns = config_.columns, .memory = memory_, .trust = config_.trust});
   return poses_[file] ? posed(std::move(reader), *poses_[file]) : std::move(reader);
 }
 
@@ -109,6 +110,7 @@ void FileScan::rewind() {
   reader_.reset();
   filtered_out_ = {};
   before_filters_ = {};
+  has_point_ = false;
   if (observer_) observer_->begin();
 }
 
@@ -134,14 +136,26 @@ bool FileScan::next(PointBatch& batch) {
       batch.normals.assign(rows_.count, Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
     }
     refuse_too_far(batch);
+    has_point_ = has_point_ || std::any_of(batch.positions.begin(), batch.positions.end(),
+                                           [](const Eigen::Vector3d& p) { return p.allFinite(); });
     rows_read_[file_] += rows_.count;
     next_id_ += rows_.count;
     return true;
   }
   if (filtered_out_.total() > 0 && before_filters_.kept == 0)
     throw Error(describe_no_row_left(config_, filtered_out_, before_filters_));
+  if (!has_point_ && !files_.empty() && !arrays_[0]) throw Error(describe_no_point());
   if (observer_) observer_->end();
   return false;
+}
+
+std::string FileScan::describe_no_point() const {
+  std::uint64_t rows = 0;
+  for (const std::uint64_t count : rows_read_) rows += count;
+  const std::string name = files_[0].string() + (files_.size() > 1 ? " and the other files" : "");
+  if (rows == 0) return name + ": no points: a header alone, or empty scans";
+  return name + ": no points: none of " + std::to_string(rows) +
+         " rows has a place; they are NaN, or rays that are marked as invalid or have no return";
 }
 
 void FileScan::read_all(RowObserver& observer) {
@@ -207,18 +221,20 @@ std::vector<ScanInput> inputs_of(std::span<const std::string> names) {
 
 std::vector<std::uint64_t> FileScan::pass_counts() const {
   std::vector<std::uint64_t> counts = rows_read_;
-  for (const std::uint64_t left_out : {filtered_out_.origin, filtered_out_.bounds, filtered_out_.boxes,
-                                       filtered_out_.classes, filtered_out_.returns})
+  for (const std::uint64_t left_out :
+       {filtered_out_.origin, filtered_out_.bounds, filtered_out_.boxes, filtered_out_.classes,
+        filtered_out_.returns, filtered_out_.withheld, filtered_out_.noise, filtered_out_.where})
     counts.push_back(left_out);
   return counts;
 }
 
 void FileScan::set_pass_counts(std::span<const std::uint64_t> counts) {
-  if (counts.size() != rows_read_.size() + 5)
+  if (counts.size() != rows_read_.size() + 8)
     fail_inconsistent("the workspace counts another number of files");
   std::copy_n(counts.begin(), rows_read_.size(), rows_read_.begin());
   const auto left_out = counts.subspan(rows_read_.size());
-  filtered_out_ = {left_out[0], left_out[1], left_out[2], left_out[3], left_out[4]};
+  filtered_out_ = {left_out[0], left_out[1], left_out[2], left_out[3],
+                   left_out[4], left_out[5], left_out[6], left_out[7]};
 }
 
 bool FileScan::single_precision() const {

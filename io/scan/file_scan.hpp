@@ -116,6 +116,7 @@ class LACUNA_API FileScan : public PointSource {
  private:
   void choose_crs();
   void refuse_too_far(const PointBatch& batch) const;
+  std::string describe_no_point() const;
 
   std::vector<std::filesystem::path> files_;
   std::vector<std::optional<Pose>> poses_;                 // one per file
@@ -140,6 +141,7 @@ class LACUNA_API FileScan : public PointSource {
   RowBatch rows_;
   FilteredOut filtered_out_;
   BeforeFilters before_filters_;
+  bool has_point_ = false;  // a finite one was there in this pass
   RowObserver* observer_ = nullptr;
   std::vector<Eigen::Vector3d> read_;  // positions before the filters, for the observer
 };

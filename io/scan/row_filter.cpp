@@ -49,8 +49,15 @@ RowFilter::RowFilter(const InputConfig& config, const std::filesystem::path& fil
     return_number_ = column("return_number", "--returns");
   if (chosen_returns_ == Returns::kLast || chosen_returns_ == Returns::kOnly)
     number_of_returns_ = column("number_of_returns", "--returns");
-  is_active_ =
-      config.drop_origin || bounds_ || !boxes_.empty() || class_ || return_number_ || number_of_returns_;
+  // Other formats have columns of these names, too, with meanings of their own.
+  if (reader.format().starts_with("LA")) {
+    const auto place = [&](const char* name) { return reader.layout().find(name)->offset; };
+    if (!config.keep_withheld) withheld_at_ = place("withheld");
+    if (!config.keep_noise && chosen_classes_.empty()) noise_at_ = place("classification");
+  }
+  if (!config.where.empty()) where_.emplace(config.where, file.string(), reader.layout());
+  is_active_ = config.drop_origin || bounds_ || !boxes_.empty() || class_ || return_number_ ||
+               number_of_returns_ || withheld_at_ || noise_at_ || where_;
 }
 
 std::string describe_no_row_left(const InputConfig& config, const FilteredOut& filtered,
@@ -83,6 +90,12 @@ std::string describe_no_row_left(const InputConfig& config, const FilteredOut& f
     }
   }
   if (config.returns != Returns::kAll) add("--returns", filtered.returns);
+  if (filtered.withheld > 0)
+    text << separator << filtered.withheld << " are withheld, which --keep-withheld keeps";
+  if (filtered.withheld > 0) separator = "; ";
+  if (filtered.noise > 0) text << separator << filtered.noise << " are noise, which --keep-noise keeps";
+  if (filtered.noise > 0) separator = "; ";
+  if (!config.where.empty()) add("--where", filtered.where);
   return text.str();
 }
 
@@ -92,10 +105,12 @@ void RowFilter::apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions
   load(rows, class_);
   load(rows, return_number_);
   load(rows, number_of_returns_);
+  if (where_) where_->load(rows);
   for (std::size_t row = 0; row < positions.size(); ++row) {
     Eigen::Vector3d& position = positions[row];
     if (!position.allFinite()) continue;
-    std::uint64_t* const count = refusing(row, position, filtered, before);
+    std::uint64_t* count = refused_by_flags(rows.bytes.data() + row * stride_, filtered);
+    if (count == nullptr) count = refusing(row, position, filtered, before);
     if (count == nullptr) {
       ++before.kept;
       continue;
@@ -121,7 +136,15 @@ std::uint64_t* RowFilter::refusing(std::size_t row, const Eigen::Vector3d& posit
     if (before.classes.size() < kMostClasses || before.classes.contains(found)) ++before.classes[found];
   }
   if (!has_chosen_class(row)) return &filtered.classes;
-  return is_chosen_return(row) ? nullptr : &filtered.returns;
+  if (!is_chosen_return(row)) return &filtered.returns;
+  return where_ && !where_->holds(row) ? &filtered.where : nullptr;
+}
+
+std::uint64_t* RowFilter::refused_by_flags(const std::byte* row, FilteredOut& filtered) const {
+  constexpr std::byte kLowNoise{7}, kHighNoise{18};
+  if (withheld_at_ && row[*withheld_at_] != std::byte{0}) return &filtered.withheld;
+  if (noise_at_ && (row[*noise_at_] == kLowNoise || row[*noise_at_] == kHighNoise)) return &filtered.noise;
+  return nullptr;
 }
 
 void RowFilter::load(const RowBatch& rows, std::optional<Values>& column) const {

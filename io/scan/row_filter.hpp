@@ -4,6 +4,7 @@
 
 #include "io/options/options.hpp"
 #include "io/rows/scan_reader.hpp"
+#include "io/scan/condition.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -25,8 +26,13 @@ struct FilteredOut {
   std::uint64_t boxes = 0;
   std::uint64_t classes = 0;
   std::uint64_t returns = 0;
+  std::uint64_t withheld = 0;
+  std::uint64_t noise = 0;
+  std::uint64_t where = 0;
 
-  std::uint64_t total() const { return origin + bounds + boxes + classes + returns; }
+  std::uint64_t total() const {
+    return origin + bounds + boxes + classes + returns + withheld + noise + where;
+  }
 };
 
 // Facts about the rows, for the error if the filters leave no row.
@@ -62,6 +68,8 @@ class RowFilter {
   bool has_chosen_class(std::size_t row) const;
   bool is_chosen_return(std::size_t row) const;
 
+  std::uint64_t* refused_by_flags(const std::byte* row, FilteredOut& filtered) const;
+
   bool is_active_;
   std::size_t stride_;
   std::vector<Eigen::Vector3d> no_return_places_;
@@ -70,6 +78,9 @@ class RowFilter {
   std::vector<std::int64_t> chosen_classes_;
   Returns chosen_returns_;
   std::optional<Values> class_, return_number_, number_of_returns_;
+  // Places within a row of bytes that leave it out: not 0, and a class of noise.
+  std::optional<std::size_t> withheld_at_, noise_at_;
+  std::optional<Condition> where_;
 };
 
 }  // namespace lacuna::io

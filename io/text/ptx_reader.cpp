@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -38,19 +37,18 @@ bool is_count(std::string_view line) {
 class PtxReader final : public ScanReader {
  public:
   explicit PtxReader(const std::filesystem::path& file) : in_(file) {
-    // The first ray says whether there are colours.
-    const bool begun = begin_block();
-    assert(begun);
-    (void)begun;
+    // The first ray says whether there are colours. Scans before it may be empty.
+    while (begin_block() && left_ == 0) {
+    }
     std::vector<std::pair<std::string, Scalar>> columns = {{"x", Scalar::kFloat64},
                                                            {"y", Scalar::kFloat64},
                                                            {"z", Scalar::kFloat64},
                                                            {"intensity", Scalar::kFloat32}};
     if (left_ > 0) {
-      values_ = read_ray();
+      has_colours_ = read_ray() == 7;
       is_pending_ = true;
     }
-    if (values_ == 7) {
+    if (has_colours_) {
       for (const char* colour : {"red", "green", "blue"}) columns.emplace_back(colour, Scalar::kUint8);
     }
     columns.emplace_back("scan", Scalar::kUint32);
@@ -70,9 +68,7 @@ class PtxReader final : public ScanReader {
       while (left_ == 0) {  // after a block, which may be an empty grid
         if (!begin_block()) return false;
       }
-      if (!is_pending_ && read_ray() != values_)
-        in_.fail_at_line(in_.line(),
-                         "a ray needs " + std::to_string(values_) + " numbers, as the first one has");
+      if (!is_pending_) read_ray();
       is_pending_ = false;
       put_ray(to);
       --left_;
@@ -149,7 +145,8 @@ class PtxReader final : public ScanReader {
     };
     for (const double coordinate : place) put(coordinate);
     put(static_cast<float>(line_[3]));
-    for (std::size_t i = 4; i < values_; ++i) {
+    // Scans with and without colours may follow each other: without is black.
+    for (std::size_t i = 4; has_colours_ && i < 7; ++i) {
       if (std::isnan(line_[i]))
         in_.fail_at_line(in_.line(), "a colour is not a number; 0 to 255 are allowed");
       put(static_cast<std::uint8_t>(std::clamp(line_[i], 0.0, 255.0)));
@@ -163,7 +160,7 @@ class PtxReader final : public ScanReader {
   std::uint64_t left_ = 0;             // rays of the block not yet read
   std::uint32_t scan_ = 0;             // blocks begun
   std::vector<ScannerPose> scanners_;  // of the blocks begun
-  std::size_t values_ = 4;             // of each ray
+  bool has_colours_ = false;           // the first ray has
   Values line_{};                      // the last one read
   bool is_pending_ = false;            // it is a ray that is not yet in a batch
 };

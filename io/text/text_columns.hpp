@@ -34,8 +34,9 @@ struct TextColumns {
 // `given`, else by the line before it, else by a comment before it. Without names, the columns are x, y, z,
 // column_4 and so on. Names of the field stand for x, y and z: easting, northing, height and the like.
 // `given`: names in order, or words such as "x=Easting", which name a column of the header anew.
-// Throws `Error` where no column is x, y or z, and where unnamed columns are probably something else: they
-// count the rows, hold whole numbers before three that do not, or repeat another column. Cost: the first MiB.
+// Throws `Error` where no column is x, y or z, and where unnamed columns are probably something else. Such
+// columns count the rows, hold whole numbers before three that do not, or repeat another one. Cost: the first
+// MiB.
 TextColumns find_text_columns(InputFile& in, std::string_view given);
 
 }  // namespace lacuna::io

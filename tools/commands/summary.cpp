@@ -192,6 +192,9 @@ std::string print_left_out(const Counts& counts, const FilteredOut& filtered) {
   add(filtered.boxes, "in boxes that are left out");
   add(filtered.classes, "of other classes");
   add(filtered.returns, "of other returns");
+  add(filtered.withheld, "withheld");
+  add(filtered.noise, "of classes 7 and 18, noise");
+  add(filtered.where, "that --where leaves out");
   return text;
 }
 

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/scan/condition.hpp"
+
+#include "engine/run/error.hpp"
+#include "io/files/input_file.hpp"
+#include "io/files/number.hpp"
+#include "io/files/property_name.hpp"
+#include "io/rows/vectors.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace lacuna::io {
+
+// By recursive descent: or, and, not, then a comparison or what stands in parentheses.
+class ConditionParser {
+ public:
+  ConditionParser(Condition& to, std::string_view text, const std::string& file, const RowLayout& layout)
+      : to_(to), text_(text), rest_(text), file_(file), layout_(layout) {}
+
+  std::size_t parse() {
+    const std::size_t root = parse_or();
+    if (!next_word().empty()) fail("a comparison ends before " + in_quotes(last_word_));
+    return root;
+  }
+
+ private:
+  using Kind = Condition::Kind;
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw Error(
+        "--where " + in_quotes(text_) + ": " + reason +
+        "; allowed: comparisons (== != < <= > >=) of a column with a number, and, or, not, parentheses");
+  }
+
+  // Takes a name, a number or a sign; empty at the end.
+  std::string_view next_word() {
+    const auto is_part = [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+             c == '.' || c == '+' || c == '-';
+    };
+    rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t"), rest_.size()));
+    std::size_t size =
+        static_cast<std::size_t>(std::find_if_not(rest_.begin(), rest_.end(), is_part) - rest_.begin());
+    if (size == 0 && !rest_.empty()) {
+      constexpr std::string_view kDouble[] = {"==", "!=", "<=", ">=", "&&", "||"};
+      size = std::any_of(std::begin(kDouble), std::end(kDouble),
+                         [&](std::string_view sign) { return rest_.starts_with(sign); })
+                 ? 2
+                 : 1;
+    }
+    last_word_ = rest_.substr(0, size);
+    rest_.remove_prefix(size);
+    return last_word_;
+  }
+  bool take(std::initializer_list<std::string_view> words) {
+    const std::string_view before = rest_, word = next_word();
+    std::string lower(word);
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    if (std::find(words.begin(), words.end(), lower) != words.end()) return true;
+    rest_ = before;
+    return false;
+  }
+
+  std::size_t add(Condition::Node node) {
+    to_.nodes_.push_back(node);
+    return to_.nodes_.size() - 1;
+  }
+
+  std::size_t parse_or() {
+    std::size_t a = parse_and();
+    while (take({"or", "||"})) {
+      const std::size_t b = parse_and();
+      a = add({.kind = Kind::kOr, .a = a, .b = b});
+    }
+    return a;
+  }
+  std::size_t parse_and() {
+    std::size_t a = parse_not();
+    while (take({"and", "&&"})) {
+      const std::size_t b = parse_not();
+      a = add({.kind = Kind::kAnd, .a = a, .b = b});
+    }
+    return a;
+  }
+  std::size_t parse_not() {
+    constexpr int kDeepest = 100;
+    if (++depth_ > kDeepest) fail("parentheses and nots are nested too deeply");
+    std::size_t node;
+    if (take({"not", "!"})) {
+      node = add({.kind = Kind::kNot, .a = parse_not()});
+    } else if (take({"("})) {
+      node = parse_or();
+      if (!take({")"})) fail("a parenthesis is not closed");
+    } else {
+      node = parse_comparison();
+    }
+    --depth_;
+    return node;
+  }
+
+  std::size_t parse_comparison() {
+    const std::size_t column = find_column(next_word());
+    constexpr std::pair<std::string_view, Kind> kSigns[] = {
+        {"==", Kind::kEqual},       {"=", Kind::kEqual}, {"!=", Kind::kUnequal},
+        {"<=", Kind::kLessOrEqual}, {"<", Kind::kLess},  {">=", Kind::kGreaterOrEqual},
+        {">", Kind::kGreater}};
+    const std::string_view sign = next_word();
+    const auto* const found =
+        std::find_if(std::begin(kSigns), std::end(kSigns), [&](const auto& s) { return s.first == sign; });
+    if (found == std::end(kSigns)) fail(in_quotes(sign) + " is no comparison");
+    double value;
+    if (!parse_number(next_word(), value)) fail(in_quotes(last_word_) + " is not a number");
+    return add({.kind = found->second, .column = column, .value = value});
+  }
+
+  std::size_t find_column(std::string_view name) {
+    if (name.empty()) fail("a comparison is missing at the end");
+    const auto is_it = [&](const Property& property) { return bare_name(property.name) == bare_name(name); };
+    const auto& all = layout_.properties;
+    auto property = std::find_if(all.begin(), all.end(), [&](const Property& p) { return p.name == name; });
+    if (property == all.end()) property = std::find_if(all.begin(), all.end(), is_it);
+    if (bare_name(name).empty() || property == all.end()) {
+      std::string names;
+      for (const Property& p : all) names += (names.empty() ? "" : ", ") + p.name;
+      throw Error(file_ + ": no column for " + in_quotes(name) + " of --where; the columns are " + names);
+    }
+    for (std::size_t i = 0; i < to_.columns_.size(); ++i) {
+      if (to_.columns_[i].property.name == property->name) return i;
+    }
+    to_.columns_.push_back({*property, {}});
+    return to_.columns_.size() - 1;
+  }
+
+  Condition& to_;
+  std::string_view text_, rest_, last_word_;
+  const std::string& file_;
+  const RowLayout& layout_;
+  int depth_ = 0;
+};
+
+Condition::Condition(std::string_view text, const std::string& file, const RowLayout& layout)
+    : stride_(layout.stride) {
+  root_ = ConditionParser(*this, text, file, layout).parse();
+}
+
+void Condition::load(const RowBatch& rows) {
+  for (Column& column : columns_) load_column(rows, stride_, column.property, column.values);
+}
+
+bool Condition::holds(std::size_t at, std::size_t row) const {
+  const Node& node = nodes_[at];
+  const auto value = [&] { return columns_[node.column].values[row]; };
+  switch (node.kind) {
+    case Kind::kEqual:
+      return value() == node.value;
+    case Kind::kUnequal:
+      return value() != node.value;
+    case Kind::kLess:
+      return value() < node.value;
+    case Kind::kLessOrEqual:
+      return value() <= node.value;
+    case Kind::kGreater:
+      return value() > node.value;
+    case Kind::kGreaterOrEqual:
+      return value() >= node.value;
+    case Kind::kAnd:
+      return holds(node.a, row) && holds(node.b, row);
+    case Kind::kOr:
+      return holds(node.a, row) || holds(node.b, row);
+    case Kind::kNot:
+      break;
+  }
+  return !holds(node.a, row);
+}
+
+}  // namespace lacuna::io
