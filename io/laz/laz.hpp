@@ -66,9 +66,9 @@ struct Layout {
 };
 
 // Reads the data of the variable length record with user id "laszip encoded" and record id 22204. Supports
-// POINT10, GPSTIME11, RGB12 and BYTE of version 2 (point formats 0 to 3). Of version 3 and 4, it supports
-// POINT14, RGB14, RGBNIR14 and BYTE14 (point formats 6 to 8). Throws `Corrupt` for other items, with the
-// item's name.
+// POINT10, GPSTIME11, RGB12 and BYTE of version 2, and WAVEPACKET13 of version 1 (point formats 0 to 5). Of
+// version 3 and 4, it supports POINT14, RGB14, RGBNIR14, WAVEPACKET14 and BYTE14 (point formats 6 to 10).
+// Throws `Corrupt` for other items, with the item's name.
 Layout parse_layout(std::span<const std::byte> record);
 
 // No encoder gets more points into a byte. Each point takes at least the symbol that says what changed. It is

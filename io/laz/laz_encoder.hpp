@@ -7,17 +7,16 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
 namespace lacuna::io::laz {
 
-// Returns how points of this format are compressed, with `extra_bytes` behind the format's fields. Formats 0
-// to 3 use compressor 2 with items of version 2. Formats 6 to 8 use compressor 3 with items of version 3. A
-// chunk has 50,000 points, as LASzip's; fewer if these take more than kMostChunkBytes. Empty for other
-// formats: they have waveforms, with which LAZ is not written.
-std::optional<Layout> layout_of(int point_format, std::uint16_t extra_bytes);
+// Returns how points of this format, from 0 to 10, are compressed, with `extra_bytes` behind the format's
+// fields. Formats 0 to 5 use compressor 2 with items of version 2, and 1 for waveforms. The others use
+// compressor 3 with items of version 3. A chunk has 50,000 points, as LASzip's; fewer if these take more than
+// kMostChunkBytes.
+Layout layout_of(int point_format, std::uint16_t extra_bytes);
 inline constexpr std::size_t kMostChunkBytes = std::size_t{4} << 20;
 
 // Returns the data of the variable length record "laszip encoded" (user id) 22204, which parse_layout()

@@ -128,7 +128,7 @@ void require_types(const Parser& parser) {
       parser.fail("field " + in_quotes(field.name) + " has type " + field.type + " of " +
                   std::to_string(size) + " bytes; allowed are I and U of 1, 2, 4 or 8 bytes and F of 4 or 8");
     }
-    // A field of COUNT 0 has no values, as in exports of padded records. Each count is below 2^32 and the sum stops early, so that it cannot overflow.
+    // Each count is below 2^32 and the sum stops early, so that it cannot overflow.
     values += field.count;
     if (values > kMostColumns) parser.fail(kTooManyColumns);
   }
@@ -192,6 +192,9 @@ PcdHeader read_pcd_header(InputFile& in) {
   }
   require_types(parser);
   parser.header.rows = count_rows(parser);
+  // A field without values has no bytes in a row, and no column.
+  std::erase_if(parser.header.fields, [](const PcdField& field) { return field.count == 0; });
+  if (parser.header.fields.empty()) parser.fail("every field has COUNT 0; x, y and z are needed");
   return std::move(parser.header);
 }
 

@@ -49,15 +49,17 @@ RowFilter::RowFilter(const InputConfig& config, const std::filesystem::path& fil
     return_number_ = column("return_number", "--returns");
   if (chosen_returns_ == Returns::kLast || chosen_returns_ == Returns::kOnly)
     number_of_returns_ = column("number_of_returns", "--returns");
-  // Other formats have columns of these names, too, with meanings of their own.
-  if (reader.format().starts_with("LA")) {
-    const auto place = [&](const char* name) { return reader.layout().find(name)->offset; };
-    if (!config.keep_withheld) withheld_at_ = place("withheld");
-    if (!config.keep_noise && chosen_classes_.empty()) noise_at_ = place("classification");
-  }
+  const auto column_if_any = [&](const char* name) -> std::optional<Values> {
+    for (const Property& property : reader.layout().properties) {
+      if (bare_name(property.name) == bare_name(name)) return Values{.property = property, .values = {}};
+    }
+    return std::nullopt;
+  };
+  if (!config.keep_withheld) withheld_ = column_if_any("withheld");
+  if (!config.keep_noise && chosen_classes_.empty()) class_or_noise_ = column_if_any("classification");
   if (!config.where.empty()) where_.emplace(config.where, file.string(), reader.layout());
   is_active_ = config.drop_origin || bounds_ || !boxes_.empty() || class_ || return_number_ ||
-               number_of_returns_ || withheld_at_ || noise_at_ || where_;
+               number_of_returns_ || withheld_ || class_or_noise_ || where_;
 }
 
 std::string describe_no_row_left(const InputConfig& config, const FilteredOut& filtered,
@@ -105,11 +107,13 @@ void RowFilter::apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions
   load(rows, class_);
   load(rows, return_number_);
   load(rows, number_of_returns_);
+  load(rows, withheld_);
+  load(rows, class_or_noise_);
   if (where_) where_->load(rows);
   for (std::size_t row = 0; row < positions.size(); ++row) {
     Eigen::Vector3d& position = positions[row];
     if (!position.allFinite()) continue;
-    std::uint64_t* count = refused_by_flags(rows.bytes.data() + row * stride_, filtered);
+    std::uint64_t* count = refused_by_flags(row, filtered);
     if (count == nullptr) count = refusing(row, position, filtered, before);
     if (count == nullptr) {
       ++before.kept;
@@ -140,10 +144,11 @@ std::uint64_t* RowFilter::refusing(std::size_t row, const Eigen::Vector3d& posit
   return where_ && !where_->holds(row) ? &filtered.where : nullptr;
 }
 
-std::uint64_t* RowFilter::refused_by_flags(const std::byte* row, FilteredOut& filtered) const {
-  constexpr std::byte kLowNoise{7}, kHighNoise{18};
-  if (withheld_at_ && row[*withheld_at_] != std::byte{0}) return &filtered.withheld;
-  if (noise_at_ && (row[*noise_at_] == kLowNoise || row[*noise_at_] == kHighNoise)) return &filtered.noise;
+std::uint64_t* RowFilter::refused_by_flags(std::size_t row, FilteredOut& filtered) const {
+  constexpr double kLowNoise = 7, kHighNoise = 18;
+  if (withheld_ && withheld_->values[row] != 0) return &filtered.withheld;
+  if (class_or_noise_ && (class_or_noise_->values[row] == kLowNoise || class_or_noise_->values[row] == kHighNoise))
+    return &filtered.noise;
   return nullptr;
 }
 

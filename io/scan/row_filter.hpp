@@ -68,7 +68,7 @@ class RowFilter {
   bool has_chosen_class(std::size_t row) const;
   bool is_chosen_return(std::size_t row) const;
 
-  std::uint64_t* refused_by_flags(const std::byte* row, FilteredOut& filtered) const;
+  std::uint64_t* refused_by_flags(std::size_t row, FilteredOut& filtered) const;
 
   bool is_active_;
   std::size_t stride_;
@@ -78,8 +78,7 @@ class RowFilter {
   std::vector<std::int64_t> chosen_classes_;
   Returns chosen_returns_;
   std::optional<Values> class_, return_number_, number_of_returns_;
-  // Places within a row of bytes that leave it out: not 0, and a class of noise.
-  std::optional<std::size_t> withheld_at_, noise_at_;
+  std::optional<Values> withheld_, class_or_noise_;  // where such points are left out
   std::optional<Condition> where_;
 };
 

@@ -10,7 +10,7 @@ using namespace io;
 
 laz::Layout laz_layout(int point_format, std::uint16_t extra_bytes, std::uint32_t chunk_points,
                        std::uint16_t version) {
-  laz::Layout layout = laz::layout_of(point_format, extra_bytes).value();
+  laz::Layout layout = laz::layout_of(point_format, extra_bytes);
   layout.chunk_points = chunk_points;
   for (laz::Item& item : layout.items) item.version = version;
   return layout;

@@ -225,12 +225,12 @@ TEST_CASE("what is wrong with a LAS file is said with its place", "[io]") {
     put(changed, offset, value);
     return read_error(folder.write("a.las", changed));
   };
-  CHECK_THAT(error(25, std::uint8_t{5}), Contains("byte 24: LAS 1.5; versions 1.0 to 1.4 are read"));
+  CHECK_THAT(error(25, std::uint8_t{6}), Contains("byte 24: LAS 1.6; versions 1.0 to 1.5 are read"));
   CHECK_THAT(error(104, std::uint8_t{11}), Contains("byte 104: point format 11; formats 0 to 10 are read"));
   CHECK_THAT(error(105, std::uint16_t{35}),
              Contains("points of 35 bytes; those of format 7 have 36 or more"));
   CHECK_THAT(error(247, std::uint64_t{1} << 60),
-             Contains("the header declares 1152921504606846976 points") && Contains("but only 3 follow"));
+             Contains("the header counts 1152921504606846976 points, but 3 whole ones of 40 bytes follow") && Contains("--trust file"));
   CHECK_THAT(error(131, 0.0), Contains("byte 131: a scale that is 0"));
   CHECK_THAT(error(96, std::uint32_t{100}), Contains("the points begin within the header"));
   CHECK_THAT(error(100, std::uint32_t{7}), Contains("7 variable length records do not fit"));

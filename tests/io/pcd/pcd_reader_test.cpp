@@ -151,6 +151,15 @@ std::vector<WholeFile> whole_files() {
 
 }  // namespace
 
+TEST_CASE("a PCD field of COUNT 0 has no value and no column", "[io]") {
+  const ScratchFolder folder;
+  const auto table =
+      read_table(folder.write("a.pcd",
+                              "VERSION .7\nFIELDS x noise y z\nSIZE 4 2 4 4\nTYPE F U F F\nCOUNT 1 0 1 1\n"
+                              "WIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2 3\n"));
+  CHECK(table.rows == Rows{{1, 2, 3}});
+}
+
 TEST_CASE("PCD: every field is kept in every encoding, padding apart", "[io]") {
   const ScratchFolder folder;
   for (const std::string& content : crowded_files()) {
@@ -217,7 +226,7 @@ TEST_CASE("PCD: a header that says something impossible is an error that names i
       {version + "FIELDS x y z\nTYPE F F D\n", "line 3: unknown type 'D'"},
       {version + "FIELDS x y z\nSIZE 4 4 3\nPOINTS 1\nDATA ascii\n",
        "line 5: field 'z' has type F of 3 bytes"},
-      {version + "FIELDS x y z\nCOUNT 1 1 0\nPOINTS 1\nDATA ascii\n", "line 5: field 'z' has COUNT 0"},
+      {version + "FIELDS x y z\nCOUNT 1 1 0\nPOINTS 1\nDATA ascii\n", "line 5: no field 'z'"},
       {version + "FIELDS x y z a\nCOUNT 1 1 1 4294967295\nPOINTS 0\nDATA ascii\n",
        "more than the 10,000 columns"},
       {version + "FIELDS x y z\nCOUNT 1 1 2\nPOINTS 0\nDATA ascii\n", "line 5: no field 'z'"},

@@ -99,6 +99,23 @@ TEST_CASE("filters that leave no point are an error that names each of them and 
         "lies from 1 1 1 to 4 4 4; --classes leaves out 3, the classes here are 2 (1 points), 6 (2 points)");
 }
 
+TEST_CASE("withheld points and noise do not take part, unless they are kept or named") {
+  const ScratchFolder folder;
+  const auto file = folder.write("a.csv",
+                                 "x,y,z,Classification,Withheld\n1,1,1,2,0\n2,2,2,7,0\n3,3,3,18,0\n"
+                                 "4,4,4,2,1\n5,5,5,7,1\n");
+  const Filtered usual = read_filtered({file}, {});
+  CHECK(usual.kept == std::vector{0});
+  CHECK(usual.out.withheld == 2);
+  CHECK(usual.out.noise == 2);
+  CHECK(read_filtered({file}, {.keep_withheld = true}).kept == std::vector{0, 3});
+  CHECK(read_filtered({file}, {.keep_noise = true}).kept == std::vector{0, 1, 2});
+  CHECK(read_filtered({file}, {.classes = {7}}).kept == std::vector{1});
+  const auto noise = folder.write("b.csv", "x,y,z,classification\n1,1,1,7\n");
+  CHECK_THAT(error_of([&] { read_filtered({noise}, {}); }),
+             Contains("classes 7 and 18, leaves out 1, --keep-noise keeps them"));
+}
+
 TEST_CASE("rays without return are at 0 0 0 and at the scanner that a PCD names, before a pose") {
   const ScratchFolder folder;
   const auto scan = folder.write("a.pcd",

@@ -57,13 +57,22 @@ TEST_CASE("an empty grid of PTX is no point, and another block may follow", "[io
         1);
 }
 
+TEST_CASE("the first ray of PTX says whether there are colours, also behind an empty grid", "[io]") {
+  const ScratchFolder folder;
+  const std::string coloured = "1\n1\n" + kStill + "1 2 3 4 5 6 7\n";
+  const std::string bare = "1\n1\n" + kStill + "1 2 3 4\n";
+  const auto rows = [&](const std::string& text) { return read_table(folder.write("a.ptx", text)).rows; };
+  using Rows = std::vector<std::vector<double>>;
+  CHECK(rows("0\n5\n" + kStill + coloured) == Rows{{1, 2, 3, 4, 5, 6, 7, 1}});
+  CHECK(rows(coloured + bare) == Rows{{1, 2, 3, 4, 5, 6, 7, 0}, {1, 2, 3, 4, 0, 0, 0, 1}});
+  CHECK(rows(bare + coloured) == Rows{{1, 2, 3, 4, 0}, {1, 2, 3, 4, 1}});
+}
+
 TEST_CASE("what is wrong in PTX is said with its line", "[io]") {
   const ScratchFolder folder;
   const auto error = [&](const std::string& text) { return read_error(folder.write("a.ptx", text)); };
   CHECK_THAT(error("2\n1\n" + kStill + "1 2 3 4\n"), Contains("line 12: the file ends here, too early"));
   CHECK_THAT(error("1\n1\n" + kStill + "1 2 3\n"), Contains("line 11: a ray needs"));
-  CHECK_THAT(error("2\n1\n" + kStill + "1 2 3 4\n1 2 3 4 5 6 7\n"),
-             Contains("line 12: a ray needs 4 numbers"));
   CHECK_THAT(error("1\n1\n0 0 0\n1 0\n" + kStill), Contains("line 4: a pose needs 3 numbers"));
   CHECK_THAT(error("1\n1\n" + kStill + "1 2 3 4\nhello\n"), Contains("line 12: 'hello' is no number"));
   CHECK_THAT(error("1\n1\n" + kStill + "1 2 3 4 5 nan 7\n"),
