@@ -39,6 +39,9 @@ struct InputConfig {
   bool drop_origin = false;  // without points at 0 0 0 or at the scanner
   std::string crs;           // coordinate reference system: a code, WKT or a file; empty: as the files say
   LengthUnit unit = LengthUnit::kInput;
+  LengthUnit unit_z = LengthUnit::kInput;  // of z, where it is another
+  bool recursive = false;                  // folders with the folders in them
+  bool skip_damaged = false;               // files that cannot be read take no part
 };
 
 // How the annotated scan is written: file by file, or as one file.

@@ -12,10 +12,12 @@
 namespace lacuna::io {
 namespace {
 
+// `pose` moves positions, and `turn` normals. `is_of_scanner`: the scan begins at its scanner's place.
 class PosedReader final : public ScanReader {
  public:
-  PosedReader(std::unique_ptr<ScanReader> reader, const Pose& pose)
-      : reader_(std::move(reader)), pose_(pose) {
+  PosedReader(std::unique_ptr<ScanReader> reader, const Pose& pose, const Eigen::Matrix3d& turn,
+              bool is_of_scanner)
+      : reader_(std::move(reader)), pose_(pose), turn_(turn), is_of_scanner_(is_of_scanner) {
     std::vector<std::pair<std::string, Scalar>> columns;
     for (const Property& property : reader_->layout().properties) {
       const bool is_moved =
@@ -42,7 +44,7 @@ class PosedReader final : public ScanReader {
   // A scan that is moved to its place, and names no scanner, begins at its own.
   std::vector<ScannerPose> scanners() const override {
     std::vector<ScannerPose> scanners = reader_->scanners();
-    if (scanners.empty()) scanners.push_back({.place = Eigen::Vector3d::Zero()});
+    if (scanners.empty() && is_of_scanner_) scanners.push_back({.place = Eigen::Vector3d::Zero()});
     for (ScannerPose& scanner : scanners) {
       scanner.place = pose_ * scanner.place;
       scanner.axis = (pose_.linear() * scanner.axis).normalized();
@@ -59,9 +61,8 @@ class PosedReader final : public ScanReader {
     for (Eigen::Vector3d& position : vectors_) position = pose_ * position;
     store_vectors(vectors_, layout_, kPositionNames, batch);
     if (!has_vectors(layout_, kNormalNames)) return true;
-    const Eigen::Matrix3d turn = pose_.linear() / std::cbrt(pose_.linear().determinant());
     load_vectors(batch, layout_, kNormalNames, vectors_);
-    for (Eigen::Vector3d& normal : vectors_) normal = turn * normal;
+    for (Eigen::Vector3d& normal : vectors_) normal = turn_ * normal;
     store_vectors(vectors_, layout_, kNormalNames, batch);
     return true;
   }
@@ -78,6 +79,8 @@ class PosedReader final : public ScanReader {
 
   std::unique_ptr<ScanReader> reader_;
   Pose pose_;
+  Eigen::Matrix3d turn_;
+  bool is_of_scanner_;
   RowLayout layout_;
   RowBatch rows_;  // as the reader gives them
   std::vector<Eigen::Vector3d> vectors_;
@@ -86,7 +89,16 @@ class PosedReader final : public ScanReader {
 }  // namespace
 
 std::unique_ptr<ScanReader> posed(std::unique_ptr<ScanReader> reader, const Pose& pose) {
-  return std::make_unique<PosedReader>(std::move(reader), pose);
+  const Eigen::Matrix3d turn = pose.linear() / std::cbrt(pose.linear().determinant());
+  return std::make_unique<PosedReader>(std::move(reader), pose, turn, true);
+}
+
+std::unique_ptr<ScanReader> with_z_times(std::unique_ptr<ScanReader> reader, double factor) {
+  Pose pose = Pose::Identity();
+  pose.linear()(2, 2) = factor;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn(2, 2) = 1 / factor;
+  return std::make_unique<PosedReader>(std::move(reader), pose, turn, false);
 }
 
 }  // namespace lacuna::io

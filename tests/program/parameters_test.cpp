@@ -45,6 +45,8 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"min_curve", "40"},
     {"min_confidence", "0.999"},
     {"min_perimeter", "45"},
+    {"min_area", "60"},
+    {"max_area", "60"},
     {"min_diameter", "15"},
     {"resolution", "0.9"},
     {"min_hole", "7"},
@@ -57,6 +59,7 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"returns", "first"},
     {"crs", "EPSG:25832"},
     {"unit", "m"},
+    {"unit_z", "ft"},
     {"points_format", "ply"},
     {"sample_points", "200"},
     {"coverage", "3"},
@@ -166,6 +169,8 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
       io::FilesConfig changed = config;
       Parameter parameter = parameters(changed)[i];
       if (parameter.key == "method" || parameter.key == "every_point") continue;  // no lines in this scan
+      // These say which files are read, and the unit of z needs the unit of x and y.
+      if (parameter.key == "recursive" || parameter.key == "skip_damaged" || parameter.key == "unit_z") continue;
       set_other(parameter, runs.workspace());
       parameter = parameters(changed)[i];
       const bool has_effect = parameter.missing.empty() && parameter.section != "run";
@@ -194,7 +199,7 @@ TEST_CASE("each option without effect has its warning, each other none") {
       const bool is_flag = std::holds_alternative<bool*>(parameter.value);
       const bool is_left_out = parameter.is_constant || parameter.section == "run" || parameter.key == "method" ||
                                parameter.key == "points" || parameter.key == "columns" ||
-                               parameter.key == "eps" || parameter.key == "max_perimeter" ||
+                               parameter.key == "eps" || parameter.key == "max_perimeter" || parameter.key == "max_area" ||
                                parameter.key == "polygons" ||
                                parameter.key == "points_format";  // the files that they change are wanted
       if (is_left_out) continue;
