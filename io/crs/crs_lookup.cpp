@@ -48,8 +48,8 @@ extern "C" bool lacuna_find_scale(const std::string& crs, const Eigen::Vector3d&
   const double along_meridian = kAxis * (1 - kSquare) / (w * std::sqrt(w));
   const auto scale_of = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
     const double turn = std::remainder(to.x() - from.x(), 360);
-    const double length = std::hypot(turn * kRadian * along_parallel,
-                                     (to.y() - from.y()) * kRadian * along_meridian);
+    const double length =
+        std::hypot(turn * kRadian * along_parallel, (to.y() - from.y()) * kRadian * along_meridian);
     return 2 * half * metre / length;
   };
   scale.scale_x = scale_of(west, east);

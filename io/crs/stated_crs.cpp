@@ -80,8 +80,8 @@ StatedCrs read_stated_crs(const InputConfig& config) {
   StatedCrs stated;
   if (!config.crs.empty()) stated.crs = look_up(config.crs, text_of(config.crs));
   stated.unit = length_unit(stated.crs);
-  stated.unit_z = config.unit_z == LengthUnit::kInput ? vertical_unit(stated.crs)
-                                                      : std::string(name_of(config.unit_z));
+  stated.unit_z =
+      config.unit_z == LengthUnit::kInput ? vertical_unit(stated.crs) : std::string(name_of(config.unit_z));
   if (config.unit == LengthUnit::kInput) return stated;
   const std::string unit(name_of(config.unit));
   if (!stated.unit.empty() && stated.unit != unit)

@@ -11,8 +11,8 @@
 namespace lacuna::io {
 
 struct StatedCrs {
-  std::string crs;   // well-known text, or a code that is not looked up; empty: not stated
-  std::string unit;  // "m" and so on, as stated or of the system; empty if neither is known
+  std::string crs;     // well-known text, or a code that is not looked up; empty: not stated
+  std::string unit;    // "m" and so on, as stated or of the system; empty if neither is known
   std::string unit_z;  // likewise of z; empty: as the files say, or as x and y
 };
 

@@ -16,7 +16,7 @@ constexpr std::uint16_t kModel = 1024, kGeographic = 2048, kProjected = 3072, kV
                         kLinearUnit = 3076, kGeocentricUnit = 2052, kVerticalUnit = 4099;
 // Values of kModel.
 constexpr std::uint16_t kModelProjected = 1, kModelGeographic = 2, kModelGeocentric = 3;
-constexpr std::uint16_t kUserDefined = 32767;                       // codes from here on are not EPSG's
+constexpr std::uint16_t kUserDefined = 32767;  // codes from here on are not EPSG's
 
 // Codes of GeoTIFF 1.0, which EPSG has for datums or not at all: 5103 is the datum of NAVD 88, and no system.
 bool is_vertical_code(std::uint16_t code) {

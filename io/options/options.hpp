@@ -73,8 +73,8 @@ LACUNA_API std::vector<Parameter> file_parameters(FilesConfig& config);
 // All parameters, in the order of the config file.
 LACUNA_API std::vector<Parameter> parameters(FilesConfig& config);
 
-// Checks what `check_config` of the engine checks, and boxes. Throws, too, where the memory limit is too small
-// for a report or for files of GIS.
+// Checks what `check_config` of the engine checks, and boxes. Throws, too, where the memory limit is too
+// small for a report or for files of GIS.
 LACUNA_API void check_config(const FilesConfig& config);
 
 }  // namespace lacuna::io

@@ -84,7 +84,9 @@ void FileScan::add_units(const ScanReader& reader) {
 void FileScan::choose_z_factors() {
   bool is_any = false;
   for (std::size_t i = 0; i < files_.size(); ++i) {
-    const std::string& flat = !stated_.unit.empty() ? stated_.unit : units_[i].empty() ? common_unit_ : units_[i];
+    const std::string& flat = !stated_.unit.empty() ? stated_.unit
+                              : units_[i].empty()   ? common_unit_
+                                                    : units_[i];
     if (!stated_.unit_z.empty()) {
       z_units_[i] = stated_.unit_z;
     } else if (!stated_.unit.empty() && stated_.unit != units_[i]) {
@@ -92,7 +94,8 @@ void FileScan::choose_z_factors() {
     }
     const auto metres = metres_of_unit(flat), metres_of_z = metres_of_unit(z_units_[i]);
     if (config_.unit_z != LengthUnit::kInput && !metres)
-      throw Error(files_[i].string() + ": the unit of x and y is not known, into which --unit-z brings z; "
+      throw Error(files_[i].string() +
+                  ": the unit of x and y is not known, into which --unit-z brings z; "
                   "--unit states it");
     if (flat == z_units_[i] || !metres || !metres_of_z) z_units_[i].clear();
     z_factors_.push_back(z_units_[i].empty() ? 1 : *metres_of_z / *metres);

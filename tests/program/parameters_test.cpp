@@ -155,8 +155,8 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
   // With points there are more results. So an effect without points is one with points, too, and no effect
   // with points is none without.
   const auto follows = [](const Parameter& parameter, LoopMethod method, bool with_points, bool has_effect) {
-    const bool needs_points = parameter.key == "points_format" || parameter.key == "normals" ||
-                              parameter.key == "orient_normals";
+    const bool needs_points =
+        parameter.key == "points_format" || parameter.key == "normals" || parameter.key == "orient_normals";
     return method == LoopMethod::kTangential && !needs_points && has_effect == with_points;
   };
   for (const auto& [method, with_points] : kSettings) {
@@ -170,7 +170,8 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
       Parameter parameter = parameters(changed)[i];
       if (parameter.key == "method" || parameter.key == "every_point") continue;  // no lines in this scan
       // These say which files are read, and the unit of z needs the unit of x and y.
-      if (parameter.key == "recursive" || parameter.key == "skip_damaged" || parameter.key == "unit_z") continue;
+      if (parameter.key == "recursive" || parameter.key == "skip_damaged" || parameter.key == "unit_z")
+        continue;
       set_other(parameter, runs.workspace());
       parameter = parameters(changed)[i];
       const bool has_effect = parameter.missing.empty() && parameter.section != "run";
@@ -197,11 +198,11 @@ TEST_CASE("each option without effect has its warning, each other none") {
     std::string expected;
     for (const Parameter& parameter : parameters(config)) {
       const bool is_flag = std::holds_alternative<bool*>(parameter.value);
-      const bool is_left_out = parameter.is_constant || parameter.section == "run" || parameter.key == "method" ||
-                               parameter.key == "points" || parameter.key == "columns" ||
-                               parameter.key == "eps" || parameter.key == "max_perimeter" || parameter.key == "max_area" ||
-                               parameter.key == "polygons" ||
-                               parameter.key == "points_format";  // the files that they change are wanted
+      const bool is_left_out =
+          parameter.is_constant || parameter.section == "run" || parameter.key == "method" ||
+          parameter.key == "points" || parameter.key == "columns" || parameter.key == "eps" ||
+          parameter.key == "max_perimeter" || parameter.key == "max_area" || parameter.key == "polygons" ||
+          parameter.key == "points_format";  // the files that they change are wanted
       if (is_left_out) continue;
       options.push_back(parameter.option());
       if (!is_flag) options.emplace_back(kOtherValues.at(parameter.key));

@@ -43,14 +43,14 @@ TEST_CASE("a folder stands for its scans by name, a list for the files in it, al
   scratch.write("in/empty.xyz", "");
   scratch.write("in/deeper/d.xyz", rows);
   // A broken file of a format that is read is an error later, not passed over.
-  CHECK(files_of({in}) == Paths{a, broken});  // b.xyz is text beside binary scans
+  CHECK(files_of({in}) == Paths{a, broken});  // b.xyz is text in a folder of binary scans
   CHECK(files_of({b, in / "deeper", "missing.ply"}) == Paths{b, in / "deeper" / "d.xyz", "missing.ply"});
 
   const auto list = scratch.write("list.txt", "# two\r\nin/b.xyz\r\n\nin/deeper/d.xyz\n");
   CHECK(files_of({as_list(list)}) == Paths{scratch / "in/b.xyz", scratch / "in/deeper/d.xyz"});
 }
 
-TEST_CASE("text beside binary scans is not read, folders in a folder and damaged files where it is wanted") {
+TEST_CASE("text with binary scans is not read; options read deeper folders and leave out damaged files") {
   const test::ScratchFolder scratch;
   fs::create_directories(scratch / "in" / "deeper");
   const std::string ply =

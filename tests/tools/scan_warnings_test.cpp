@@ -120,8 +120,9 @@ TEST_CASE("the stated system and unit hold over those of all files, and a warnin
 
 TEST_CASE("z in another unit is brought into the unit of x and y, but for the annotated scan") {
   const ScratchFolder folder;
-  LasFile las{.records = {las_record("LASF_Projection", 2112,
-                                     "COMPD_CS[\"both\"," + kUtm + ",VERT_CS[\"h\",UNIT[\"foot\",0.3048]]]")}};
+  LasFile las{
+      .records = {las_record("LASF_Projection", 2112,
+                             "COMPD_CS[\"both\"," + kUtm + ",VERT_CS[\"h\",UNIT[\"foot\",0.3048]]]")}};
   las.points = {las_point(20, 1, 2, 1000)};
   las.scale = {1, 1, 1};
   const auto file = folder.write("a.las", las.bytes());
@@ -132,7 +133,8 @@ TEST_CASE("z in another unit is brought into the unit of x and y, but for the an
   scan.rewind();
   REQUIRE(scan.next(batch));
   CHECK(batch.positions[0].z() == Approx(304.8));
-  CHECK_THAT(input_warnings(scan).back(), Contains("a.las: z is in ft, and is brought into the unit of x and y"));
+  CHECK_THAT(input_warnings(scan).back(),
+             Contains("a.las: z is in ft, and is brought into the unit of x and y"));
   InputConfig config;
   config.unit_z = LengthUnit::kM;
   FileScan stated({file}, config);

@@ -210,7 +210,8 @@ void run_detect(const Command& command, const DetectArguments& arguments) {
   if (arguments.run.out.empty()) throw WrongOption("--out", "a folder name is needed");
   const ReadOptions options{.columns = config.input.columns,
                             .memory = Memory::share(config.run.memory_limit).reading};
-  const std::string summary = detect_to(expand_inputs(arguments.scans, options, config.input), config, arguments.run);
+  const std::string summary =
+      detect_to(expand_inputs(arguments.scans, options, config.input), config, arguments.run);
   if (!arguments.run.quiet) std::cout << summary;
 }
 

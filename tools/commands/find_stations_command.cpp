@@ -106,8 +106,9 @@ void run_find_stations(const FindArguments& arguments) {
   const FilesConfig config = arguments.parameters.read().config;
   prepare_process(config.run);
   const std::uint64_t memory = Memory::share(config.run.memory_limit).reading;
-  FileScan scan(expand_inputs(arguments.scans, {.columns = config.input.columns, .memory = memory}, config.input),
-                config.input, memory);
+  FileScan scan(
+      expand_inputs(arguments.scans, {.columns = config.input.columns, .memory = memory}, config.input),
+      config.input, memory);
   std::vector<Listed> stations;
   std::vector<std::string> others;
   for (const Sweep& sweep : read_sweeps(scan)) {

@@ -74,7 +74,7 @@ void warn_of_unread(const fs::path& folder, const Folder& unread) {
     if (!files.empty()) text += (text.empty() ? "" : "; ") + print_names(files) + " (" + why + ")";
   };
   add(unread.others, "no scan");
-  add(unread.texts, "text beside binary scans; it takes part if it is named");
+  add(unread.texts, "text among binary scans; it takes part if it is named");
   add(unread.folders, "a folder; --recursive reads it");
   if (!text.empty()) spdlog::warn("{}: not read: {}", visible(folder.string()), text);
 }

@@ -126,7 +126,8 @@ void warn_of_z_units(const FileScan& scan, std::vector<std::string>& warnings) {
   const auto is_scaled = [&](std::size_t i) { return scan.z_factor(i) != 1; };
   if (const auto first = find_file(scan, is_scaled))
     warnings.push_back(file_name(scan, *first) + and_more(scan, *first, is_scaled) + ": z is in " +
-                       scan.z_units()[*first] + ", and is brought into the unit of x and y; --unit-z states " +
+                       scan.z_units()[*first] +
+                       ", and is brought into the unit of x and y; --unit-z states " +
                        "another unit; the annotated scan keeps its own z");
 }
 
@@ -170,8 +171,10 @@ void refuse_other_scale(const FileScan& scan, std::size_t file, const std::strin
   std::ostringstream text;
   text.precision(3);
   text << name << ": " << crs_name(crs) << " has lengths " << x;
-  if (std::abs(x / y - 1) > kMost) text << " times (along y " << y << " times)";
-  else text << " times";
+  if (std::abs(x / y - 1) > kMost)
+    text << " times (along y " << y << " times)";
+  else
+    text << " times";
   text << " those on the ground at latitude " << scale->latitude
        << "; `pdal translate IN OUT reprojection --filters.reprojection.out_srs=" << utm_zone(*scale)
        << "` brings them to scale; if its coordinates are true lengths, --crs can state their system";
@@ -186,9 +189,11 @@ void refuse_other_scale(const FileScan& scan, std::size_t file, const std::strin
   const auto place = find_place(scan, file);
   if (place && place->head<2>().cwiseAbs().maxCoeff() > 360) {
     text << " is in longitude and latitude, but its coordinates are far beyond degrees, such as "
-         << place->x() << " " << place->y() << "; --crs states the system that they are in, such as EPSG:25832";
+         << place->x() << " " << place->y()
+         << "; --crs states the system that they are in, such as EPSG:25832";
   } else {
-    text << kDegrees << "; `pdal translate IN OUT reprojection --filters.reprojection.out_srs=EPSG:N` projects "
+    text << kDegrees
+         << "; `pdal translate IN OUT reprojection --filters.reprojection.out_srs=EPSG:N` projects "
          << "it; if its coordinates are lengths, --crs can state their system";
   }
   throw Error(text.str());

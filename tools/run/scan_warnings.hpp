@@ -15,8 +15,8 @@ namespace lacuna::tools {
 std::string crs_name(const std::string& crs);
 
 // Throws `Error` if positions are longitude and latitude, because nothing of a run fits degrees. Throws, too,
-// if lengths in a projected system differ by more than 1 in 100 from those on the ground, at the first point
-// of a file. This needs lacuna_gis.so.
+// if lengths differ by more than 1 in 100 from true ones, at the first point of a file. This check is of
+// projected systems, and needs lacuna_gis.so.
 void refuse_degrees(const io::FileScan& scan);
 
 // Returns, before a run, one line for each file that is given more than once, also by another name. Another
