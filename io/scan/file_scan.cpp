@@ -69,12 +69,13 @@ void FileScan::add_units(const ScanReader& reader) {
   units_.push_back(reader.length_unit());
   z_units_.push_back(reader.vertical_unit());
   const std::string& crs = crs_.back();
+  // Files of one scan have one system, mostly, which is looked up once.
+  if (crs_.size() < 2 || crs != crs_[crs_.size() - 2]) known_crs_.clear();
   if (!is_code(crs) || reader.is_geographic()) return;
   const bool has_z_code = crs.find('+') != crs.npos;
   if (units_.back().empty() && is_utm(crs)) units_.back() = "m";
   if (!units_.back().empty() && (!has_z_code || !z_units_.back().empty())) return;
-  // Files of one scan have one system, mostly.
-  if (crs_.size() < 2 || crs != crs_[crs_.size() - 2] || known_crs_.empty()) known_crs_ = known_text(crs);
+  if (known_crs_.empty()) known_crs_ = known_text(crs);
   const std::string& text = known_crs_;
   if (units_.back().empty()) units_.back() = io::length_unit(text);
   if (z_units_.back().empty()) z_units_.back() = vertical_unit(text);

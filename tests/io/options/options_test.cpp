@@ -332,7 +332,7 @@ TEST_CASE("values that contradict each other are refused") {
   REQUIRE_THROWS_WITH(check_config(config), Contains("max_perimeter"));
   config = {};
   config.selection = {.min_area = 2, .max_area = 1};
-  REQUIRE_THROWS_WITH(check_config(config), Contains("max_area = 1 is less than min_area = 2"));
+  REQUIRE_THROWS_WITH(check_config(config), Contains("max_area = 1.0 is less than min_area = 2.0"));
   config = {};
   config.criteria.sigma = std::numeric_limits<double>::quiet_NaN();
   REQUIRE_THROWS_WITH(check_config(config), Contains("sigma = nan"));
