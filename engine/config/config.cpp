@@ -7,6 +7,15 @@
 #include <algorithm>
 
 namespace lacuna {
+namespace {
+
+void check_limits(const std::string& measure, double min, double max) {
+  if (max == 0 || max >= min) return;
+  throw Error("max_" + measure + " = " + print_number(max) + " is less than min_" + measure + " = " +
+              print_number(min) + "; allowed: 0 (no limit) or at least min_" + measure);
+}
+
+}  // namespace
 
 double first_edge(const ScaleConfig& scale) {
   if (scale.resolution > 0 || scale.every_point) return scale.resolution;
@@ -35,11 +44,8 @@ void check_config(const Config& config) {
     throw Error(names + " are all 0; allowed: at least one above 0");
   }
   const SelectionConfig& selection = config.selection;
-  if (selection.max_perimeter > 0 && selection.max_perimeter < selection.min_perimeter) {
-    throw Error("max_perimeter = " + print_number(selection.max_perimeter) +
-                " is less than min_perimeter = " + print_number(selection.min_perimeter) +
-                "; allowed: 0 (no limit) or at least min_perimeter");
-  }
+  check_limits("perimeter", selection.min_perimeter, selection.max_perimeter);
+  check_limits("area", selection.min_area, selection.max_area);
 }
 
 }  // namespace lacuna

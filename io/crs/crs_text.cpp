@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <span>
 
 namespace lacuna::io {
@@ -14,6 +15,7 @@ constexpr std::array<std::string_view, 2> kGeodetic = {"GEODCRS", "GEODETICCRS"}
 constexpr std::array<std::string_view, 13> kHorizontal = {
     "PROJCS",  "PROJCRS",     "PROJECTEDCRS", "DERIVEDPROJCRS", "GEOGCS", "GEOGCRS",       "GEOGRAPHICCRS",
     "GEODCRS", "GEODETICCRS", "GEOCCS",       "LOCAL_CS",       "ENGCRS", "ENGINEERINGCRS"};
+constexpr std::array<std::string_view, 3> kVertical = {"VERT_CS", "VERTCRS", "VERTICALCRS"};
 constexpr std::array<std::string_view, 1> kAxes = {"CS"};
 
 bool is_equal(std::string_view a, std::string_view b) {
@@ -65,6 +67,36 @@ std::string_view find_node(std::string_view text, std::span<const std::string_vi
 
 std::string_view horizontal_system(std::string_view crs) {
   return find_node(crs, kHorizontal);
+}
+
+std::string_view vertical_system(std::string_view crs) {
+  return find_node(crs, kVertical);
+}
+
+bool is_code(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  return colon != text.npos && colon > 0 && colon + 1 < text.size() &&
+         text.find_first_not_of("0123456789+", colon + 1) == text.npos &&
+         std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(colon),
+                     [](unsigned char c) { return std::isalpha(c) != 0; });
+}
+
+bool is_utm(std::string_view crs) {
+  if (!is_code(crs)) {
+    const std::string_view system = horizontal_system(crs);
+    return system.substr(0, system.find(',')).find("UTM zone") != system.npos;
+  }
+  constexpr std::string_view kEpsg = "EPSG:";
+  constexpr std::array<std::array<int, 2>, 4> kZones = {
+      {{32601, 32660}, {32701, 32760}, {25828, 25838}, {26901, 26923}}};  // WGS 84, ETRS89, NAD83
+  int code = 0;
+  if (crs.starts_with(kEpsg)) std::from_chars(crs.data() + kEpsg.size(), crs.data() + crs.size(), code);
+  return std::any_of(kZones.begin(), kZones.end(),
+                     [&](const auto& zones) { return code >= zones[0] && code <= zones[1]; });
+}
+
+std::string_view without_vertical(std::string_view crs) {
+  return is_code(crs) ? crs.substr(0, crs.find('+')) : horizontal_system(crs);
 }
 
 bool is_geographic(std::string_view crs) {

@@ -10,6 +10,18 @@ namespace lacuna::io {
 // if the text is a code, or has no such part.
 std::string_view horizontal_system(std::string_view crs);
 
+// Returns the part that heights are in, `VERT_CS[...]` of a compound system; empty if there is none.
+std::string_view vertical_system(std::string_view crs);
+
+// Whether the text is "EPSG:25832", "ESRI:102100", or a horizontal and a vertical one, "EPSG:25832+7837".
+bool is_code(std::string_view text);
+
+// Whether the system is a zone of UTM, by its code or its name.
+bool is_utm(std::string_view crs);
+
+// Returns the horizontal part of a code or of well-known text.
+std::string_view without_vertical(std::string_view crs);
+
 // Whether positions are longitude and latitude. False where the text is a code.
 bool is_geographic(std::string_view crs);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/crs/gdal_session.hpp"
 
+#include "io/crs/crs_text.hpp"
+
 #include <cmath>
 
 #include <cpl_conv.h>
@@ -24,11 +26,17 @@ void register_gdal_drivers() {
   static_cast<void>(done);
 }
 
-bool read_crs(const std::string& text, OGRSpatialReference& crs) {
+bool read_exact_crs(const std::string& text, OGRSpatialReference& crs) {
   const char* const within_text[] = {"ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr};
   const bool is_read = crs.SetFromUserInput(text.c_str(), within_text) == OGRERR_NONE;
   crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   return is_read;
+}
+
+bool read_crs(const std::string& text, OGRSpatialReference& crs) {
+  if (read_exact_crs(text, crs)) return true;
+  const std::string flat(without_vertical(text));
+  return !flat.empty() && flat != text && read_exact_crs(flat, crs);
 }
 
 std::unique_ptr<OGRCoordinateTransformation> conversion_to_degrees(OGRSpatialReference& crs) {

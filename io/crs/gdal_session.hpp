@@ -23,6 +23,8 @@ void register_gdal_drivers();
 // Reads a coordinate reference system, with x to the east, from a code or well-known text. It uses the
 // database of PROJ alone, no network and no file that the text names. False where GDAL does not understand
 // it.
+bool read_exact_crs(const std::string& text, OGRSpatialReference& crs);
+// Works likewise, but leaves out a vertical part that GDAL does not understand: the horizontal part holds.
 bool read_crs(const std::string& text, OGRSpatialReference& crs);
 
 // Converts positions of a system to longitude and latitude of WGS 84. z stays as it is. Geocentric positions

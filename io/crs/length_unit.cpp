@@ -35,10 +35,10 @@ std::optional<double> metres_of_unit(std::string_view unit) {
   return known == std::end(kUnits) ? std::nullopt : std::optional(known->metres);
 }
 
-std::string length_unit(std::string_view crs) {
-  if (is_geographic(crs)) return "";
-  // Units of angles, and of the geographic system below it, come before the unit of length: the last counts.
-  const std::string_view system = horizontal_system(crs);
+namespace {
+
+// Units of angles, and of the geographic system below it, come before the unit of length: the last counts.
+std::string last_unit(std::string_view system) {
   const std::size_t unit = system.rfind("UNIT[\"");
   if (unit == system.npos) return "";
   const std::size_t comma = system.find("\",", unit);
@@ -48,6 +48,16 @@ std::string length_unit(std::string_view crs) {
   while (factor.starts_with(' ')) factor.remove_prefix(1);
   double metres = 0;
   return parse_number(factor, metres) ? unit_of_metres(metres) : "";
+}
+
+}  // namespace
+
+std::string length_unit(std::string_view crs) {
+  return is_geographic(crs) ? "" : last_unit(horizontal_system(crs));
+}
+
+std::string vertical_unit(std::string_view crs) {
+  return last_unit(vertical_system(crs));
 }
 
 }  // namespace lacuna::io

@@ -17,5 +17,7 @@ std::optional<double> metres_of_unit(std::string_view unit);
 // Returns the horizontal unit of a coordinate reference system in well-known text (OGC 01-009; ISO 19162).
 // Empty if the system is geographic, if the text is a code, or if it names another unit.
 std::string length_unit(std::string_view crs);
+// Returns the unit of its vertical system likewise; empty if it has none.
+std::string vertical_unit(std::string_view crs);
 
 }  // namespace lacuna::io

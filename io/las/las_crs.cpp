@@ -13,9 +13,30 @@ namespace {
 constexpr std::uint16_t kWellKnownText = 2112, kGeoKeys = 34735;  // numbers of records
 // Keys of GeoTIFF.
 constexpr std::uint16_t kModel = 1024, kGeographic = 2048, kProjected = 3072, kVertical = 4096,
-                        kLinearUnit = 3076;
-constexpr std::uint16_t kModelProjected = 1, kModelGeographic = 2;  // values of kModel
-constexpr std::uint16_t kUserDefined = 32767;                       // codes from here on are not EPSG's
+                        kLinearUnit = 3076, kGeocentricUnit = 2052, kVerticalUnit = 4099;
+// Values of kModel.
+constexpr std::uint16_t kModelProjected = 1, kModelGeographic = 2, kModelGeocentric = 3;
+constexpr std::uint16_t kUserDefined = 32767;  // codes from here on are not EPSG's
+
+// Codes of GeoTIFF 1.0, which EPSG has for datums or not at all: 5103 is the datum of NAVD 88, and no system.
+bool is_vertical_code(std::uint16_t code) {
+  return code < 5001 || (code > 5033 && code < 5101) || code > 5106;
+}
+
+// GeoTIFF names a geocentric system by the geographic one of its datum, which is in degrees. Returns the code
+// of the geocentric system; 0 if it is not known.
+std::uint16_t geocentric_code(std::uint16_t code) {
+  constexpr std::uint16_t kWgs84 = 4978, kEtrs89 = 4936, kNad83 = 6317;
+  if (code == 4326 || code == 4979 || code == kWgs84) return kWgs84;
+  if (code == 4258 || code == 4937 || code == kEtrs89) return kEtrs89;
+  if (code == 6318 || code == 6319 || code == kNad83) return kNad83;
+  return 0;
+}
+
+std::string unit_of_code(std::uint16_t code) {
+  constexpr std::uint16_t kMetre = 9001, kFoot = 9002, kSurveyFoot = 9003;  // EPSG
+  return code == kMetre ? "m" : code == kFoot ? "ft" : code == kSurveyFoot ? "us-ft" : "";
+}
 
 }  // namespace
 
@@ -39,8 +60,9 @@ void LasCrs::take_keys(std::span<const std::byte> data) {
     if (code >= kUserDefined) continue;
     if (key == kGeographic) geographic_ = code;
     if (key == kProjected) projected_ = code;
-    if (key == kVertical) vertical_ = code;
-    if (key == kLinearUnit) unit_ = code;
+    if (key == kVertical && is_vertical_code(code)) vertical_ = code;
+    if (key == kLinearUnit || key == kGeocentricUnit) unit_ = code;
+    if (key == kVerticalUnit) vertical_unit_ = code;
   }
 }
 
@@ -48,8 +70,16 @@ bool LasCrs::is_projected() const {
   return projected_ != 0 || (model_ == 0 ? has_projected_ : model_ == kModelProjected);
 }
 
+bool LasCrs::is_geocentric() const {
+  return model_ == kModelGeocentric && !is_projected();
+}
+
 std::string LasCrs::text() const {
   if (!well_known_text_.empty()) return well_known_text_;
+  if (is_geocentric()) {
+    const std::uint16_t code = geocentric_code(geographic_);
+    return code == 0 ? "" : "EPSG:" + std::to_string(code);
+  }
   // Positions are not in the geographic system below a projected one.
   const std::uint16_t horizontal = is_projected() ? projected_ : geographic_;
   if (horizontal == 0) return "";
@@ -64,8 +94,12 @@ bool LasCrs::is_geographic() const {
 
 std::string LasCrs::length_unit() const {
   if (!well_known_text_.empty()) return io::length_unit(well_known_text_);
-  constexpr std::uint16_t kMetre = 9001, kFoot = 9002, kSurveyFoot = 9003;  // EPSG
-  return unit_ == kMetre ? "m" : unit_ == kFoot ? "ft" : unit_ == kSurveyFoot ? "us-ft" : "";
+  return unit_ == 0 && is_geocentric() ? "m" : unit_of_code(unit_);
+}
+
+std::string LasCrs::vertical_unit() const {
+  const std::string of_text = io::vertical_unit(well_known_text_);
+  return of_text.empty() ? unit_of_code(vertical_unit_) : of_text;
 }
 
 }  // namespace lacuna::io

@@ -22,15 +22,19 @@ class LasCrs {
   bool is_geographic() const;
   // Returns "m", "ft", "us-ft"; empty if the unit is not known (io/crs/length_unit.hpp).
   std::string length_unit() const;
+  // Returns the unit of z likewise.
+  std::string vertical_unit() const;
 
  private:
   void take_keys(std::span<const std::byte> data);
-  bool is_projected() const;  // of the keys
+  bool is_projected() const;   // of the keys
+  bool is_geocentric() const;  // likewise
 
   std::string well_known_text_;
-  std::uint16_t geographic_ = 0, projected_ = 0, vertical_ = 0, unit_ = 0;  // codes of EPSG; 0 if absent
-  std::uint16_t model_ = 0;                                                 // 0: not stated
-  bool has_projected_ = false;                                              // with a code or without
+  // Codes of EPSG; 0 if absent.
+  std::uint16_t geographic_ = 0, projected_ = 0, vertical_ = 0, unit_ = 0, vertical_unit_ = 0;
+  std::uint16_t model_ = 0;     // 0: not stated
+  bool has_projected_ = false;  // with a code or without
 };
 
 }  // namespace lacuna::io

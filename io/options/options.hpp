@@ -43,6 +43,9 @@ struct InputConfig {
   Trust trust = Trust::kNeither;
   std::string crs;  // coordinate reference system: a code, WKT or a file; empty: as the files say
   LengthUnit unit = LengthUnit::kInput;
+  LengthUnit unit_z = LengthUnit::kInput;  // of z, where it is another
+  bool recursive = false;                  // folders with the folders in them
+  bool skip_damaged = false;               // files that cannot be read take no part
 };
 
 // How the annotated scan is written: file by file, or as one file.

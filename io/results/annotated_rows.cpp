@@ -110,7 +110,7 @@ JoinedRows::JoinedRows(const FileScan& scan, RowLayout joined, FileRange files, 
 std::size_t JoinedRows::next(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) {
   for (; file_ < end_; ++file_, reader_.reset()) {
     if (!reader_) {
-      reader_ = scan_.open(file_);
+      reader_ = scan_.open_in_own_units(file_);
       sources_ = find_sources(reader_->layout(), joined_.properties);
     }
     if (!reader_->next(rows_, std::min(max_rows, scan_.batch_rows(file_)))) continue;
@@ -124,6 +124,7 @@ std::size_t JoinedRows::next(std::size_t max_rows, std::size_t stride, std::vect
 void JoinedRows::positions(std::vector<Eigen::Vector3d>& positions) const {
   positions.clear();
   load_vectors(rows_, reader_->layout(), kPositionNames, positions);
+  for (Eigen::Vector3d& position : positions) position.z() *= scan_.z_factor(file_);
 }
 
 void JoinedRows::copy_columns(std::size_t stride, std::byte* out) const {

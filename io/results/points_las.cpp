@@ -135,15 +135,14 @@ class LasForm final : public PointsForm {
   void compress(const std::string& name) {
     const int format = input_.header.point_format;
     const auto extra = static_cast<std::uint16_t>(written_bytes_ - las_point_bytes(format));
-    const auto layout = laz::layout_of(format, extra);
-    assert(layout);  // no file with waveforms, which have none, is read
-    const std::uint64_t needed = laz::encoder_bytes(*layout) + laz::kMostChunkBytes;
+    const laz::Layout layout = laz::layout_of(format, extra);
+    const std::uint64_t needed = laz::encoder_bytes(layout) + laz::kMostChunkBytes;
     if (needed > scan_.memory())
-      throw Error(name + ": to compress points of " + std::to_string(layout->record_bytes()) +
+      throw Error(name + ": to compress points of " + std::to_string(layout.record_bytes()) +
                   " bytes takes " + std::to_string(needed >> 20) + " MiB, more than the " +
                   std::to_string(scan_.memory() >> 20) + " MiB that the memory limit leaves for it" +
                   kWayOut);
-    compression_ = {.layout = *layout, .memory = scan_.memory() / 2};  // the other half is for reading
+    compression_ = {.layout = layout, .memory = scan_.memory() / 2};  // the other half is for reading
   }
 
   const FileScan& scan_;

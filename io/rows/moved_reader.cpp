@@ -75,10 +75,15 @@ class OffsetReader final : public MovedReader {
   Eigen::Vector3d offset_;
 };
 
+// `pose` moves positions, and `turn` normals. `is_of_scanner`: the scan begins at its scanner's place.
 class PosedReader final : public MovedReader {
  public:
-  PosedReader(std::unique_ptr<ScanReader> reader, RowLayout layout, const Pose& pose)
-      : MovedReader(std::move(reader), std::move(layout)), pose_(pose) {}
+  PosedReader(std::unique_ptr<ScanReader> reader, RowLayout layout, const Pose& pose,
+              const Eigen::Matrix3d& turn, bool is_of_scanner)
+      : MovedReader(std::move(reader), std::move(layout)),
+        pose_(pose),
+        turn_(turn),
+        is_of_scanner_(is_of_scanner) {}
 
   std::string length_unit() const override {
     const bool is_rigid = std::abs(pose_.linear().determinant() - 1) < 1e-6;
@@ -93,7 +98,7 @@ class PosedReader final : public MovedReader {
   // A scan that is moved to its place, and names no scanner, begins at its own.
   std::vector<ScannerPose> scanners() const override {
     std::vector<ScannerPose> scanners = reader().scanners();
-    if (scanners.empty()) scanners.push_back({.place = Eigen::Vector3d::Zero()});
+    if (scanners.empty() && is_of_scanner_) scanners.push_back({.place = Eigen::Vector3d::Zero()});
     for (ScannerPose& scanner : scanners) {
       scanner.place = pose_ * scanner.place;
       scanner.axis = (pose_.linear() * scanner.axis).normalized();
@@ -105,11 +110,12 @@ class PosedReader final : public MovedReader {
   void move(RowBatch& batch) override {
     change(batch, kPositionNames, [&](const Eigen::Vector3d& p) -> Eigen::Vector3d { return pose_ * p; });
     if (!has_vectors(layout(), kNormalNames)) return;
-    const Eigen::Matrix3d turn = pose_.linear() / std::cbrt(pose_.linear().determinant());
-    change(batch, kNormalNames, [&](const Eigen::Vector3d& n) -> Eigen::Vector3d { return turn * n; });
+    change(batch, kNormalNames, [&](const Eigen::Vector3d& n) -> Eigen::Vector3d { return turn_ * n; });
   }
 
   Pose pose_;
+  Eigen::Matrix3d turn_;
+  bool is_of_scanner_;
 };
 
 }  // namespace
@@ -122,7 +128,17 @@ std::unique_ptr<ScanReader> with_offset(std::unique_ptr<ScanReader> reader, cons
 
 std::unique_ptr<ScanReader> posed(std::unique_ptr<ScanReader> reader, const Pose& pose) {
   RowLayout layout = with_components_as(Scalar::kFloat64, kNormalNames, with_doubles(reader->layout()));
-  return std::make_unique<PosedReader>(std::move(reader), std::move(layout), pose);
+  const Eigen::Matrix3d turn = pose.linear() / std::cbrt(pose.linear().determinant());
+  return std::make_unique<PosedReader>(std::move(reader), std::move(layout), pose, turn, true);
+}
+
+std::unique_ptr<ScanReader> with_z_times(std::unique_ptr<ScanReader> reader, double factor) {
+  RowLayout layout = with_components_as(Scalar::kFloat64, kNormalNames, with_doubles(reader->layout()));
+  Pose pose = Pose::Identity();
+  pose.linear()(2, 2) = factor;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn(2, 2) = 1 / factor;
+  return std::make_unique<PosedReader>(std::move(reader), std::move(layout), pose, turn, false);
 }
 
 }  // namespace lacuna::io

@@ -18,4 +18,8 @@ std::unique_ptr<ScanReader> with_offset(std::unique_ptr<ScanReader> reader, cons
 // and normals become doubles; all else stays as it is.
 std::unique_ptr<ScanReader> posed(std::unique_ptr<ScanReader> reader, const Pose& pose);
 
+// Returns the rows of `reader` with z in another unit, a multiple of it. Normals stay at right angles to the
+// surface, but need not have unit length.
+std::unique_ptr<ScanReader> with_z_times(std::unique_ptr<ScanReader> reader, double factor);
+
 }  // namespace lacuna::io

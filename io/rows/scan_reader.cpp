@@ -10,6 +10,10 @@ bool ScanReader::is_geographic() const {
   return io::is_geographic(crs());
 }
 
+std::string ScanReader::vertical_unit() const {
+  return io::vertical_unit(crs());
+}
+
 std::string ScanReader::length_unit() const {
   return io::length_unit(crs());
 }

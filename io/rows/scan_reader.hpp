@@ -79,6 +79,8 @@ class LACUNA_API ScanReader {
   virtual bool is_geographic() const;
   // Returns the unit of length, as unit_of_metres (io/crs/length_unit.hpp); empty if not known.
   virtual std::string length_unit() const;
+  // Returns the unit of z likewise; empty if not known, and then it is the unit of x and y.
+  virtual std::string vertical_unit() const;
   // Returns the scanners of the rows read so far, and maybe of others.
   virtual std::vector<ScannerPose> scanners() const { return {}; }
   // Returns positions that mean a ray without return: 0 0 0, and the scanner's own if the file has it.

@@ -2,6 +2,8 @@
 #include "io/scan/file_scan.hpp"
 
 #include "engine/run/error.hpp"
+#include "io/crs/crs_text.hpp"
+#include "io/crs/length_unit.hpp"
 #include "io/formats.hpp"
 #include "io/rows/moved_reader.hpp"
 #include "io/rows/vectors.hpp"
@@ -40,11 +42,11 @@ FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint6
     arrays_.push_back(std::move(input.arrays));
     files_.push_back(std::move(input.file));
     poses_.push_back(std::move(input.pose));
-    const auto reader = open(files_.size() - 1);
+    const auto reader = open_in_own_units(files_.size() - 1);
     const RowFilter filter(config_, files_.back(), *reader);
     layouts_.push_back(reader->layout());
     crs_.push_back(reader->crs());
-    units_.push_back(reader->length_unit());
+    add_units(*reader);
     is_geographic_.push_back(reader->is_geographic());
     formats_.push_back(reader->format());
     reads_slowly_ = reads_slowly_ || reader->is_slow();
@@ -59,6 +61,49 @@ FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint6
     }
   }
   choose_crs();
+  choose_z_factors();
+}
+
+// A code states the units that a file does not.
+void FileScan::add_units(const ScanReader& reader) {
+  units_.push_back(reader.length_unit());
+  z_units_.push_back(reader.vertical_unit());
+  const std::string& crs = crs_.back();
+  // Files of one scan have one system, mostly, which is looked up once.
+  if (crs_.size() < 2 || crs != crs_[crs_.size() - 2]) known_crs_.clear();
+  if (!is_code(crs) || reader.is_geographic()) return;
+  const bool has_z_code = crs.find('+') != crs.npos;
+  if (units_.back().empty() && is_utm(crs)) units_.back() = "m";
+  if (!units_.back().empty() && (!has_z_code || !z_units_.back().empty())) return;
+  if (known_crs_.empty()) known_crs_ = known_text(crs);
+  const std::string& text = known_crs_;
+  if (units_.back().empty()) units_.back() = io::length_unit(text);
+  if (z_units_.back().empty()) z_units_.back() = vertical_unit(text);
+}
+
+// A stated unit of x and y that is not a file's own is a word against its unit of z, too.
+void FileScan::choose_z_factors() {
+  bool is_any = false;
+  for (std::size_t i = 0; i < files_.size(); ++i) {
+    const std::string& flat = !stated_.unit.empty() ? stated_.unit
+                              : units_[i].empty()   ? common_unit_
+                                                    : units_[i];
+    if (!stated_.unit_z.empty()) {
+      z_units_[i] = stated_.unit_z;
+    } else if (!stated_.unit.empty() && stated_.unit != units_[i]) {
+      z_units_[i].clear();
+    }
+    const auto metres = metres_of_unit(flat), metres_of_z = metres_of_unit(z_units_[i]);
+    if (config_.unit_z != LengthUnit::kInput && !metres)
+      throw Error(files_[i].string() +
+                  ": the unit of x and y is not known, into which --unit-z brings z; "
+                  "--unit states it");
+    if (flat == z_units_[i] || !metres || !metres_of_z) z_units_[i].clear();
+    z_factors_.push_back(z_units_[i].empty() ? 1 : *metres_of_z / *metres);
+    is_any = is_any || z_factors_.back() != 1;
+  }
+  // The vertical part of a system is no longer that of the results.
+  if (is_any) common_crs_ = std::string(without_vertical(common_crs_));
 }
 
 void FileScan::choose_crs() {
@@ -75,6 +120,12 @@ void FileScan::choose_crs() {
 }
 
 std::unique_ptr<ScanReader> FileScan::open(std::size_t file) const {
+  auto reader = open_in_own_units(file);
+  const double factor = z_factors_[file];
+  return factor == 1 ? std::move(reader) : with_z_times(std::move(reader), factor);
+}
+
+std::unique_ptr<ScanReader> FileScan::open_in_own_units(std::size_t file) const {
   if (arrays_[file]) return read_arrays(*arrays_[file]);
   io::check_unchanged(files_[file], states_[file]);
   auto reader =

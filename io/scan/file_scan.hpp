@@ -85,6 +85,10 @@ class LACUNA_API FileScan : public PointSource {
   const std::vector<std::string>& crs() const { return crs_; }
   // Returns the unit of length of each file; empty if it names none.
   const std::vector<std::string>& units() const { return units_; }
+  // Returns the unit of z of each file, with what --unit-z states; empty if it is the unit of x and y.
+  const std::vector<std::string>& z_units() const { return z_units_; }
+  // Returns the factor that brings z of a file into the unit of x and y.
+  double z_factor(std::size_t file) const { return z_factors_[file]; }
   // Whether positions of a file are longitude and latitude, as it says.
   bool is_geographic(std::size_t file) const { return is_geographic_[file]; }
   // Returns the values of --crs and --unit in the config; empty if not stated.
@@ -101,8 +105,10 @@ class LACUNA_API FileScan : public PointSource {
   std::uint64_t memory() const { return memory_; }
   // Returns how many rows of a file to read at a time.
   std::size_t batch_rows(std::size_t file) const;
-  // Opens a file at its first row, moved by its pose, without filters.
+  // Opens a file at its first row, moved by its pose, without filters, with z in the unit of x and y.
   std::unique_ptr<ScanReader> open(std::size_t file) const;
+  // Opens it likewise with z in its own unit, which results for each point have.
+  std::unique_ptr<ScanReader> open_in_own_units(std::size_t file) const;
   // Counts the points read since the last rewind.
   const FilteredOut& filtered_out() const { return filtered_out_; }
   // Throws `Error` if a file is no longer what it was when it was first opened. Then a later read may not fit
@@ -115,6 +121,8 @@ class LACUNA_API FileScan : public PointSource {
 
  private:
   void choose_crs();
+  void add_units(const ScanReader& reader);
+  void choose_z_factors();
   void refuse_too_far(const PointBatch& batch) const;
   std::string describe_no_point() const;
 
@@ -125,9 +133,11 @@ class LACUNA_API FileScan : public PointSource {
   std::uint64_t memory_;
   std::vector<FileState> states_;  // of each file; nothing for arrays
   std::vector<RowLayout> layouts_;
-  std::vector<std::string> crs_, units_, formats_;
+  std::vector<std::string> crs_, units_, z_units_, formats_;
+  std::vector<double> z_factors_;
   std::vector<bool> is_geographic_;
   StatedCrs stated_;
+  std::string known_crs_;  // well-known text of the last code that was looked up
   std::string common_crs_, common_unit_;
   bool has_normals_ = false, reads_slowly_ = false, has_scanners_ = false;
   std::vector<std::optional<std::uint64_t>> expected_rows_;

@@ -45,6 +45,8 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"min_curve", "40"},
     {"min_confidence", "0.999"},
     {"min_perimeter", "45"},
+    {"min_area", "60"},
+    {"max_area", "60"},
     {"min_diameter", "15"},
     {"resolution", "0.9"},
     {"min_hole", "7"},
@@ -57,6 +59,7 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"returns", "first"},
     {"crs", "EPSG:25832"},
     {"unit", "m"},
+    {"unit_z", "ft"},
     {"points_format", "ply"},
     {"sample_points", "200"},
     {"coverage", "3"},
@@ -163,9 +166,11 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
     for (std::size_t i = 0; i < count; i += count / draws(count)) {
       io::FilesConfig changed = config;
       Parameter parameter = parameters(changed)[i];
-      // This scan has neither lines nor normals.
-      if (parameter.key == "method" || parameter.key == "every_point" || parameter.key == "estimate_normals")
-        continue;
+      // This scan has neither lines nor normals. The others say which files are read, and the unit of z needs
+      // the unit of x and y.
+      const std::string_view passed[] = {"method",    "every_point",  "estimate_normals",
+                                         "recursive", "skip_damaged", "unit_z"};
+      if (std::find(std::begin(passed), std::end(passed), parameter.key) != std::end(passed)) continue;
       set_other(parameter, runs.workspace());
       parameter = parameters(changed)[i];
       const bool has_effect = parameter.missing.empty() && parameter.section != "run";
@@ -192,11 +197,11 @@ TEST_CASE("each option without effect has its warning, each other none") {
     std::string expected;
     for (const Parameter& parameter : parameters(config)) {
       const bool is_flag = std::holds_alternative<bool*>(parameter.value);
-      const bool is_left_out = parameter.is_constant || parameter.section == "run" ||
-                               parameter.key == "method" || parameter.key == "points" ||
-                               parameter.key == "columns" || parameter.key == "eps" ||
-                               parameter.key == "max_perimeter" || parameter.key == "polygons" ||
-                               parameter.key == "points_format";  // the files that they change are wanted
+      const bool is_left_out =
+          parameter.is_constant || parameter.section == "run" || parameter.key == "method" ||
+          parameter.key == "points" || parameter.key == "columns" || parameter.key == "eps" ||
+          parameter.key == "max_perimeter" || parameter.key == "max_area" || parameter.key == "polygons" ||
+          parameter.key == "points_format";  // the files that they change are wanted
       if (is_left_out) continue;
       options.push_back(parameter.option());
       if (!is_flag) options.emplace_back(kOtherValues.at(parameter.key));

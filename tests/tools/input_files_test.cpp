@@ -43,11 +43,28 @@ TEST_CASE("a folder stands for its scans by name, a list for the files in it, al
   scratch.write("in/empty.xyz", "");
   scratch.write("in/deeper/d.xyz", rows);
   // A broken file of a format that is read is an error later, not passed over.
-  CHECK(files_of({in}) == Paths{a, b, broken});
+  CHECK(files_of({in}) == Paths{a, broken});  // b.xyz is text in a folder of binary scans
   CHECK(files_of({b, in / "deeper", "missing.ply"}) == Paths{b, in / "deeper" / "d.xyz", "missing.ply"});
 
   const auto list = scratch.write("list.txt", "# two\r\nin/b.xyz\r\n\nin/deeper/d.xyz\n");
   CHECK(files_of({as_list(list)}) == Paths{scratch / "in/b.xyz", scratch / "in/deeper/d.xyz"});
+}
+
+TEST_CASE("text with binary scans is not read; options read deeper folders and leave out damaged files") {
+  const test::ScratchFolder scratch;
+  fs::create_directories(scratch / "in" / "deeper");
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 0\nproperty int x\nproperty int y\nproperty int z\nend_header\n";
+  const auto a = scratch.write("in/a.ply", ply), deep = scratch.write("in/deeper/b.ply", ply);
+  const auto broken = scratch.write("in/c.ply", "ply\nbroken\n");
+  scratch.write("in/control_points.txt", "1 2 3\n4 5 6\n");
+  InputConfig config;
+  config.recursive = config.skip_damaged = true;
+  const std::vector<ScanInput> inputs = expand_inputs({scratch / "in"}, {}, config);
+  REQUIRE(inputs.size() == 2);
+  CHECK(inputs[0].file == a);
+  CHECK(inputs[1].file == deep);
+  CHECK_THROWS_WITH(expand_inputs({broken}, {}, config), Catch::Matchers::Contains("no other file is left"));
 }
 
 TEST_CASE("a pose follows a name in a list, as numbers or as the file that holds them") {

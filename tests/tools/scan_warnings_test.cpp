@@ -91,4 +91,28 @@ TEST_CASE("normals that do not fit the surface are a warning from a tenth on") {
                  Contains("--estimate-normals"));
 }
 
+TEST_CASE("z in another unit is brought into the unit of x and y, but for the annotated scan") {
+  const ScratchFolder folder;
+  LasFile las{
+      .records = {las_record("LASF_Projection", 2112,
+                             "COMPD_CS[\"both\"," + kUtm + ",VERT_CS[\"h\",UNIT[\"foot\",0.3048]]]")}};
+  las.points = {las_point(20, 1, 2, 1000)};
+  las.scale = {1, 1, 1};
+  const auto file = folder.write("a.las", las.bytes());
+  FileScan scan({file}, {});
+  CHECK(scan.length_unit() == "m");
+  CHECK(scan.common_crs() == kUtm);
+  PointBatch batch;
+  scan.rewind();
+  REQUIRE(scan.next(batch));
+  CHECK(batch.positions[0].z() == Approx(304.8));
+  CHECK_THAT(input_warnings(scan).back(),
+             Contains("a.las: z is in ft, and is brought into the unit of x and y"));
+  InputConfig config;
+  config.unit_z = LengthUnit::kM;
+  FileScan stated({file}, config);
+  CHECK(stated.z_factor(0) == 1);
+  CHECK(input_warnings(stated).empty());
+}
+
 }  // namespace lacuna::test

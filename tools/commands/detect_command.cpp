@@ -208,7 +208,7 @@ void run_detect(const Command& command, const DetectArguments& arguments) {
   require(command, "--out");
   if (arguments.run.out.empty()) throw WrongOption("--out", "a folder name is needed");
   const std::string summary =
-      detect_to(expand_inputs(arguments.scans, read_options(config)), config, arguments.run);
+      detect_to(expand_inputs(arguments.scans, read_options(config), config.input), config, arguments.run);
   if (!arguments.run.quiet) std::cout << summary;
 }
 

@@ -105,7 +105,7 @@ void run_find_stations(const FindArguments& arguments) {
   const FilesConfig config = arguments.parameters.read().config;
   prepare_process(config.run);
   const ReadOptions options = read_options(config);
-  FileScan scan(expand_inputs(arguments.scans, options), config.input, options.memory);
+  FileScan scan(expand_inputs(arguments.scans, options, config.input), config.input, options.memory);
   std::vector<Listed> stations;
   std::vector<std::string> others;
   for (const Sweep& sweep : read_sweeps(scan)) {

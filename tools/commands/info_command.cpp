@@ -166,6 +166,9 @@ void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const 
   std::cout << print_left_out(summary.counts, scan.filtered_out());
   if (!scan.common_crs().empty()) std::cout << "\n  crs           " << crs_name(scan.common_crs());
   if (!scan.length_unit().empty()) std::cout << "\n  unit          " << scan.length_unit();
+  const auto is_other = [](const std::string& unit) { return !unit.empty(); };
+  if (const auto z = std::ranges::find_if(scan.z_units(), is_other); z != scan.z_units().end())
+    std::cout << ", with z in " << *z << " in the files, which is brought into it";
   if (summary.resolution > 0) {
     std::cout << "\n  resolution    " << summary.resolution << ": "
               << print_count(summary.counts.points - summary.counts.dropped - summary.counts.thinned_out)
@@ -244,7 +247,7 @@ void run_info(const InfoArguments& arguments) {
   const FilesConfig config = arguments.parameters.read().config;
   prepare_process(config.run);
   const ReadOptions options = read_options(config);
-  FileScan scan(expand_inputs(arguments.scans, options), config.input, options.memory);
+  FileScan scan(expand_inputs(arguments.scans, options, config.input), config.input, options.memory);
   std::vector<FileInfo> files;
   for (std::size_t i = 0; i < scan.files().size(); ++i) files.push_back(read_file_info(scan, i, options));
   const RunInfo run = inspect_run(scan, config);

@@ -84,7 +84,7 @@ void run_plan(const PlanArguments& arguments) {
   constexpr std::uint64_t kMemoryOfTask = std::uint64_t{4} << 30;
   if (config.run.memory_limit == 0) config.run.memory_limit = kMemoryOfTask;
   const std::unique_ptr<FileScan> scan =
-      open_inputs(expand_inputs(arguments.scans, read_options(config)), config);
+      open_inputs(expand_inputs(arguments.scans, read_options(config), config.input), config);
   config.run.note = print_config(config);
   const MadeFolder folder(workspace);
   const FolderLock alone(folder.path());

@@ -57,7 +57,7 @@ std::vector<ScanInput> changed_inputs(const UpdateArguments& arguments, const St
                                       const FilesConfig& config) {
   std::vector<ScanInput> inputs = inputs_of(run.names);
   for (const std::string& given : arguments.replaced) replace_input(given, inputs);
-  for (ScanInput& input : expand_inputs(arguments.added, read_options(config))) {
+  for (ScanInput& input : expand_inputs(arguments.added, read_options(config), config.input)) {
     const bool is_known = std::any_of(inputs.begin(), inputs.end(), [&](const ScanInput& other) {
       return full_name(other.file) == full_name(input.file);
     });

@@ -108,6 +108,9 @@ void check_option_names(const CLI::App& command, std::span<const std::string> ar
   }
   for (const std::string& argument : arguments) {
     if (argument == "--") return;
+    std::error_code error;
+    if (argument.size() > 2 && argument[0] == '-' && argument[1] != '-' && fs::exists(argument, error))
+      throw WrongOption(argument + ": a file whose name begins with - comes after -- or as ./" + argument);
     const std::string name = argument.substr(0, argument.find('='));
     if (!name.starts_with("--") || std::ranges::find(names, name) != names.end()) continue;
     throw WrongOption("unknown option " + name + suggestion(name, {names.begin(), names.end()}));

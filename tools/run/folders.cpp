@@ -45,6 +45,11 @@ MadeFolder::MadeFolder(const fs::path& folder) : folder_(without_detours(folder)
   if (fs::exists(status) && !fs::is_directory(status)) {
     throw Error(folder_.string() + ": not a folder");
   }
+  if (status.type() == fs::file_type::none)  // such as a name that is too long
+    throw Error(folder_.string() + ": cannot create the folder: " + error.message());
+  if (std::error_code no_link; fs::is_symlink(folder_, no_link) && !fs::exists(status))
+    throw Error(folder_.string() + ": a link to " + fs::read_symlink(folder_).string() +
+                ", which is missing; allowed: a folder, or a name that is free");
   for (fs::path missing = folder_; !missing.empty() && !fs::exists(missing, error);
        missing = missing.parent_path()) {
     if (missing.has_filename()) made_.push_back(missing);

@@ -14,6 +14,7 @@
 #include <fstream>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
@@ -27,38 +28,112 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPoseBlanks = " \t,";
 
-// Returns why a file of a folder is passed over; empty if it is a scan. Text may be anything, so it must also
-// be readable. A file of another format that is broken is an error, later.
-std::string reason_against(const fs::path& file, const ReadOptions& options) {
-  const Recognised recognised = recognise(file);
-  if (recognised == Recognised::kNo) return visible(file.string()) + ": it is not a scan";
-  if (recognised == Recognised::kYes) return {};
+// What a folder holds, each sorted by name.
+struct Folder {
+  std::vector<fs::path> binary, texts, others, folders;
+};
+
+bool is_hidden(const fs::path& file) {
+  return file.filename().string().starts_with('.');
+}
+
+Folder list_folder(const fs::path& folder) {
+  std::vector<fs::path> inside;
+  std::error_code error;
+  Folder found;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code unknown;
+    if (is_hidden(entry->path())) continue;
+    if (entry->is_regular_file(unknown)) inside.push_back(entry->path());
+    if (entry->is_directory(unknown)) found.folders.push_back(entry->path());
+  }
+  if (error) throw Error(folder.string() + ": the folder cannot be read: " + error.message());
+  std::sort(inside.begin(), inside.end());
+  std::sort(found.folders.begin(), found.folders.end());
+  for (const fs::path& file : inside) {
+    const Recognised recognised = recognise(file);
+    (recognised == Recognised::kYes      ? found.binary
+     : recognised == Recognised::kAsText ? found.texts
+                                         : found.others)
+        .push_back(file);
+  }
+  return found;
+}
+
+// Returns the first names, and how many more there are.
+std::string print_names(const std::vector<fs::path>& files) {
+  constexpr std::size_t kMost = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMost, files.size()); ++i)
+    text += (i == 0 ? "" : ", ") + visible(files[i].filename().string());
+  return files.size() > kMost ? text + " and " + std::to_string(files.size() - kMost) + " more" : text;
+}
+
+void warn_of_unread(const fs::path& folder, const Folder& unread) {
+  std::string text;
+  const auto add = [&](const std::vector<fs::path>& files, const std::string& why) {
+    if (!files.empty()) text += (text.empty() ? "" : "; ") + print_names(files) + " (" + why + ")";
+  };
+  add(unread.others, "no scan");
+  add(unread.texts, "text among binary scans; it takes part if it is named");
+  add(unread.folders, "a folder; --recursive reads it");
+  if (!text.empty()) spdlog::warn("{}: not read: {}", visible(folder.string()), text);
+}
+
+void add_files(const fs::path& folder, const ReadOptions& options, const InputConfig& config,
+               std::vector<ScanInput>& files) {
+  Folder found = list_folder(folder);
+  files.insert(files.end(), found.binary.begin(), found.binary.end());
+  // Text may be anything, such as a readme or control points. Alone in a folder, it must be readable.
+  if (found.binary.empty()) {
+    for (const fs::path& file : std::exchange(found.texts, {})) {
+      try {
+        open_scan(file, options);
+        files.emplace_back(file);
+      } catch (const Error& error) {
+        spdlog::warn("skipped: {}", visible(error.what()));
+      }
+    }
+  }
+  const std::vector<fs::path> folders =
+      config.recursive ? std::exchange(found.folders, {}) : std::vector<fs::path>();
+  warn_of_unread(folder, found);
+  for (const fs::path& deeper : folders) {
+    if (!fs::is_symlink(deeper)) add_files(deeper, options, config, files);  // a link may lead back
+  }
+}
+
+void add_folder(const fs::path& folder, const ReadOptions& options, const InputConfig& config,
+                std::vector<ScanInput>& files) {
+  const std::size_t before = files.size();
+  add_files(folder, options, config, files);
+  if (files.size() == before) throw Error(folder.string() + ": no scan file in this folder");
+}
+
+// Returns why a file cannot be read to its end; empty if it can.
+std::string damage_of(const ScanInput& input, const ReadOptions& options) {
+  constexpr std::size_t kRows = 4096;
   try {
-    open_scan(file, options);
+    const auto reader = open_scan(input.file, options);
+    RowBatch rows;
+    while (reader->next(rows, kRows)) {
+    }
     return {};
   } catch (const Error& error) {
     return visible(error.what());
   }
 }
 
-void add_folder(const fs::path& folder, const ReadOptions& options, std::vector<ScanInput>& files) {
-  std::vector<fs::path> inside;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    if (entry->is_regular_file(error) && !entry->path().filename().string().starts_with('.'))
-      inside.push_back(entry->path());
-  }
-  if (error) throw Error(folder.string() + ": the folder cannot be read: " + error.message());
-  std::sort(inside.begin(), inside.end());
-  const std::size_t before = files.size();
-  for (const fs::path& file : inside) {
-    if (const std::string reason = reason_against(file, options); reason.empty()) {
-      files.emplace_back(file);
-    } else {
-      spdlog::warn("skipped: {}", reason);
-    }
-  }
-  if (files.size() == before) throw Error(folder.string() + ": no scan file in this folder");
+void leave_out_damaged(const ReadOptions& options, std::vector<ScanInput>& files) {
+  std::string first;
+  std::erase_if(files, [&](const ScanInput& input) {
+    const std::string reason = damage_of(input, options);
+    if (reason.empty()) return false;
+    spdlog::warn("skipped: {}", reason);
+    if (first.empty()) first = reason;
+    return true;
+  });
+  if (files.empty()) throw Error(first + "; no other file is left");
 }
 
 // Returns the ept.json that a name stands for: itself, or the one in a folder. Empty if there is none.
@@ -70,7 +145,8 @@ fs::path find_ept(const fs::path& input) {
 
 // Entwine's point tiles (https://entwine.io/en/latest/entwine-point-tile.html): each point is in one of the
 // files of ept-data.
-void add_ept(const fs::path& ept, const ReadOptions& options, std::vector<ScanInput>& files) {
+void add_ept(const fs::path& ept, const ReadOptions& options, const InputConfig& config,
+             std::vector<ScanInput>& files) {
   std::ifstream in(ept);
   const auto json = nlohmann::json::parse(in, nullptr, false);
   const auto type = json.is_object() ? json.find("dataType") : json.end();
@@ -79,7 +155,7 @@ void add_ept(const fs::path& ept, const ReadOptions& options, std::vector<ScanIn
   if (*type != "laszip")
     throw Error(ept.string() + ": its points are of the type \"" + visible(type->get<std::string>()) +
                 "\"; allowed: laszip");
-  add_folder(ept.parent_path() / "ept-data", options, files);
+  add_folder(ept.parent_path() / "ept-data", options, config, files);
 }
 
 Pose find_pose(const fs::path& folder, std::string_view text) {
@@ -116,7 +192,8 @@ void add_list(const fs::path& list, std::vector<ScanInput>& files) {
 
 }  // namespace
 
-std::vector<ScanInput> expand_inputs(const std::vector<fs::path>& given, const ReadOptions& options) {
+std::vector<ScanInput> expand_inputs(const std::vector<fs::path>& given, const ReadOptions& options,
+                                     const InputConfig& config) {
   std::vector<ScanInput> files;
   for (const fs::path& input : given) {
     std::error_code error;  // what is missing is an error later, when it is opened
@@ -129,13 +206,14 @@ std::vector<ScanInput> expand_inputs(const std::vector<fs::path>& given, const R
     if (input.string().starts_with('@') && !fs::exists(input, error)) {
       add_list(input.string().substr(1), files);
     } else if (const fs::path ept = find_ept(input); !ept.empty()) {
-      add_ept(ept, options, files);
+      add_ept(ept, options, config, files);
     } else if (fs::is_directory(input, error)) {
-      add_folder(input, options, files);
+      add_folder(input, options, config, files);
     } else {
       files.emplace_back(input);
     }
   }
+  if (config.skip_damaged) leave_out_damaged(options, files);
   return files;
 }
 

@@ -11,14 +11,16 @@
 
 namespace lacuna::tools {
 
-// A folder stands for the scan files in it, sorted by name. Hidden files, folders in it and files of formats
-// that are not read are passed over, the last with a warning. A folder with an ept.json, or that file, stands
+// A folder stands for the scan files in it, sorted by name, and with `config.recursive` for the scan files in
+// its folders. Hidden files are passed over. One warning names other files and folders that are not read.
+// Text among scans of other formats is one of these. With `config.skip_damaged`, files that cannot be read to
+// their end are left out with a warning. A folder with an ept.json, or that file, stands
 // for the LAZ files in its ept-data. "@FILE" stands for the files named in it, one per line, relative to its
 // folder; blank lines and lines that begin with # are passed over. A pose may follow the name: `pose=` and
 // its numbers, or a file that holds them (io/rows/pose.hpp). Throws `Error` if a folder or list names no
 // scan, if a pose is not valid, and for "-".
 std::vector<io::ScanInput> expand_inputs(const std::vector<std::filesystem::path>& given,
-                                         const io::ReadOptions& options);
+                                         const io::ReadOptions& options, const io::InputConfig& config = {});
 
 // Adds the argument SCAN of a command, for `expand_inputs`.
 Option add_scans(const Command& command, std::vector<std::filesystem::path>& scans);

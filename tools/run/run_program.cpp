@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <string>
@@ -99,7 +100,9 @@ int run_program(const std::string& name, CommandLine& line, int argc, char** arg
     return fail(std::string("out of memory") +
                     (can_take_less ? "; a lower --memory-limit or smaller --tile-points may help" : ""),
                 kFailed);
-  } catch (const std::exception& error) {  // of the file system, mostly
+  } catch (const std::filesystem::filesystem_error& error) {  // such as a name that is too long
+    return fail(one_line(error.path1().string() + ": " + error.code().message()), kFailed);
+  } catch (const std::exception& error) {
     return fail(one_line(error.what()), kFailed);
   }
 }

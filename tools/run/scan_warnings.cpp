@@ -7,6 +7,7 @@
 #include "io/crs/crs_text.hpp"
 #include "io/crs/stated_crs.hpp"
 #include "io/results/points.hpp"
+#include "io/rows/vectors.hpp"
 #include "io/stations/station_views.hpp"
 #include "tools/console/measures_text.hpp"
 #include "tools/console/visible_text.hpp"
@@ -26,6 +27,8 @@ namespace lacuna::tools {
 using namespace io;
 
 namespace {
+
+constexpr const char* kDegrees = " is in longitude and latitude, and holes need lengths";
 
 // Returns the distance from the farthest coordinate of single precision to the next one.
 double coarsest_step(const Eigen::AlignedBox3d& bounds) {
@@ -119,6 +122,15 @@ void warn_of_overridden(const FileScan& scan, const std::vector<std::string>& of
                        " is " + crs_name(of_files[*first]) + "; the stated one holds, " + crs_name(stated));
 }
 
+void warn_of_z_units(const FileScan& scan, std::vector<std::string>& warnings) {
+  const auto is_scaled = [&](std::size_t i) { return scan.z_factor(i) != 1; };
+  if (const auto first = find_file(scan, is_scaled))
+    warnings.push_back(file_name(scan, *first) + and_more(scan, *first, is_scaled) + ": z is in " +
+                       scan.z_units()[*first] +
+                       ", and is brought into the unit of x and y; --unit-z states " +
+                       "another unit; the annotated scan keeps its own z");
+}
+
 }  // namespace
 
 std::string crs_name(const std::string& crs) {
@@ -126,19 +138,81 @@ std::string crs_name(const std::string& crs) {
   return visible(end == crs.npos ? crs : crs.substr(begin + 1, end - begin - 1));
 }
 
+namespace {
+
+// Returns a position of a file that is likely to be one of its surface; nothing if its first rows have none.
+std::optional<Eigen::Vector3d> find_place(const FileScan& scan, std::size_t file) {
+  constexpr std::size_t kRows = 1000;
+  const auto reader = scan.open(file);
+  RowBatch rows;
+  std::vector<Eigen::Vector3d> positions;
+  if (reader->next(rows, kRows)) load_vectors(rows, reader->layout(), kPositionNames, positions);
+  const auto found = std::ranges::find_if(positions, [](const Eigen::Vector3d& position) {
+    return position.allFinite() && position != Eigen::Vector3d::Zero();
+  });
+  return found == positions.end() ? std::nullopt : std::optional(*found);
+}
+
+// The system in which the user can work instead.
+std::string utm_zone(const ScaleAtPlace& scale) {
+  const int zone = std::clamp(static_cast<int>(std::floor((scale.longitude + 180) / 6)) + 1, 1, 60);
+  return "EPSG:" + std::to_string((scale.latitude < 0 ? 32700 : 32600) + zone);
+}
+
+// Throws `Error` if lengths in the system are not those on the ground, where a file lies.
+void refuse_other_scale(const FileScan& scan, std::size_t file, const std::string& name,
+                        const std::string& crs) {
+  constexpr double kMost = 0.01;
+  const auto place = find_place(scan, file);
+  const auto scale = place ? scale_at(crs, *place) : std::nullopt;
+  if (!scale) return;
+  const double x = scale->scale_x, y = scale->scale_y;
+  if (std::max(std::abs(x - 1), std::abs(y - 1)) <= kMost) return;
+  std::ostringstream text;
+  text.precision(3);
+  text << name << ": " << crs_name(crs) << " has lengths " << x;
+  if (std::abs(x / y - 1) > kMost)
+    text << " times (along y " << y << " times)";
+  else
+    text << " times";
+  text << " those on the ground at latitude " << scale->latitude
+       << "; `pdal translate IN OUT reprojection --filters.reprojection.out_srs=" << utm_zone(*scale)
+       << "` brings them to scale; if its coordinates are true lengths, --crs can state their system";
+  throw Error(text.str());
+}
+
+[[noreturn]] void refuse_degrees_of(const FileScan& scan, std::size_t file) {
+  const std::string name = scan.crs()[file].empty() ? "its system" : crs_name(scan.crs()[file]);
+  std::ostringstream text;
+  text.precision(10);
+  text << file_name(scan, file) << ": " << name;
+  const auto place = find_place(scan, file);
+  if (place && place->head<2>().cwiseAbs().maxCoeff() > 360) {
+    text << " is in longitude and latitude, but its coordinates are far beyond degrees, such as "
+         << place->x() << " " << place->y()
+         << "; --crs states the system that they are in, such as EPSG:25832";
+  } else {
+    text << kDegrees
+         << "; `pdal translate IN OUT reprojection --filters.reprojection.out_srs=EPSG:N` projects "
+         << "it; if its coordinates are lengths, --crs can state their system";
+  }
+  throw Error(text.str());
+}
+
+}  // namespace
+
 void refuse_degrees(const FileScan& scan) {
-  constexpr const char* kDegrees = " is in longitude and latitude, and holes need lengths";
-  const StatedCrs& stated = scan.stated_crs();
-  if (is_geographic(stated.crs))
-    throw Error("--crs: " + crs_name(stated.crs) + kDegrees + "; allowed: a projected or geocentric system");
-  if (!stated.crs.empty()) return;
+  const std::string& stated = scan.stated_crs().crs;
+  if (is_geographic(stated))
+    throw Error("--crs: " + crs_name(stated) + kDegrees + "; allowed: a projected or geocentric system");
+  if (!stated.empty()) return refuse_other_scale(scan, 0, "--crs", stated);
+  const std::string* checked = nullptr;
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
-    if (!scan.is_geographic(i)) continue;
-    const std::string name = scan.crs()[i].empty() ? "its system" : crs_name(scan.crs()[i]);
-    throw Error(
-        visible(scan.files()[i].string()) + ": " + name + kDegrees +
-        "; `pdal translate IN OUT reprojection --filters.reprojection.out_srs=EPSG:N` projects it; if "
-        "its coordinates are lengths, --crs can state their system");
+    const std::string& crs = scan.crs()[i];
+    if (scan.is_geographic(i)) refuse_degrees_of(scan, i);
+    if (crs.empty() || (checked != nullptr && crs == *checked)) continue;
+    refuse_other_scale(scan, i, file_name(scan, i), crs);
+    checked = &crs;
   }
 }
 
@@ -160,6 +234,7 @@ std::vector<std::string> input_warnings(const FileScan& scan) {
   } else {
     warn_of_overridden(scan, scan.units(), std::not_equal_to<>(), "unit", scan.stated_crs().unit, warnings);
   }
+  warn_of_z_units(scan, warnings);
   return warnings;
 }
 

@@ -14,13 +14,15 @@ namespace lacuna::tools {
 // Returns the name within well-known text, such as "NAD83 / UTM zone 10N"; a code stays as it is.
 std::string crs_name(const std::string& crs);
 
-// Throws `Error` if positions are longitude and latitude, because nothing of a run fits degrees.
+// Throws `Error` if positions are longitude and latitude, because nothing of a run fits degrees. Throws, too,
+// if lengths differ by more than 1 in 100 from true ones, at the first point of a file. This check is of
+// projected systems, and needs lacuna_gis.so.
 void refuse_degrees(const io::FileScan& scan);
 
 // Returns, before a run, one line for each file that is given more than once, also by another name. Another
 // line comes for each file whose coordinate reference system differs from the first. One line names all files
 // without a system if others have one. One line names files with another unit, and one names files that
-// contradict --crs or --unit.
+// contradict --crs or --unit. One line names files whose z is in another unit.
 std::vector<std::string> input_warnings(const io::FileScan& scan);
 
 // Warns before a run of a memory limit above the machine's memory.

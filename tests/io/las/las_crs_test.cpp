@@ -67,6 +67,29 @@ TEST_CASE("GeoTIFF keys and well-known text say whether positions are longitude 
   CHECK_FALSE(is_geographic({{1024, 0, 1, 2}, {2048, 0, 1, 4326}}, "PROJCS[\"a\",GEOGCS[\"b\"]]"));
 }
 
+TEST_CASE("a vertical code that is no system of EPSG leaves the horizontal system") {
+  CHECK(crs_of_keys({{1024, 0, 1, 1}, {3072, 0, 1, 26913}, {4096, 0, 1, 5103}}) == "EPSG:26913");
+  CHECK(crs_of_keys({{1024, 0, 1, 1}, {3072, 0, 1, 26913}, {4096, 0, 1, 5703}}) == "EPSG:26913+5703");
+}
+
+TEST_CASE("a geocentric system is in metres, and is not the geographic one that names its datum") {
+  LasCrs crs;
+  take(crs, 34735, geo_keys({{1024, 0, 1, 3}, {2048, 0, 1, 4326}}));
+  CHECK(crs.text() == "EPSG:4978");
+  CHECK(crs.length_unit() == "m");
+  CHECK_FALSE(crs.is_geographic());
+}
+
+TEST_CASE("keys and well-known text state the unit of z") {
+  LasCrs keys, text;
+  take(keys, 34735, geo_keys({{3072, 0, 1, 26913}, {3076, 0, 1, 9001}, {4099, 0, 1, 9003}}));
+  CHECK(keys.length_unit() == "m");
+  CHECK(keys.vertical_unit() == "us-ft");
+  take(text, 2112, "COMPD_CS[\"a\",PROJCS[\"b\",UNIT[\"metre\",1]],VERT_CS[\"c\",UNIT[\"foot\",0.3048]]]");
+  CHECK(text.length_unit() == "m");
+  CHECK(text.vertical_unit() == "ft");
+}
+
 TEST_CASE("well-known text counts over keys, up to its first zero") {
   LasCrs crs;
   take(crs, 2112, std::string("PROJCS[\"A\"]\0\0", 13));

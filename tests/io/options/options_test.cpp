@@ -331,6 +331,9 @@ TEST_CASE("values that contradict each other are refused") {
   config.selection = {.min_perimeter = 2, .max_perimeter = 1};
   REQUIRE_THROWS_WITH(check_config(config), Contains("max_perimeter"));
   config = {};
+  config.selection = {.min_area = 2, .max_area = 1};
+  REQUIRE_THROWS_WITH(check_config(config), Contains("max_area = 1.0 is less than min_area = 2.0"));
+  config = {};
   config.criteria.sigma = std::numeric_limits<double>::quiet_NaN();
   REQUIRE_THROWS_WITH(check_config(config), Contains("sigma = nan"));
   config = {};
