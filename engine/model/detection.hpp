@@ -153,6 +153,15 @@ struct Detection {
   ProbabilityLattice probability_lattice;
   Stream<const ProbabilityVoxel&> for_each_probability_voxel;
 
+  // Returns for each loop its inner rings: the loops whose parent it is, ascending.
+  std::vector<std::vector<std::size_t>> inner_rings() const {
+    std::vector<std::vector<std::size_t>> rings(loops.size());
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      if (loops[i].parent >= 0) rings[static_cast<std::size_t>(loops[i].parent)].push_back(i);
+    }
+    return rings;
+  }
+
   ReportedLoop read_loop(std::size_t loop) const {
     ReportedLoop read{loops[loop], {}};
     for_each_loop_point(loop, [&](const LoopPoint& p) { read.points.push_back(p); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/results/collect.hpp"
 
+#include "engine/loops/nest_loops.hpp"
 #include "engine/store/column_writer.hpp"
 #include "engine/store/sorted_runs.hpp"
 
@@ -65,6 +66,7 @@ std::unique_ptr<Detection> make_detection(Findings findings, Column<MarkedPoint>
   auto detection = std::make_unique<Detection>();
   detection->summary = std::move(findings.summary);
   for (const std::size_t loop : findings.selected) detection->loops.push_back(findings.loops.measures[loop]);
+  name_parents(findings.selected, detection->loops);
 
   const auto loops = std::make_shared<const ChosenLoops>(std::move(findings.loops.loops));
   detection->for_each_loop_point = [loops, selected = std::move(findings.selected)](std::size_t loop,

@@ -64,6 +64,7 @@ class LoopsWriter {
     if (result == GisCrs::kWritten && task_.format == GisFormat::kGeoJson && !convert())
       result = GisCrs::kNotConverted;
     create();
+    inner_rings_ = task_.detection.inner_rings();
     for (std::size_t id = 0; id < task_.detection.loops.size(); ++id) {
       const ReportedLoop loop = task_.detection.read_loop(id);
       for (const Layer& layer : layers_) put(id, loop, layer);
@@ -191,17 +192,26 @@ class LoopsWriter {
     }
     auto line = line_of(loop);
     require(line != nullptr);
-    feature.SetGeometryDirectly(layer.is_of_polygons ? polygon_of(*line).release() : line.release());
+    feature.SetGeometryDirectly(layer.is_of_polygons ? polygon_of(id, *line).release() : line.release());
     require(layer.layer->CreateFeature(&feature) == OGRERR_NONE);
   }
 
-  // RFC 7946 wants the outline counter-clockwise, a Shapefile clockwise, for which GDAL cares.
-  static std::unique_ptr<OGRGeometry> polygon_of(const OGRLineString& line) {
-    auto outline = std::make_unique<OGRLinearRing>();
-    outline->addSubLineString(&line);
-    if (outline->isClockwise()) outline->reverseWindingOrder();
+  // RFC 7946 wants the outline counter-clockwise and inner rings clockwise. A Shapefile wants the opposite.
+  std::unique_ptr<OGRGeometry> polygon_of(std::size_t id, const OGRLineString& line) {
     auto polygon = std::make_unique<OGRPolygon>();
-    polygon->addRingDirectly(outline.release());
+    const auto add = [&](const OGRLineString& points, bool is_clockwise) {
+      auto ring = std::make_unique<OGRLinearRing>();
+      ring->addSubLineString(&points);
+      if ((ring->isClockwise() != 0) != is_clockwise) ring->reverseWindingOrder();
+      polygon->addRingDirectly(ring.release());
+    };
+    const bool is_outline_clockwise = task_.format == GisFormat::kShapefile;
+    add(line, is_outline_clockwise);
+    for (const std::size_t inner : inner_rings_[id]) {
+      const auto ring = line_of(task_.detection.read_loop(inner));
+      require(ring != nullptr);
+      add(*ring, !is_outline_clockwise);
+    }
     return polygon;
   }
 
@@ -225,6 +235,7 @@ class LoopsWriter {
   bool has_crs_ = false, has_transaction_ = false;
   Dataset dataset_;
   std::vector<Layer> layers_;
+  std::vector<std::vector<std::size_t>> inner_rings_;
 };
 
 }  // namespace
@@ -232,7 +243,9 @@ class LoopsWriter {
 extern "C" GisCrs lacuna_write_loops_gis(const GisTask& task) {
   register_gdal_drivers();
   const GdalSetting time("OGR_CURRENT_DATE", kTime),
-      no_sync("OGR_SQLITE_SYNCHRONOUS", "OFF");  // synced in the end
+      no_sync("OGR_SQLITE_SYNCHRONOUS", "OFF"),  // synced in the end
+      // GDAL takes inner rings for outer ones where z varies, and turns them.
+      no_turns("SHAPE_REWIND_ON_WRITE", "NO");
   if (task.format != GisFormat::kGeoJson) return LoopsWriter(task).write();
   const GdalTextSink sink(task.take);
   LoopsWriter writer(task);
