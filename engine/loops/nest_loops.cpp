@@ -7,7 +7,9 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <tuple>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -208,14 +210,28 @@ void nest_loops(MeasuredLoops& loops, Job& job) {
   phase.advance(measures.size());
 }
 
-void name_parents(std::span<const std::size_t> selected, std::vector<LoopMeasures>& of_selected) {
-  for (LoopMeasures& loop : of_selected) {
-    if (loop.parent < 0) continue;
-    const auto place =
-        std::lower_bound(selected.begin(), selected.end(), static_cast<std::size_t>(loop.parent));
-    const bool is_selected = place != selected.end() && *place == static_cast<std::size_t>(loop.parent);
-    loop.parent = is_selected ? place - selected.begin() : -1;
+NestedReport report_nested(const std::vector<LoopMeasures>& found, std::vector<std::size_t> selected) {
+  std::vector<std::int64_t> place_of(found.size(), -1);
+  for (std::size_t i = 0; i < selected.size(); ++i) place_of[selected[i]] = static_cast<std::int64_t>(i);
+  const auto parent_of = [&](const LoopMeasures& loop) {
+    return loop.parent < 0 ? -1 : place_of[static_cast<std::size_t>(loop.parent)];
+  };
+  NestedReport report;
+  for (const std::size_t loop : selected) {
+    report.loops.push_back(found[loop]);
+    report.loops.back().parent = parent_of(found[loop]);
   }
+  report.inner_rings.resize(selected.size());
+  report.found = std::move(selected);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const std::int64_t parent = parent_of(found[i]);
+    const bool is_left_out = place_of[i] < 0;
+    if (parent < 0 || (is_left_out && found[i].kind == LoopKind::kHole)) continue;
+    const std::size_t number = is_left_out ? report.found.size() : static_cast<std::size_t>(place_of[i]);
+    if (is_left_out) report.found.push_back(i);
+    report.inner_rings[static_cast<std::size_t>(parent)].push_back({number, found[i].points});
+  }
+  return report;
 }
 
 }  // namespace lacuna

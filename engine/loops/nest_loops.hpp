@@ -3,10 +3,10 @@
 #pragma once
 
 #include "engine/loops/measure_loops.hpp"
+#include "engine/model/detection.hpp"
 #include "engine/run/job.hpp"
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
 namespace lacuna {
@@ -24,7 +24,15 @@ namespace lacuna {
 // of the limit on disk. Cost: a pass over the loops, and over each loop with others near its inside.
 void nest_loops(MeasuredLoops& loops, Job& job);
 
-// Replaces each parent by its place in `selected`, ascending; -1 if it is not there.
-void name_parents(std::span<const std::size_t> selected, std::vector<LoopMeasures>& of_selected);
+// Loops as they are reported.
+struct NestedReport {
+  std::vector<LoopMeasures> loops;                  // the parent is a reported loop, or -1
+  std::vector<std::vector<InnerRing>> inner_rings;  // of each
+  std::vector<std::size_t> found;                   // of each number in a ring: the found loop
+};
+
+// `selected`: ascending. An island of a reported hole is an inner ring even if it is not selected. A hole is
+// one only if it is.
+NestedReport report_nested(const std::vector<LoopMeasures>& found, std::vector<std::size_t> selected);
 
 }  // namespace lacuna

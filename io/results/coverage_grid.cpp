@@ -116,7 +116,6 @@ CoverageGrid cover(const Detection& detection, const FileScan& scan, const Files
   CoverageGrid grid = empty_grid(detection, config);
   if (grid.size() == 0) return grid;
   count_points(scan, config.input, grid);
-  const std::vector<std::vector<std::size_t>> islands = detection.inner_rings();
   std::vector<Ring2> rings;
   const auto add_ring = [&](std::size_t loop) {
     Ring2& ring = rings.emplace_back();
@@ -126,7 +125,7 @@ CoverageGrid cover(const Detection& detection, const FileScan& scan, const Files
     if (detection.loops[i].kind != LoopKind::kHole) continue;
     rings.clear();
     add_ring(i);
-    for (const std::size_t island : islands[i]) add_ring(island);
+    for (const InnerRing& island : detection.inner_rings_of(i)) add_ring(island.loop);
     add_polygon(rings, grid);
   }
   for (float& share : grid.holes) share = std::min(share, 1.0F);

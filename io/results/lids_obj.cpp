@@ -6,6 +6,7 @@
 #include "io/results/lids.hpp"
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,14 +26,14 @@ Lid lid_of(const HoleToClose& hole) {
 }
 
 // A loop that is too long may be larger than memory, so no point of it is read.
-HoleToClose read_fitting(const Detection& detection, std::size_t id,
-                         const std::vector<std::size_t>& islands) {
+HoleToClose read_fitting(const Detection& detection, std::size_t id) {
+  const std::span<const InnerRing> islands = detection.inner_rings_of(id);
   std::uint64_t points = detection.loops[id].points;
-  for (const std::size_t island : islands) points += detection.loops[island].points;
+  for (const InnerRing& island : islands) points += island.points;
   HoleToClose hole{.id = id, .left_out = left_out(points, islands.size()), .loop = {}, .islands = {}};
   if (!hole.left_out.empty()) return hole;
-  hole.loop = detection.read_loop(id).points;
-  for (const std::size_t island : islands) hole.islands.push_back(detection.read_loop(island).points);
+  hole.loop = detection.read_points(id);
+  for (const InnerRing& island : islands) hole.islands.push_back(detection.read_points(island.loop));
   return hole;
 }
 
@@ -84,15 +85,13 @@ void write_lids_obj(const Detection& detection, OutputFile& out) {
   for (std::size_t id = 0; id < detection.loops.size(); ++id) {
     if (detection.loops[id].kind == LoopKind::kHole) holes.push_back(id);
   }
-  const std::vector<std::vector<std::size_t>> islands = detection.inner_rings();
   out.write(kLidsObjMark);
   const std::size_t batch = batch_size(detection.summary.memory_limit);
   std::uint64_t next = 1;  // vertices count from 1, over all objects
   for (std::size_t begin = 0; begin < holes.size(); begin += batch) {
     const std::size_t count = std::min(batch, holes.size() - begin);
     std::vector<HoleToClose> to_close;
-    for (std::size_t i = 0; i < count; ++i)
-      to_close.push_back(read_fitting(detection, holes[begin + i], islands[holes[begin + i]]));
+    for (std::size_t i = 0; i < count; ++i) to_close.push_back(read_fitting(detection, holes[begin + i]));
     std::vector<Lid> lids(count);
     for_each_here(count, [&](std::size_t i) { lids[i] = lid_of(to_close[i]); });
     for (std::size_t i = 0; i < count; ++i) {

@@ -64,7 +64,6 @@ class LoopsWriter {
     if (result == GisCrs::kWritten && task_.format == GisFormat::kGeoJson && !convert())
       result = GisCrs::kNotConverted;
     create();
-    inner_rings_ = task_.detection.inner_rings();
     for (std::size_t id = 0; id < task_.detection.loops.size(); ++id) {
       const ReportedLoop loop = task_.detection.read_loop(id);
       for (const Layer& layer : layers_) put(id, loop, layer);
@@ -113,7 +112,11 @@ class LoopsWriter {
   bool converts_all() {
     if (!conversion_) return false;
     for (std::size_t id = 0; id < task_.detection.loops.size(); ++id) {
-      if (!line_of(task_.detection.read_loop(id))) return false;
+      if (!line_of(task_.detection.read_points(id))) return false;
+      for (const InnerRing& ring : task_.detection.inner_rings_of(id)) {
+        const bool is_reported = ring.loop < task_.detection.loops.size();
+        if (!is_reported && !line_of(task_.detection.read_points(ring.loop))) return false;
+      }
     }
     return true;
   }
@@ -190,7 +193,7 @@ class LoopsWriter {
         feature.SetField(field++, value);
       }
     }
-    auto line = line_of(loop);
+    auto line = line_of(loop.points);
     require(line != nullptr);
     feature.SetGeometryDirectly(layer.is_of_polygons ? polygon_of(id, *line).release() : line.release());
     require(layer.layer->CreateFeature(&feature) == OGRERR_NONE);
@@ -207,8 +210,8 @@ class LoopsWriter {
     };
     const bool is_outline_clockwise = task_.format == GisFormat::kShapefile;
     add(line, is_outline_clockwise);
-    for (const std::size_t inner : inner_rings_[id]) {
-      const auto ring = line_of(task_.detection.read_loop(inner));
+    for (const InnerRing& inner : task_.detection.inner_rings_of(id)) {
+      const auto ring = line_of(task_.detection.read_points(inner.loop));
       require(ring != nullptr);
       add(*ring, !is_outline_clockwise);
     }
@@ -216,12 +219,12 @@ class LoopsWriter {
   }
 
   // Returns a closed line; null if a point of it cannot be converted.
-  std::unique_ptr<OGRLineString> line_of(const ReportedLoop& loop) const {
+  std::unique_ptr<OGRLineString> line_of(const Loop& loop) const {
     auto line = std::make_unique<OGRLineString>();
-    const auto count = static_cast<int>(loop.points.size());  // loops.ply allows no more
+    const auto count = static_cast<int>(loop.size());  // loops.ply allows no more
     line->setNumPoints(count + 1);
     for (int i = 0; i <= count; ++i) {
-      Eigen::Vector3d at = loop.points[static_cast<std::size_t>(i % count)].position;
+      Eigen::Vector3d at = loop[static_cast<std::size_t>(i % count)].position;
       if (conversion_ && !convert_to_degrees(*conversion_, at)) return nullptr;
       line->setPoint(i, at.x(), at.y(), at.z());
     }
@@ -235,7 +238,6 @@ class LoopsWriter {
   bool has_crs_ = false, has_transaction_ = false;
   Dataset dataset_;
   std::vector<Layer> layers_;
-  std::vector<std::vector<std::size_t>> inner_rings_;
 };
 
 }  // namespace

@@ -213,11 +213,10 @@ void find_causes(StationViews& stations, FileScan& scan, const RunConfig& run,
   const PathView* const path = stations.path();
   detection.stations = stations.summaries();
   detection.causes.assign(detection.loops.size(), {});
-  const std::vector<std::vector<std::size_t>> islands = detection.inner_rings();
   arena.for_each(detection.loops.size(), [&](std::size_t i) {
     const LoopMeasures& loop = detection.loops[i];
     if (loop.kind != LoopKind::kHole || detection.stations.empty()) return;
-    const std::vector<InsidePlace> places = inside_places(detection, i, islands[i]);
+    const std::vector<InsidePlace> places = inside_places(detection, i);
     LoopCause& cause = detection.causes[i];
     cause = cause_of(places, views, path, tolerance_of(loop));
     stations.note_touched(2 * places.size() * detection.stations.size());

@@ -39,24 +39,27 @@ std::vector<InsidePlace> places_inside(const LidMesh& mesh) {
 }
 
 // Returns `most` points of the loop at even steps, or all if it has fewer.
-std::vector<Eigen::Vector3d> some_corners(const Detection& detection, std::size_t loop, std::uint64_t most) {
-  const std::uint64_t points = detection.loops[loop].points, count = std::min(points, most);
+std::vector<Eigen::Vector3d> some_corners(const Detection& detection, const InnerRing& loop,
+                                          std::uint64_t most) {
+  const std::uint64_t count = std::min(loop.points, most);
   std::vector<Eigen::Vector3d> corners;
   std::uint64_t at = 0;
-  detection.for_each_loop_point(loop, [&](const LoopPoint& point) {
-    if (corners.size() < count && at++ >= corners.size() * points / count) corners.push_back(point.position);
+  detection.for_each_loop_point(loop.loop, [&](const LoopPoint& point) {
+    if (corners.size() < count && at++ >= corners.size() * loop.points / count)
+      corners.push_back(point.position);
   });
   return corners;
 }
 
 }  // namespace
 
-std::vector<InsidePlace> inside_places(const Detection& detection, std::size_t loop,
-                                       std::span<const std::size_t> islands) {
-  std::vector<Eigen::Vector3d> corners = some_corners(detection, loop, kMostCorners);
+std::vector<InsidePlace> inside_places(const Detection& detection, std::size_t loop) {
+  const std::span<const InnerRing> islands = detection.inner_rings_of(loop);
+  std::vector<Eigen::Vector3d> corners =
+      some_corners(detection, {loop, detection.loops[loop].points}, kMostCorners);
   if (islands.empty() || corners.size() < 3) return inside_places(corners);
   std::vector<std::size_t> sizes = {corners.size()};
-  for (const std::size_t island : islands.first(std::min(islands.size(), kMostIslands))) {
+  for (const InnerRing& island : islands.first(std::min(islands.size(), kMostIslands))) {
     const std::vector<Eigen::Vector3d> ring = some_corners(detection, island, kMostIslandCorners);
     corners.insert(corners.end(), ring.begin(), ring.end());
     sizes.push_back(ring.size());

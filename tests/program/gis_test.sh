@@ -255,6 +255,11 @@ with open("island.xyz", "w") as text:
                 print(f"{500_000 + x:.3f} {5_400_000 + y:.3f} {100 + 0.1 * x:.3f}", file=text)
 END
 "$program" detect island.xyz --crs EPSG:25832 --out island "${formats[@]}" --polygons --lids --coverage 0.5 --quiet
+# Islands that are not reported are open, too.
+"$program" detect island.xyz --crs EPSG:25832 --out only "${formats[@]}" --polygons --lids --coverage 0.5 --holes-only --quiet
+cmp island/coverage.tif only/coverage.tif
+cut -d, -f2- island/lids.csv | cmp - <(cut -d, -f2- only/lids.csv)
+ogr2ogr -f GeoJSON only.json only/loops.gpkg lacuna_areas -lco SIGNIFICANT_FIGURES=17
 ogr2ogr -f GeoJSON island.gpkg.json island/loops.gpkg lacuna_areas -lco SIGNIFICANT_FIGURES=17
 ogr2ogr -f GeoJSON island.shp.json island/loops.shp -lco SIGNIFICANT_FIGURES=17
 ogr2ogr -f GeoJSON island.geojson.json island/loops.geojson -t_srs EPSG:25832 -lco RFC7946=NO -lco SIGNIFICANT_FIGURES=17
@@ -295,6 +300,8 @@ for format in ("gpkg", "shp", "geojson"):
         rings = [area(ring) for ring in feature["geometry"]["coordinates"]]
         expected = [whole[loop["id"]]] + [whole[other["id"]] for other in loops if other["parent"] == loop["id"]]
         assert all(math.isclose(a, b, rel_tol=1e-6) for a, b in zip(rings, expected, strict=True)), (format, rings)
+only = json.loads(Path("only.json").read_text(encoding="utf-8"))["features"]
+assert sorted(len(feature["geometry"]["coordinates"]) for feature in only) == [1, 2]
 cells = sum(float(line.split()[2]) for line in Path("island.holes.xyz").read_text().splitlines())
 assert math.isclose(0.25 * cells, ring + whole[inner["id"]], rel_tol=0.01), cells
 END

@@ -131,13 +131,19 @@ TEST_CASE("loops that enclose nothing have no parents and are none") {
   CHECK(parents(nested({square(5, kHole), flat, flat})) == Parents{-1, -1, -1});
 }
 
-TEST_CASE("parents are numbers of reported loops; without these, there are none") {
-  std::vector<LoopMeasures> loops(3);
-  loops[0].parent = -1;
-  loops[1].parent = 2;
-  loops[2].parent = 3;
-  name_parents(std::vector<std::size_t>{2, 4, 6}, loops);
-  CHECK(parents(loops) == Parents{-1, 0, -1});
+TEST_CASE("parents are reported loops, and inner rings are reported ones or islands") {
+  const std::vector<LoopMeasures> found = nested(nest_of_five());
+  using Rings = std::vector<std::vector<InnerRing>>;
+  const NestedReport all = report_nested(found, {0, 1, 2, 3, 4, 5});
+  CHECK(parents(all.loops) == Parents{-1, 0, 1, 4, 2, 0});
+  CHECK(all.inner_rings == Rings{{{1, 20}, {5, 20}}, {{2, 20}}, {{4, 36}}, {}, {{3, 20}}, {}});
+  const NestedReport holes = report_nested(found, {1, 4, 5});
+  CHECK(parents(holes.loops) == Parents{-1, -1, -1});
+  CHECK(holes.inner_rings == Rings{{{3, 20}}, {{4, 20}}, {}});
+  CHECK(holes.found == std::vector<std::size_t>{1, 4, 5, 2, 3});
+  const NestedReport outer = report_nested(found, {0, 2, 5});
+  CHECK(parents(outer.loops) == Parents{-1, -1, 0});
+  CHECK(outer.inner_rings == Rings{{{2, 20}}, {}, {}});
 }
 
 TEST_CASE("an island in a hole of a scan: its area is not the hole's, by both methods and any tiling") {
