@@ -8,6 +8,7 @@
 #include "engine/halo/eps_balls.hpp"
 #include "engine/halo/halo.hpp"
 #include "engine/loops/measure_loops.hpp"
+#include "engine/loops/nest_loops.hpp"
 #include "engine/pipeline_steps.hpp"
 #include "engine/results/collect.hpp"
 #include "engine/results/loop_rows.hpp"
@@ -178,6 +179,9 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   TrackedLoops tracked = track_loops(std::move(levels), job);
   MeasuredLoops loops =
       measure_loops(std::move(tracked.loops), tracked.tracks, found.totals.mean_edge_length(), job);
+
+  // Nest: finds the islands of holes, and takes their areas from the holes'.
+  nest_loops(loops, job);
 
   // Brings the results into the order of the input.
   std::vector<std::size_t> selected = select_loops(loops.measures, config.selection);

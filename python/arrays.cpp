@@ -166,6 +166,7 @@ py::dict loops_of(const io::ExplainedDetection& detection) {
   using M = io::ExplainedLoop;
   py::dict all;
   all["is_outer"] = measures<bool>(loops, [](const M& m) { return m.kind == LoopKind::kOuter; });
+  all["parent"] = measures<std::int64_t>(loops, [](const M& m) { return m.parent; });
   all["confidence"] = measures<double>(loops, [](const M& m) { return m.track.confidence; });
   all["points"] =
       measures<std::int64_t>(loops, [](const M& m) { return static_cast<std::int64_t>(m.points); });

@@ -126,6 +126,14 @@ struct ProbabilityLattice {
   std::uint64_t points_left_out = 0;  // far from almost all others; distinct ones
 };
 
+// A loop whose parent is a reported one (LoopMeasures::parent).
+struct InnerRing {
+  std::size_t loop = 0;  // for Detection::for_each_loop_point
+  std::uint64_t points = 0;
+
+  friend bool operator==(const InnerRing&, const InnerRing&) = default;
+};
+
 // A reported loop: selected, in order of (first id, length, ids).
 struct ReportedLoop {
   LoopMeasures measures;
@@ -143,6 +151,9 @@ struct Detection {
   // The points of one of these loops, in its order. It may be larger than memory.
   std::function<void(std::size_t loop, const std::function<void(const LoopPoint&)>& visit)>
       for_each_loop_point;
+  // Each reported loop has a row here, or there are no rows. Islands that the selection leaves out are in
+  // them, too. Their numbers follow the numbers of the reported loops.
+  std::vector<std::vector<InnerRing>> inner_rings;
   Stream<const BoundaryPoint&> for_each_boundary_point;  // in ascending id
   // Blocks of consecutive points of the input, in ascending id, bounded in size; only with results.points.
   Stream<PointId, std::span<const PointResult>> for_each_result_block;
@@ -153,11 +164,18 @@ struct Detection {
   ProbabilityLattice probability_lattice;
   Stream<const ProbabilityVoxel&> for_each_probability_voxel;
 
-  ReportedLoop read_loop(std::size_t loop) const {
-    ReportedLoop read{loops[loop], {}};
-    for_each_loop_point(loop, [&](const LoopPoint& p) { read.points.push_back(p); });
-    return read;
+  // Returns the inner rings of a loop, in order.
+  std::span<const InnerRing> inner_rings_of(std::size_t loop) const {
+    return loop < inner_rings.size() ? std::span<const InnerRing>(inner_rings[loop])
+                                     : std::span<const InnerRing>();
   }
+  // Reads the points of a loop or of an inner ring.
+  Loop read_points(std::size_t loop) const {
+    Loop points;
+    for_each_loop_point(loop, [&](const LoopPoint& p) { points.push_back(p); });
+    return points;
+  }
+  ReportedLoop read_loop(std::size_t loop) const { return {loops[loop], read_points(loop)}; }
 };
 
 }  // namespace lacuna

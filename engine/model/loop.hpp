@@ -43,9 +43,9 @@ struct LoopTrack {
 struct LoopMeasures {
   LoopKind kind = LoopKind::kHole;
   std::uint64_t points = 0;
-  double perimeter = 0;               // sum of its edges' lengths
-  double area = 0;                    // of the loop projected along its normal
-  double diameter = 0;                // largest distance between two of its points
+  double perimeter = 0;  // sum of its edges' lengths
+  double area = 0;       // of the loop projected along its normal; of a hole: without its islands
+  double diameter = 0;   // largest distance between two of its points
   Eigen::Vector3d centroid{0, 0, 0};  // of its points
   // Unit; right hand rule about the loop's direction; 0 where it encloses nothing.
   Eigen::Vector3d normal{0, 0, 0};
@@ -53,6 +53,9 @@ struct LoopMeasures {
   double mean_probability = 0;
   LoopTrack track;
   std::uint64_t tiles = 0;  // blocks of the reference lattice that it passes through
+  // The loop of the other kind that it is an inner ring of (engine/loops/nest_loops.hpp), as an index; -1
+  // without one. An island is an outer curve whose parent is a hole.
+  std::int64_t parent = -1;
 };
 
 }  // namespace lacuna

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/results/collect.hpp"
 
+#include "engine/loops/nest_loops.hpp"
 #include "engine/store/column_writer.hpp"
 #include "engine/store/sorted_runs.hpp"
 
@@ -64,12 +65,14 @@ struct ResultBlocks {
 std::unique_ptr<Detection> make_detection(Findings findings, Column<MarkedPoint> boundary_points) {
   auto detection = std::make_unique<Detection>();
   detection->summary = std::move(findings.summary);
-  for (const std::size_t loop : findings.selected) detection->loops.push_back(findings.loops.measures[loop]);
+  NestedReport report = report_nested(findings.loops.measures, std::move(findings.selected));
+  detection->loops = std::move(report.loops);
+  detection->inner_rings = std::move(report.inner_rings);
 
   const auto loops = std::make_shared<const ChosenLoops>(std::move(findings.loops.loops));
-  detection->for_each_loop_point = [loops, selected = std::move(findings.selected)](std::size_t loop,
-                                                                                    const auto& visit) {
-    loops->for_each_point(selected[loop], [&](const StoredLoopPoint& p) { visit(loaded(p)); });
+  detection->for_each_loop_point = [loops, found = std::move(report.found)](std::size_t loop,
+                                                                            const auto& visit) {
+    loops->for_each_point(found[loop], [&](const StoredLoopPoint& p) { visit(loaded(p)); });
   };
 
   const auto boundary = std::make_shared<const Column<MarkedPoint>>(std::move(boundary_points));

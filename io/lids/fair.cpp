@@ -95,30 +95,39 @@ Eigen::Vector3d unit_or_zero(const Eigen::Vector3d& vector) {
 }
 
 // Returns at each point of the loop the side of the surface from which the loop runs anticlockwise.
-std::vector<Eigen::Vector3d> surface_normals(const LidMesh& mesh, std::span<const Eigen::Vector3d> surface) {
+std::vector<Eigen::Vector3d> surface_normals(const LidMesh& mesh, std::span<const std::uint32_t> next,
+                                             std::span<const Eigen::Vector3d> surface) {
   const std::size_t n = mesh.loop_points;
+  std::vector<std::uint32_t> before(n);
+  for (std::uint32_t i = 0; i < n; ++i) before[next[i]] = i;
   constexpr std::size_t kReach = 4;  // points on each side of one
   std::vector<Eigen::Vector3d> turns(n), normals(n);
   for (std::size_t i = 0; i < n; ++i)
-    turns[i] = surface[i].cross(mesh.vertices[(i + 1) % n] - mesh.vertices[(i + n - 1) % n]);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t reach = std::min(kReach, (n - 1) / 2);
+    turns[i] = surface[i].cross(mesh.vertices[next[i]] - mesh.vertices[before[i]]);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    std::size_t size = 1;  // of the loop, or enough for the reach
+    for (std::uint32_t at = next[i]; at != i && size < 2 * kReach + 1; at = next[at]) ++size;
+    const std::size_t reach = (size - 1) / 2;
     Eigen::Vector3d sum = static_cast<double>(reach + 1) * turns[i];
-    for (std::size_t step = 1; step <= reach; ++step)
-      sum += static_cast<double>(reach + 1 - step) * (turns[(i + step) % n] + turns[(i + n - step) % n]);
+    std::uint32_t left = i, right = i;
+    for (std::size_t step = 1; step <= reach; ++step) {
+      left = before[left];
+      right = next[right];
+      sum += static_cast<double>(reach + 1 - step) * (turns[right] + turns[left]);
+    }
     normals[i] = unit_or_zero(sum);
   }
   return normals;
 }
 
 // Returns the unit vector out of the lid, perpendicular to each edge of the loop.
-std::vector<Eigen::Vector3d> ends_of_lid(const LidMesh& mesh) {
+std::vector<Eigen::Vector3d> ends_of_lid(const LidMesh& mesh, std::span<const std::uint32_t> next) {
   const std::size_t n = mesh.loop_points;
   std::vector<Eigen::Vector3d> out(n, Eigen::Vector3d(0, 0, 0));
   for (const LidTriangle& triangle : mesh.triangles) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const std::size_t a = triangle[corner], b = triangle[(corner + 1) % 3];
-      if (a >= n || b != (a + 1) % n) continue;
+      if (a >= n || b != next[a]) continue;
       const Eigen::Vector3d along = mesh.vertices[b] - mesh.vertices[a];
       out[a] = unit_or_zero(along.cross(area_vector(mesh, triangle)));
     }
@@ -129,16 +138,17 @@ std::vector<Eigen::Vector3d> ends_of_lid(const LidMesh& mesh) {
 // Returns the flux of each vertex of the loop.
 Rows flux(const LidMesh& mesh, std::span<const Eigen::Vector3d> surface) {
   const std::size_t n = mesh.loop_points;
-  const std::vector<Eigen::Vector3d> normals = surface_normals(mesh, surface), ends = ends_of_lid(mesh);
+  const std::vector<std::uint32_t> next = next_on_loops(mesh);
+  const std::vector<Eigen::Vector3d> normals = surface_normals(mesh, next, surface),
+                                     ends = ends_of_lid(mesh, next);
   Rows sum = Rows::Zero(static_cast<Eigen::Index>(n), 3);
   for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t next = (i + 1) % n;
-    const Eigen::Vector3d along = mesh.vertices[next] - mesh.vertices[i];
-    const Eigen::Vector3d to_surface = unit_or_zero(along.cross(normals[i] + normals[next]));
+    const Eigen::Vector3d along = mesh.vertices[next[i]] - mesh.vertices[i];
+    const Eigen::Vector3d to_surface = unit_or_zero(along.cross(normals[i] + normals[next[i]]));
     constexpr double kFull = 0.5, kNone = 0.0872;  // cosines of 60 and 85 degrees
     const double share = std::clamp((to_surface.dot(ends[i]) - kNone) / (kFull - kNone), 0.0, 1.0);
     const Eigen::Vector3d out = unit_or_zero(share * to_surface + (1 - share) * ends[i]);
-    for (const std::size_t end : {i, next})
+    for (const std::size_t end : {i, std::size_t{next[i]}})
       sum.row(static_cast<Eigen::Index>(end)) += (along.norm() / 2 * out).transpose();
   }
   return sum;

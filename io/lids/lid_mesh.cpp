@@ -44,4 +44,16 @@ LidNeighbours neighbours(const LidMesh& mesh) {
   return across;
 }
 
+std::vector<std::uint32_t> next_on_loops(const LidMesh& mesh) {
+  std::vector<std::uint32_t> next(mesh.loop_points);
+  const LidNeighbours across = neighbours(mesh);
+  for (std::size_t t = 0; t < across.size(); ++t) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      if (across[t][corner] != kNoTriangle) continue;
+      next[mesh.triangles[t][(corner + 1) % 3]] = mesh.triangles[t][(corner + 2) % 3];
+    }
+  }
+  return next;
+}
+
 }  // namespace lacuna::io

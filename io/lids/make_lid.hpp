@@ -5,18 +5,19 @@
 #include "engine/model/loop.hpp"
 #include "io/lids/lid_mesh.hpp"
 
+#include <span>
 #include <string>
 
 namespace lacuna::io {
 
-// Loops of more points have no lid.
+// Loops of more points, with their islands, have no lid.
 inline constexpr std::size_t kMostLoopPoints = 5000;
 
 // Memory that make_lid takes at most. Measured: the factor of the thin plate takes most of it.
 inline constexpr std::size_t kLidBytes = 24 << 20;
 
-// Returns why a loop of so many points has no lid; empty if it may have one.
-std::string left_out(std::uint64_t points);
+// Returns why a loop of so many points, with those of so many islands, has no lid; empty if it may have one.
+std::string left_out(std::uint64_t points, std::size_t islands = 0);
 
 struct Lid {
   LidMesh mesh;          // in the coordinates of the loop; no triangles without a lid
@@ -25,8 +26,9 @@ struct Lid {
 };
 
 // Returns the triangulation of least area, refined to the spacing of the loop and smoothed, so that it
-// continues the surface around. Its triangles run in the loop's direction, so its side is the side of the
-// loop's normal.
+// continues the surface around. It leaves the islands in the hole open, and its mesh begins with the points
+// of the loop and of the islands, in order. Its triangles run in the loop's direction, so its side is the
+// side of the loop's normal.
 //
 // A lid that passes through itself is made less smooth: a membrane, else without fairing. If the lid without
 // fairing passes through itself, too, there is no lid. The reason then says whether the loop crosses itself
@@ -34,6 +36,6 @@ struct Lid {
 // the loop, another place or a turn change the area within rounding. If a loop is symmetric, rounding may
 // choose another triangulation. The area of a curved lid then changes by some 1e-4 of it. Equal loops give
 // equal lids. Cost: the sum of the steps' costs, below 3 s for kMostLoopPoints.
-Lid make_lid(const Loop& loop);
+Lid make_lid(const Loop& loop, std::span<const Loop> islands = {});
 
 }  // namespace lacuna::io

@@ -12,12 +12,12 @@ namespace {
 
 std::vector<double> loop_spacing(const LidMesh& mesh) {
   const std::size_t n = mesh.loop_points;
+  const std::vector<std::uint32_t> next = next_on_loops(mesh);
   std::vector<double> spacing(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t next = (i + 1) % n;
-    const double half = (mesh.vertices[next] - mesh.vertices[i]).norm() / 2;
+    const double half = (mesh.vertices[next[i]] - mesh.vertices[i]).norm() / 2;
     spacing[i] += half;
-    spacing[next] += half;
+    spacing[next[i]] += half;
   }
   return spacing;
 }

@@ -24,4 +24,11 @@ inline constexpr std::size_t kMostAtOnce = 200;
 // Precondition: three points or more. Cost: O(n min(n, kMostAtOnce)^2) time, 400 kB and O(n) memory.
 LidMesh triangulate_polygon(std::span<const Eigen::Vector3d> loop);
 
+// Triangulates between a loop and the islands in it, as one polygon (io/lids/bridge_rings.hpp, which has the
+// arguments, too). The ends of bridges and eight points of each island are never simplified away. Returns no
+// triangles if there is no such triangulation. Precondition: each has three points or more, and there are
+// kMostIslands or fewer.
+inline constexpr std::size_t kMostIslands = 30;
+LidMesh triangulate_rings(std::span<const Eigen::Vector3d> points, std::span<const std::size_t> sizes);
+
 }  // namespace lacuna::io

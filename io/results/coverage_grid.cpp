@@ -78,14 +78,17 @@ void add_interval(double from, double to, float share, float* row, std::size_t c
 
 }  // namespace
 
-void add_polygon(const std::vector<Eigen::Vector2d>& polygon, CoverageGrid& grid) {
+void add_polygon(const std::vector<Ring2>& rings, CoverageGrid& grid) {
   constexpr int kStrips = 8;
   double north = HUGE_VAL, south = -HUGE_VAL;  // ends of the polygon, in cells below the corner
-  std::vector<Eigen::Vector2d> corners;
-  for (const Eigen::Vector2d& p : polygon) {
-    corners.emplace_back((p.x() - grid.corner.x()) / grid.edge, (grid.corner.y() - p.y()) / grid.edge);
-    north = std::min(north, corners.back().y());
-    south = std::max(south, corners.back().y());
+  std::vector<Ring2> in_cells;
+  for (const Ring2& ring : rings) {
+    Ring2& corners = in_cells.emplace_back();
+    for (const Eigen::Vector2d& p : ring) {
+      corners.emplace_back((p.x() - grid.corner.x()) / grid.edge, (grid.corner.y() - p.y()) / grid.edge);
+      north = std::min(north, corners.back().y());
+      south = std::max(south, corners.back().y());
+    }
   }
   const double first = std::max(std::floor(north), 0.0);
   const double last = std::min(std::floor(south), static_cast<double>(grid.rows) - 1);
@@ -94,10 +97,12 @@ void add_polygon(const std::vector<Eigen::Vector2d>& polygon, CoverageGrid& grid
     for (int strip = 0; strip < kStrips; ++strip) {
       const double y = row + (strip + 0.5) / kStrips;
       crossings.clear();
-      for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Eigen::Vector2d &a = corners[i], &b = corners[(i + 1) % corners.size()];
-        if ((a.y() <= y) != (b.y() <= y))
-          crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+      for (const Ring2& corners : in_cells) {
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+          const Eigen::Vector2d &a = corners[i], &b = corners[(i + 1) % corners.size()];
+          if ((a.y() <= y) != (b.y() <= y))
+            crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+        }
       }
       std::sort(crossings.begin(), crossings.end());
       for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
@@ -111,12 +116,17 @@ CoverageGrid cover(const Detection& detection, const FileScan& scan, const Files
   CoverageGrid grid = empty_grid(detection, config);
   if (grid.size() == 0) return grid;
   count_points(scan, config.input, grid);
-  std::vector<Eigen::Vector2d> polygon;
+  std::vector<Ring2> rings;
+  const auto add_ring = [&](std::size_t loop) {
+    Ring2& ring = rings.emplace_back();
+    detection.for_each_loop_point(loop, [&](const LoopPoint& p) { ring.push_back(p.position.head<2>()); });
+  };
   for (std::size_t i = 0; i < detection.loops.size(); ++i) {
     if (detection.loops[i].kind != LoopKind::kHole) continue;
-    polygon.clear();
-    detection.for_each_loop_point(i, [&](const LoopPoint& p) { polygon.push_back(p.position.head<2>()); });
-    add_polygon(polygon, grid);
+    rings.clear();
+    add_ring(i);
+    for (const InnerRing& island : detection.inner_rings_of(i)) add_ring(island.loop);
+    add_polygon(rings, grid);
   }
   for (float& share : grid.holes) share = std::min(share, 1.0F);
   return grid;

@@ -25,13 +25,15 @@ struct CoverageGrid {
   std::size_t size() const { return columns * rows; }
 };
 
-// Reads every file once more. Holes on walls cover nothing from above. If holes overlap, their sum counts, up
+// Reads every file once more. Holes on walls cover nothing from above, and islands
+// are no part of their hole. If holes overlap, their sum counts, up
 // to 1. Throws `Error` if there would be more cells than the memory limit has space for. Memory: 8 bytes a
 // cell. Cost: linear in points, and in the cells that holes cross.
 CoverageGrid cover(const Detection& detection, const FileScan& scan, const FilesConfig& config);
 
-// Adds the share of each cell within a closed polygon. Rows are cut into eight strips, and each strip's share
-// is exact along its middle.
-void add_polygon(const std::vector<Eigen::Vector2d>& polygon, CoverageGrid& grid);
+// Adds the share of each cell within a closed polygon, without its inner rings. Rows are cut into eight
+// strips, and each strip's share is exact along its middle.
+using Ring2 = std::vector<Eigen::Vector2d>;
+void add_polygon(const std::vector<Ring2>& rings, CoverageGrid& grid);
 
 }  // namespace lacuna::io

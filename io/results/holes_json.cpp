@@ -123,6 +123,7 @@ void write_loop(std::size_t id, const ExplainedDetection& detection, bool with_c
   const ExplainedLoop measures = detection.loop(id);
   const Json head = {{"id", id},
                      {"kind", name_of(measures.kind)},
+                     {"parent", measures.parent < 0 ? Json() : Json(measures.parent)},
                      {"confidence", measures.track.confidence},
                      {"persistence", measures.track.persistence},
                      {"first_scale", measures.track.first_scale},

@@ -18,8 +18,8 @@ inline constexpr std::string_view kLidsHeader = "loop,triangles,lid_area,reason"
 
 // lids.obj has for each hole, in order, its object "hole_12" (the id), vertices with all digits and
 // triangles. Comments have the numbers of both and the area. A hole without a lid has one comment, with the
-// reason. Outer curves have no lids. The threads make several lids at once: kLidBytes for each, within a
-// quarter of the memory limit if one fits. Throws `Error`.
+// reason. Outer curves have no lids. Islands in a hole stay open. The threads make several lids at once:
+// kLidBytes for each, within a quarter of the memory limit if one fits. Throws `Error`.
 void write_lids_obj(const Detection& detection, OutputFile& out);
 
 // Both files come from the complete lids.obj, which the functions stream. They throw `Error`.

@@ -6,20 +6,35 @@
 #include "io/results/lids.hpp"
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace lacuna::io {
 namespace {
 
-Lid lid_of(const Detection& detection, std::size_t id, const Loop& loop) {
-  const std::string reason = left_out(detection.loops[id].points);
-  return reason.empty() ? make_lid(loop) : Lid{.mesh = {}, .area = 0, .left_out = reason};
+struct HoleToClose {
+  std::size_t id;
+  std::string left_out;
+  Loop loop;
+  std::vector<Loop> islands;
+};
+
+Lid lid_of(const HoleToClose& hole) {
+  return hole.left_out.empty() ? make_lid(hole.loop, hole.islands)
+                               : Lid{.mesh = {}, .area = 0, .left_out = hole.left_out};
 }
 
 // A loop that is too long may be larger than memory, so no point of it is read.
-Loop read_fitting(const Detection& detection, std::size_t id) {
-  return left_out(detection.loops[id].points).empty() ? detection.read_loop(id).points : Loop();
+HoleToClose read_fitting(const Detection& detection, std::size_t id) {
+  const std::span<const InnerRing> islands = detection.inner_rings_of(id);
+  std::uint64_t points = detection.loops[id].points;
+  for (const InnerRing& island : islands) points += island.points;
+  HoleToClose hole{.id = id, .left_out = left_out(points, islands.size()), .loop = {}, .islands = {}};
+  if (!hole.left_out.empty()) return hole;
+  hole.loop = detection.read_points(id);
+  for (const InnerRing& island : islands) hole.islands.push_back(detection.read_points(island.loop));
+  return hole;
 }
 
 std::string head_of(std::size_t id, const Lid& lid) {
@@ -75,12 +90,12 @@ void write_lids_obj(const Detection& detection, OutputFile& out) {
   std::uint64_t next = 1;  // vertices count from 1, over all objects
   for (std::size_t begin = 0; begin < holes.size(); begin += batch) {
     const std::size_t count = std::min(batch, holes.size() - begin);
-    std::vector<Loop> loops;
-    for (std::size_t i = 0; i < count; ++i) loops.push_back(read_fitting(detection, holes[begin + i]));
+    std::vector<HoleToClose> to_close;
+    for (std::size_t i = 0; i < count; ++i) to_close.push_back(read_fitting(detection, holes[begin + i]));
     std::vector<Lid> lids(count);
-    for_each_here(count, [&](std::size_t i) { lids[i] = lid_of(detection, holes[begin + i], loops[i]); });
+    for_each_here(count, [&](std::size_t i) { lids[i] = lid_of(to_close[i]); });
     for (std::size_t i = 0; i < count; ++i) {
-      write_lid(holes[begin + i], lids[i], next, out);
+      write_lid(to_close[i].id, lids[i], next, out);
       next += lids[i].mesh.vertices.size();
     }
   }

@@ -92,7 +92,11 @@ class LoopsWriter {
   bool converts_all() {
     if (!conversion_) return false;
     for (std::size_t id = 0; id < task_.detection.loops.size(); ++id) {
-      if (!line_of(task_.detection.read_loop(id))) return false;
+      if (!line_of(task_.detection.read_points(id))) return false;
+      for (const InnerRing& ring : task_.detection.inner_rings_of(id)) {
+        const bool is_reported = ring.loop < task_.detection.loops.size();
+        if (!is_reported && !line_of(task_.detection.read_points(ring.loop))) return false;
+      }
     }
     return true;
   }
@@ -156,29 +160,37 @@ class LoopsWriter {
         feature.SetField(field++, value);
       }
     }
-    auto line = line_of(loop);
+    auto line = line_of(loop.points);
     require(line != nullptr);
-    feature.SetGeometryDirectly(layer.is_of_polygons ? polygon_of(*line).release() : line.release());
+    feature.SetGeometryDirectly(layer.is_of_polygons ? polygon_of(id, *line).release() : line.release());
     require(layer.layer->CreateFeature(&feature) == OGRERR_NONE);
   }
 
-  // RFC 7946 wants the outline counter-clockwise.
-  static std::unique_ptr<OGRGeometry> polygon_of(const OGRLineString& line) {
-    auto outline = std::make_unique<OGRLinearRing>();
-    outline->addSubLineString(&line);
-    if (outline->isClockwise()) outline->reverseWindingOrder();
+  // RFC 7946 wants the outline counter-clockwise and inner rings clockwise.
+  std::unique_ptr<OGRGeometry> polygon_of(std::size_t id, const OGRLineString& line) {
     auto polygon = std::make_unique<OGRPolygon>();
-    polygon->addRingDirectly(outline.release());
+    const auto add = [&](const OGRLineString& points, bool is_clockwise) {
+      auto ring = std::make_unique<OGRLinearRing>();
+      ring->addSubLineString(&points);
+      if ((ring->isClockwise() != 0) != is_clockwise) ring->reverseWindingOrder();
+      polygon->addRingDirectly(ring.release());
+    };
+    add(line, false);
+    for (const InnerRing& inner : task_.detection.inner_rings_of(id)) {
+      const auto ring = line_of(task_.detection.read_points(inner.loop));
+      require(ring != nullptr);
+      add(*ring, true);
+    }
     return polygon;
   }
 
   // Returns a closed line; null if a point of it cannot be converted.
-  std::unique_ptr<OGRLineString> line_of(const ReportedLoop& loop) const {
+  std::unique_ptr<OGRLineString> line_of(const Loop& loop) const {
     auto line = std::make_unique<OGRLineString>();
-    const auto count = static_cast<int>(loop.points.size());  // loops.ply allows no more
+    const auto count = static_cast<int>(loop.size());  // loops.ply allows no more
     line->setNumPoints(count + 1);
     for (int i = 0; i <= count; ++i) {
-      Eigen::Vector3d at = loop.points[static_cast<std::size_t>(i % count)].position;
+      Eigen::Vector3d at = loop[static_cast<std::size_t>(i % count)].position;
       if (conversion_ && !convert_to_degrees(*conversion_, at)) return nullptr;
       line->setPoint(i, at.x(), at.y(), at.z());
     }
@@ -199,7 +211,9 @@ class LoopsWriter {
 extern "C" GisCrs lacuna_write_loops_gis(const GisTask& task) {
   register_gdal_drivers();
   const GdalSetting time("OGR_CURRENT_DATE", kTime),
-      no_sync("OGR_SQLITE_SYNCHRONOUS", "OFF");  // synced in the end
+      no_sync("OGR_SQLITE_SYNCHRONOUS", "OFF"),  // synced in the end
+      // GDAL takes inner rings for outer ones where z varies, and turns them.
+      no_turns("SHAPE_REWIND_ON_WRITE", "NO");
   if (task.format != GisFormat::kGeoJson) return LoopsWriter(task).write();
   const GdalTextSink sink(task.take);
   LoopsWriter writer(task);

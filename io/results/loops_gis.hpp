@@ -43,10 +43,11 @@ enum class GisCrs : std::uint8_t {
 
 // Writes the loops in order, each a closed line with z. Fields are id, kind, unit and the measures, empty if
 // a measure is not finite. With polygons, a GeoPackage has these in a layer of their own, and GeoJSON
-// has polygons in place of lines. The coordinates are the scan's, with all digits. The coordinates
-// of a GeoJSON are longitude and latitude of WGS 84 if the system is known, as RFC 7946 demands. There z
-// stays as it is, but for geocentric scans it is the ellipsoidal height. Holds one loop in memory. Equal
-// loops give equal bytes. Throws `Error` with GDAL's text.
+// has polygons in place of lines. A hole has its islands as inner rings, an outer curve its holes. The
+// coordinates are the scan's, with all digits. The coordinates of a GeoJSON are longitude and latitude of
+// WGS 84 if the system is known, as RFC 7946 demands. There z stays as it is, but for geocentric scans it is
+// the ellipsoidal height. Holds one polygon in memory. Equal loops give equal bytes. Throws `Error` with
+// GDAL's text.
 using WriteLoopsGis = GisCrs(const GisTask& task);
 
 // In lacuna_gis.so:

@@ -11,7 +11,8 @@ namespace lacuna::io {
 namespace {
 
 constexpr std::uint64_t kMostCorners = 64;  // of a loop that is triangulated
-constexpr double kPlaces = 256;             // of a hole, at least
+constexpr std::uint64_t kMostIslandCorners = 16;
+constexpr double kPlaces = 256;  // of a hole, at least
 
 // Spreads places evenly over the triangles, by the sequence R2 (Roberts, 2018).
 std::vector<InsidePlace> places_inside(const LidMesh& mesh) {
@@ -37,16 +38,34 @@ std::vector<InsidePlace> places_inside(const LidMesh& mesh) {
   return places;
 }
 
+// Returns `most` points of the loop at even steps, or all if it has fewer.
+std::vector<Eigen::Vector3d> some_corners(const Detection& detection, const InnerRing& loop,
+                                          std::uint64_t most) {
+  const std::uint64_t count = std::min(loop.points, most);
+  std::vector<Eigen::Vector3d> corners;
+  std::uint64_t at = 0;
+  detection.for_each_loop_point(loop.loop, [&](const LoopPoint& point) {
+    if (corners.size() < count && at++ >= corners.size() * loop.points / count)
+      corners.push_back(point.position);
+  });
+  return corners;
+}
+
 }  // namespace
 
 std::vector<InsidePlace> inside_places(const Detection& detection, std::size_t loop) {
-  const std::uint64_t points = detection.loops[loop].points, count = std::min(points, kMostCorners);
-  std::vector<Eigen::Vector3d> corners;
-  std::uint64_t at = 0;
-  detection.for_each_loop_point(loop, [&](const LoopPoint& point) {
-    if (corners.size() < count && at++ >= corners.size() * points / count) corners.push_back(point.position);
-  });
-  return inside_places(corners);
+  const std::span<const InnerRing> islands = detection.inner_rings_of(loop);
+  std::vector<Eigen::Vector3d> corners =
+      some_corners(detection, {loop, detection.loops[loop].points}, kMostCorners);
+  if (islands.empty() || corners.size() < 3) return inside_places(corners);
+  std::vector<std::size_t> sizes = {corners.size()};
+  for (const InnerRing& island : islands.first(std::min(islands.size(), kMostIslands))) {
+    const std::vector<Eigen::Vector3d> ring = some_corners(detection, island, kMostIslandCorners);
+    corners.insert(corners.end(), ring.begin(), ring.end());
+    sizes.push_back(ring.size());
+  }
+  std::vector<InsidePlace> places = places_inside(triangulate_rings(corners, sizes));
+  return places.empty() ? inside_places(std::span(corners).first(sizes[0])) : places;
 }
 
 std::vector<InsidePlace> inside_places(std::span<const Eigen::Vector3d> loop) {

@@ -145,6 +145,7 @@ def _arrays_of(loops: list[dict[str, Any]]) -> dict[str, np.ndarray]:
     xyz = [np.array(loop.get("coordinates", []), np.float64).reshape(-1, 3) for loop in loops]
     return {
         "is_outer": np.array([loop["kind"] == "outer" for loop in loops], bool),
+        "parent": np.array([-1 if loop.get("parent") is None else loop["parent"] for loop in loops], np.int64),
         "points": np.array(counts, np.int64),
         **{name: numbers(name) for name in NUMBERS},
         **{name: vectors(name) for name in ("centroid", "normal")},

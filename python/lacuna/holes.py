@@ -50,11 +50,12 @@ class Loop:
 
     id: int  # its index among the loops of the result
     kind: str  # "hole" or "outer"
+    parent: Optional[int]  # the loop that it is an inner ring of: of an island its hole, of a hole the outer curve
     ids: np.ndarray
     xyz: np.ndarray
     confidence: float  # probability that it is one, from 0 to 1
     perimeter: float
-    area: float  # seen along its normal
+    area: float  # seen along its normal; of a hole without its islands
     diameter: float  # largest distance between two of its points
     centroid: np.ndarray
     normal: np.ndarray  # unit; right hand rule about the loop's direction; 0 where it encloses nothing
@@ -116,6 +117,7 @@ class Loops(Sequence):
         return Loop(
             id=i,
             kind="outer" if a["is_outer"][i] else "hole",
+            parent=None if a["parent"][i] < 0 else int(a["parent"][i]),
             ids=a["ids"][of_loop],
             xyz=a["xyz"][of_loop],
             centroid=a["centroid"][i],
@@ -222,10 +224,18 @@ class Holes:
         return frame
 
     def to_geo(self, polygons: bool = True) -> Any:
-        """A geopandas.GeoDataFrame: each loop as a polygon seen from above, or as a closed 3D line."""
+        """A geopandas.GeoDataFrame: each loop as a polygon seen from above, with its inner rings, or as a closed
+        3D line."""
         geopandas, shapely = require("geopandas", "to_geo"), require("shapely.geometry", "to_geo")
-        shape = shapely.Polygon if polygons else shapely.LineString
-        geometry = [shape(np.vstack([loop.xyz, loop.xyz[:1]])) for loop in self.loops]
+        lines = [np.vstack([loop.xyz, loop.xyz[:1]]) for loop in self.loops]
+        inner: list[list[np.ndarray]] = [[] for _ in lines]
+        for line, parent in zip(lines, self.loops.parent):
+            if parent >= 0:
+                inner[parent].append(line)
+        if polygons:
+            geometry = [shapely.Polygon(line, rings) for line, rings in zip(lines, inner)]
+        else:
+            geometry = [shapely.LineString(line) for line in lines]
         return geopandas.GeoDataFrame(self.to_frame(), geometry=geometry, crs=self.crs or None)
 
     def to_open3d(self) -> tuple[Any, Any]:

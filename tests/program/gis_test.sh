@@ -209,8 +209,10 @@ for format in ("gpkg", "geojson"):
     for feature, loop, expected in zip(features, loops, flat, strict=True):
         assert feature["geometry"]["type"] == "Polygon", format
         assert (feature["properties"]["unit"] or "") == result["unit"], feature["properties"]
-        (ring,) = feature["geometry"]["coordinates"]
+        ring, *inner = feature["geometry"]["coordinates"]
         assert math.isclose(abs(area(local(ring))), expected, rel_tol=1e-6, abs_tol=1e-9), format
+        assert len(inner) == sum(other["parent"] == loop["id"] for other in loops), format
+    assert sum(len(feature["geometry"]["coordinates"]) for feature in features) == 5 + 4  # the footprint has 4 holes
 
 info = json.loads(Path("raster.json").read_text(encoding="utf-8"))
 assert [band["description"] for band in info["bands"]] == ["points", "spacing", "holes"]
@@ -229,6 +231,72 @@ for loop in loops:  # the place is right, too: the middle of each hole is void
     x, y, _ = loop["centroid"]
     near = min(bands["holes"], key=lambda cell: math.hypot(cell[0] - x, cell[1] - y))
     assert near[2] > 0.9, (loop["centroid"], near)
+END
+
+# An island in a hole, and a hole in the island: no result counts the island as hole.
+python3 - <<'END'
+import math
+import random
+
+draw = random.Random(4)
+with open("island.xyz", "w") as text:
+    for i in range(80):
+        for j in range(80):
+            x, y = i + draw.uniform(-0.2, 0.2), j + draw.uniform(-0.2, 0.2)
+            r = math.hypot(x - 40, y - 40)
+            if 5 < r < 14 or r > 24:
+                print(f"{500_000 + x:.3f} {5_400_000 + y:.3f} {100 + 0.1 * x:.3f}", file=text)
+END
+"$program" detect island.xyz --crs EPSG:25832 --out island "${formats[@]}" --polygons --lids --coverage 0.5 --quiet
+# Islands that are not reported are open, too.
+"$program" detect island.xyz --crs EPSG:25832 --out only "${formats[@]}" --polygons --lids --coverage 0.5 --holes-only --quiet
+cmp island/coverage.tif only/coverage.tif
+cut -d, -f2- island/lids.csv | cmp - <(cut -d, -f2- only/lids.csv)
+ogr2ogr -f GeoJSON only.json only/loops.gpkg lacuna_areas -lco SIGNIFICANT_FIGURES=17
+ogr2ogr -f GeoJSON island.gpkg.json island/loops.gpkg lacuna_areas -lco SIGNIFICANT_FIGURES=17
+ogr2ogr -f GeoJSON island.shp.json island/loops.shp -lco SIGNIFICANT_FIGURES=17
+ogr2ogr -f GeoJSON island.geojson.json island/loops.geojson -t_srs EPSG:25832 -lco RFC7946=NO -lco SIGNIFICANT_FIGURES=17
+gdal_translate -q -of XYZ -b 3 island/coverage.tif island.holes.xyz
+python3 - <<'END'
+import csv
+import json
+import math
+from pathlib import Path
+
+loops = json.loads(Path("island/holes.json").read_text(encoding="utf-8"))["loops"]
+outline, hole, island, inner = sorted(loops, key=lambda loop: -loop["perimeter"])
+assert [loop["kind"] for loop in (outline, hole, island, inner)] == ["outer", "hole", "outer", "hole"]
+assert outline["parent"] is None
+for loop, parent in ((hole, outline), (island, hole), (inner, island)):
+    assert loop["parent"] == parent["id"], loop["id"]
+
+
+def area(line):  # in the plan
+    flat = [[x - 5e5, y - 54e5] for x, y, *_ in line]
+    return abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(flat, flat[1:] + flat[:1]))) / 2
+
+
+whole = {loop["id"]: area(loop["coordinates"]) for loop in loops}
+slope = math.hypot(1, 0.1)
+ring = whole[hole["id"]] - whole[island["id"]]
+assert math.isclose(ring, math.pi * (24 ** 2 - 14 ** 2), rel_tol=0.1), ring
+assert math.isclose(hole["area"], ring * slope, rel_tol=1e-3)
+assert math.isclose(inner["area"], whole[inner["id"]] * slope, rel_tol=1e-3)
+with open("island/lids.csv", newline="") as file:
+    lids = {int(row["loop"]): float(row["lid_area"]) for row in csv.DictReader(file)}
+assert math.isclose(lids[hole["id"]], hole["area"], rel_tol=1e-3), lids
+assert math.isclose(lids[inner["id"]], inner["area"], rel_tol=1e-3), lids
+for format in ("gpkg", "shp", "geojson"):
+    features = json.loads(Path(f"island.{format}.json").read_text(encoding="utf-8"))["features"]
+    for feature, loop in zip(features, loops, strict=True):
+        assert feature["geometry"]["type"] == "Polygon", (format, feature["geometry"]["type"])
+        rings = [area(ring) for ring in feature["geometry"]["coordinates"]]
+        expected = [whole[loop["id"]]] + [whole[other["id"]] for other in loops if other["parent"] == loop["id"]]
+        assert all(math.isclose(a, b, rel_tol=1e-6) for a, b in zip(rings, expected, strict=True)), (format, rings)
+only = json.loads(Path("only.json").read_text(encoding="utf-8"))["features"]
+assert sorted(len(feature["geometry"]["coordinates"]) for feature in only) == [1, 2]
+cells = sum(float(line.split()[2]) for line in Path("island.holes.xyz").read_text().splitlines())
+assert math.isclose(0.25 * cells, ring + whole[inner["id"]], rel_tol=0.01), cells
 END
 
 # Files of the same names that Lacuna did not write.

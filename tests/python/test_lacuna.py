@@ -97,7 +97,7 @@ class FindHoles(Folder):
             self.assertEqual([loop.ids.tolist() for loop in holes.loops], [loop["ids"] for loop in program])
             for loop, expected in zip(holes.loops, program):
                 self.assertEqual(loop.xyz.tolist(), expected["coordinates"])
-                for name in ("kind", "confidence", "area", "diameter", "perimeter", "planarity", "mean_probability", "last_scale"):
+                for name in ("kind", "parent", "confidence", "area", "diameter", "perimeter", "planarity", "mean_probability", "last_scale"):
                     self.assertEqual(getattr(loop, name), expected[name])
             self.assertEqual(holes.summary["points"], len(SHEET))
             self.assertGreater(len(holes.sample["xyz"]), 1000)  # of the first level
@@ -232,7 +232,7 @@ class Files(Folder):
         self.assertIn(b"property uchar red", (self.folder / "out/points/arrays.ply").read_bytes()[:2000])
         loaded = lacuna.load(self.folder / "out")
         self.assertTrue(same_loops(loaded, holes))
-        for name in ("xyz", "area", "centroid", "is_outer", "points", "confidence"):
+        for name in ("xyz", "area", "centroid", "is_outer", "parent", "points", "confidence"):
             np.testing.assert_array_equal(getattr(loaded.loops, name), getattr(holes.loops, name))
         for name in ("id", "xyz", "probability", "normal"):
             np.testing.assert_array_equal(loaded.sample[name], holes.sample[name])

@@ -57,6 +57,7 @@ std::string Detected::bytes() const {
     put(bytes, m.centroid);
     put(bytes, m.normal);
     put(bytes, m.tiles);
+    put(bytes, m.parent);
     for (const LoopPoint& p : loop.points) {
       put(bytes, p.id);
       put(bytes, p.position);

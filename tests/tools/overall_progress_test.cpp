@@ -77,8 +77,8 @@ TEST_CASE("the expected stages are those of the config") {
   };
   Config config;
   CHECK(names(config) == std::vector<std::string>{"survey", "bucket", "halo", "evaluate", "loops", "levels",
-                                                  "track", "measure", "coherence", "sample", "collect",
-                                                  "write"});
+                                                  "track", "measure", "nest", "coherence", "sample",
+                                                  "collect", "write"});
   config.scale.every_point = true;
   config.results.voxels = true;
   CHECK(!has(config, "levels"));

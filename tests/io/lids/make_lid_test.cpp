@@ -2,15 +2,18 @@
 #include "io/lids/make_lid.hpp"
 
 #include "io/lids/refine.hpp"
+#include "io/lids/triangulate_polygon.hpp"
 #include "tests/io/lids/drawn_loops.hpp"
 #include "tests/io/lids/watertight.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/draws.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include <catch2/catch.hpp>
 
@@ -145,6 +148,44 @@ TEST_CASE("a turn, a place as of UTM and another first point do not change the a
   Loop rotated = loop;
   std::rotate(rotated.begin(), rotated.begin() + 41, rotated.end());
   CHECK(made(rotated).area == Approx(area).epsilon(1e-11));
+}
+
+TEST_CASE(
+    "a lid leaves islands open: its area is the hole's without theirs, in whichever direction they run") {
+  const auto square_at = [](double x, double y, double half, int on_side) {
+    Line corners = {{-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0}};
+    for (Eigen::Vector3d& corner : corners) corner += Eigen::Vector3d(x, y, 0);
+    return with_points(corners, on_side);
+  };
+  for (const int on_side : {4, 20, 90}) {
+    const Loop hole = hole_in_plane(square_at(0, 0, 10, on_side));
+    std::vector<Loop> islands;
+    for (const auto& [x, y, half] : {std::array{-5.0, -4.0, 2.0}, {4.0, 5.0, 3.0}, {5.0, -6.0, 1.0}})
+      islands.push_back(hole_in_plane(square_at(x, y, half, std::max(2, on_side / 4))));
+    for (int turn = 0; turn < 2; ++turn) {
+      const Lid lid = make_lid(hole, islands);
+      INFO(on_side << " points on a side");
+      REQUIRE(lid.left_out == "");
+      CHECK(lid.area == Approx(400 - 16 - 36 - 4).epsilon(1e-9));
+      CHECK(test::is_surface_on_loops(lid.mesh, 4));
+      std::size_t at = hole.size();
+      for (const Loop& island : islands) {
+        for (const LoopPoint& point : island) CHECK(lid.mesh.vertices[at++] == point.position);
+      }
+      std::reverse(islands[turn].begin(), islands[turn].end());
+    }
+  }
+  const std::vector<Loop> many(kMostIslands + 1, hole_in_plane(square_at(0, 0, 1, 1)));
+  CHECK(make_lid(hole_in_plane(square_at(0, 0, 10, 4)), many).left_out == "more than 30 islands in it");
+}
+
+TEST_CASE("a lid between a sphere's hole and an island in it follows the sphere") {
+  Loop island = hole_in_sphere(0.3, 60);
+  for (LoopPoint& point : island) point.surface = -point.surface;  // it is inside
+  const Lid lid = make_lid(hole_in_sphere(0.7, 140), std::span(&island, 1));
+  REQUIRE(lid.left_out == "");
+  CHECK(test::is_surface_on_loops(lid.mesh, 2));
+  CHECK(lid.area == Approx(2 * kPi * (std::cos(0.3) - std::cos(0.7))).epsilon(0.03));
 }
 
 TEST_CASE("equal loops have equal lids, to the last bit") {

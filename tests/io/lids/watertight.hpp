@@ -37,4 +37,27 @@ inline bool is_disc_on_loop(const io::LidMesh& mesh) {
   return used.size() == vertices && *used.rbegin() + 1 == vertices && vertices + faces == edges + 1;
 }
 
+// Likewise, a lid with islands is a sphere without so many discs, one for the loop and each island. All of
+// its edges on one triangle are between points of loops, and each such point has one that leaves it.
+inline bool is_surface_on_loops(const io::LidMesh& mesh, std::size_t loops) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> directed;
+  std::set<std::uint32_t> used;
+  for (const io::LidTriangle& triangle : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      used.insert(triangle[i]);
+      if (!directed.insert({triangle[i], triangle[(i + 1) % 3]}).second) return false;
+    }
+  }
+  std::set<std::uint32_t> left;
+  std::size_t edges = 0;
+  for (const auto& [a, b] : directed) {
+    const bool is_of_loop = directed.count({b, a}) == 0;
+    if (is_of_loop && (a >= mesh.loop_points || b >= mesh.loop_points || !left.insert(a).second))
+      return false;
+    if (is_of_loop || a < b) ++edges;
+  }
+  const std::size_t vertices = mesh.vertices.size(), faces = mesh.triangles.size();
+  return left.size() == mesh.loop_points && used.size() == vertices && vertices + faces + loops == edges + 2;
+}
+
 }  // namespace lacuna::test

@@ -60,6 +60,7 @@ struct FakeDetection {
                  [this](std::size_t loop, const auto& visit) {
                    for (const LoopPoint& point : found.at(loop)) visit(point);
                  },
+             .inner_rings = rings(),
              .for_each_boundary_point = all_of(boundary),
              .for_each_result_block =
                  [this](const auto& visit) {
@@ -71,6 +72,15 @@ struct FakeDetection {
              .for_each_sampled_point = all_of(sample),
              .probability_lattice = lattice,
              .for_each_probability_voxel = all_of(voxels)}};
+  }
+
+  std::vector<std::vector<InnerRing>> rings() const {
+    std::vector<std::vector<InnerRing>> rings(measures.size());
+    for (std::size_t i = 0; i < measures.size(); ++i) {
+      if (measures[i].parent >= 0)
+        rings[static_cast<std::size_t>(measures[i].parent)].push_back({i, measures[i].points});
+    }
+    return rings;
   }
 
   std::vector<SampledPoint> sample;

@@ -49,6 +49,15 @@ TEST_CASE("lids.csv has a line for each hole, with the reason where it has no li
         "4,1,0.5,\n");
 }
 
+TEST_CASE("islands in a hole stay open in the files of lids") {
+  test::FakeDetection run;
+  add(run, LoopKind::kOuter, {{1, 1, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}});
+  add(run, LoopKind::kHole, {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}});
+  run.measures[0].parent = 1;
+  const test::ScratchFolder scratch;
+  CHECK(test::read_file(write(scratch, run)) == "loop,triangles,lid_area,reason\n1,8,8,\n");
+}
+
 TEST_CASE("a loop that is too long is not read") {
   test::FakeDetection run;
   add(run, LoopKind::kHole, {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}});

@@ -95,7 +95,8 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
   CHECK(json.at("loops")[1].at("area").is_null());
   CHECK_THAT(read_file(folder / "holes.json"),
              Contains("\n    "
-                      "{\"id\":0,\"kind\":\"hole\",\"confidence\":1.0,\"persistence\":0.0,\"first_scale\":0."
+                      "{\"id\":0,\"kind\":\"hole\",\"parent\":null,\"confidence\":1.0,\"persistence\":0.0,"
+                      "\"first_scale\":0."
                       "0,\"last_scale\":0.0,"
                       "\"perimeter\":0.1,\"area\":0.0,\"diameter\":0.0,\"planarity\":0.0,\"mean_"
                       "probability\":0.0,\"centroid\":[1.0,2.0,3.0],"

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/loops/nest_loops.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+namespace lacuna {
+namespace {
+
+constexpr std::size_t kSamples = 32;  // points of a loop, or all if it has fewer
+
+struct LoopSample {
+  std::array<double, 3> point;
+};
+
+std::size_t sample_count(const LoopMeasures& loop) {
+  return std::min<std::size_t>(kSamples, loop.points);
+}
+
+// Returns points at even steps along each loop: kSamples places for each.
+std::span<LoopSample> sample_loops(const MeasuredLoops& loops, Job& job, Scratch& scratch) {
+  const std::span<LoopSample> samples = scratch.array<LoopSample>(kSamples * loops.measures.size());
+  for_each_loop(loops.loops, job, [&](std::size_t i, std::span<const StoredLoopPoint> loop, Scratch&) {
+    const std::size_t count = sample_count(loops.measures[i]);
+    for (std::size_t s = 0; s < count; ++s) {
+      const StoredPoint& p = loop[s * loop.size() / count].point;
+      samples[kSamples * i + s] = {{p.x, p.y, p.z}};
+    }
+  });
+  return samples;
+}
+
+// The plane through a loop's centroid. Its third axis is the loop's normal.
+class LoopPlane {
+ public:
+  explicit LoopPlane(const LoopMeasures& loop) : origin_(loop.centroid) {
+    const Eigen::Vector3d right = loop.normal.unitOrthogonal();
+    axes_ << right, loop.normal.cross(right), loop.normal;
+  }
+  Eigen::Vector3d operator()(const Eigen::Vector3d& p) const { return axes_.transpose() * (p - origin_); }
+
+ private:
+  Eigen::Vector3d origin_;
+  Eigen::Matrix3d axes_;
+};
+
+// A sample of a loop that may be inside another one, in the other one's plane.
+struct Inside {
+  Eigen::Vector3d at;
+  std::size_t loop;
+  bool is_inside = false;
+  // The nearest edge is that on the line through `at` along the first axis.
+  double distance = std::numeric_limits<double>::infinity(), height = 0;  // of this edge
+
+  bool is_near() const { return std::abs(at.z() - height) <= distance; }
+};
+
+// Passes the edges of the polygon. Each edge finds the samples on whose lines it is.
+void compare_edges(const ChosenLoops& loops, std::size_t polygon, const LoopPlane& plane,
+                   std::vector<Inside>& samples) {
+  std::sort(samples.begin(), samples.end(),
+            [](const Inside& a, const Inside& b) { return a.at.y() < b.at.y(); });
+  const auto below = [](const Inside& sample, double y) { return sample.at.y() < y; };
+  const auto compare = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    const auto [low, high] = std::minmax(a.y(), b.y());
+    auto sample = std::lower_bound(samples.begin(), samples.end(), low, below);
+    for (; sample != samples.end() && sample->at.y() < high; ++sample) {
+      const double along = (sample->at.y() - a.y()) / (b.y() - a.y());
+      const double x = a.x() + along * (b.x() - a.x()), height = a.z() + along * (b.z() - a.z());
+      if (x > sample->at.x()) sample->is_inside = !sample->is_inside;
+      const double distance = std::abs(x - sample->at.x());
+      if (std::tuple(distance, height) < std::tuple(sample->distance, sample->height)) {
+        sample->distance = distance;
+        sample->height = height;
+      }
+    }
+  };
+  std::optional<Eigen::Vector3d> first, before;
+  loops.for_each_point(polygon, [&](const StoredLoopPoint& p) {
+    const Eigen::Vector3d at = plane(p.point.position());
+    if (before) compare(*before, at);
+    if (!first) first = at;
+    before = at;
+  });
+  if (first) compare(*before, *first);
+}
+
+// Loops by their centroids, along the axis on which these extend the farthest.
+class Centroids {
+ public:
+  explicit Centroids(const std::vector<LoopMeasures>& loops) : loops_(loops), order_(loops.size()) {
+    Eigen::AlignedBox3d box;
+    for (const LoopMeasures& loop : loops) box.extend(loop.centroid);
+    if (!loops.empty()) box.sizes().maxCoeff(&axis_);
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::sort(order_.begin(), order_.end(),
+              [&](std::size_t a, std::size_t b) { return std::pair(along(a), a) < std::pair(along(b), b); });
+  }
+
+  // Calls visit(loop) for each loop whose centroid is within `radius` of the place.
+  template <class Visit>
+  void for_each_near(const Eigen::Vector3d& place, double radius, Visit&& visit) const {
+    auto next = std::lower_bound(order_.begin(), order_.end(), place[axis_] - radius,
+                                 [&](std::size_t loop, double least) { return along(loop) < least; });
+    for (; next != order_.end() && along(*next) <= place[axis_] + radius; ++next) {
+      if ((loops_[*next].centroid - place).norm() <= radius) visit(*next);
+    }
+  }
+
+ private:
+  double along(std::size_t loop) const { return loops_[loop].centroid[axis_]; }
+
+  const std::vector<LoopMeasures>& loops_;
+  std::vector<std::size_t> order_;
+  Eigen::Index axis_ = 0;
+};
+
+bool may_be_around(const LoopMeasures& loop, const LoopMeasures& other) {
+  constexpr double kLeastCosine = 0.5;
+  return loop.area > other.area && std::abs(loop.normal.dot(other.normal)) >= kLeastCosine;
+}
+
+// Returns those of the loops that are inside the polygon.
+std::vector<std::size_t> loops_inside(const MeasuredLoops& loops, std::size_t polygon,
+                                      std::span<const std::size_t> others,
+                                      std::span<const LoopSample> samples) {
+  const LoopPlane plane(loops.measures[polygon]);
+  std::vector<Inside> inside;
+  for (const std::size_t loop : others) {
+    for (const LoopSample& sample : samples.subspan(kSamples * loop, sample_count(loops.measures[loop])))
+      inside.push_back({plane(Eigen::Vector3d(sample.point[0], sample.point[1], sample.point[2])), loop});
+  }
+  compare_edges(loops.loops, polygon, plane, inside);
+  std::vector<std::size_t> found;
+  for (const Inside& sample : inside) {
+    if (sample.is_inside && sample.is_near()) found.push_back(sample.loop);
+  }
+  std::sort(found.begin(), found.end());
+  constexpr double kLeastShare = 0.9;
+  std::vector<std::size_t> most;
+  for (auto first = found.begin(); first != found.end();) {
+    const auto last = std::upper_bound(first, found.end(), *first);
+    if (static_cast<double>(last - first) >=
+        kLeastShare * static_cast<double>(sample_count(loops.measures[*first])))
+      most.push_back(*first);
+    first = last;
+  }
+  return most;
+}
+
+// Returns for each loop the smallest loop around it; -1 without one.
+std::vector<std::int64_t> find_around(const MeasuredLoops& loops, Job& job) {
+  const std::vector<LoopMeasures>& measures = loops.measures;
+  Scratch scratch(job.workspace, job.memory.work / 4);
+  const std::span<const LoopSample> samples = sample_loops(loops, job, scratch);
+  const std::size_t most = std::max<std::size_t>(1, job.memory.work / 4 / (kSamples * sizeof(Inside)));
+  const Centroids centroids(measures);
+  std::vector<std::size_t> by_area(measures.size());
+  std::iota(by_area.begin(), by_area.end(), std::size_t{0});
+  std::sort(by_area.begin(), by_area.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(measures[a].area, a) < std::pair(measures[b].area, b);
+  });
+  std::vector<std::int64_t> around(measures.size(), -1);
+  std::vector<std::size_t> others;
+  for (const std::size_t polygon : by_area) {
+    const auto compare = [&] {
+      if (others.empty()) return;
+      for (const std::size_t loop : loops_inside(loops, polygon, others, samples))
+        around[loop] = static_cast<std::int64_t>(polygon);
+      others.clear();
+      scratch.trim();
+    };
+    const LoopMeasures& loop = measures[polygon];
+    centroids.for_each_near(loop.centroid, loop.diameter, [&](std::size_t other) {
+      if (around[other] >= 0 || !may_be_around(loop, measures[other])) return;
+      others.push_back(other);
+      if (others.size() == most) compare();
+    });
+    compare();
+  }
+  return around;
+}
+
+}  // namespace
+
+void nest_loops(MeasuredLoops& loops, Job& job) {
+  std::vector<LoopMeasures>& measures = loops.measures;
+  Phase phase(job, "nest", measures.size());
+  const std::vector<std::int64_t> around = find_around(loops, job);
+  std::vector<double> islands(measures.size(), 0.0);
+  for (std::size_t i = 0; i < measures.size(); ++i) {
+    if (around[i] < 0) continue;
+    const auto parent = static_cast<std::size_t>(around[i]);
+    if (measures[parent].kind == measures[i].kind) continue;
+    measures[i].parent = around[i];
+    if (measures[i].kind == LoopKind::kOuter)
+      islands[parent] += measures[i].area * std::abs(measures[i].normal.dot(measures[parent].normal));
+  }
+  for (std::size_t i = 0; i < measures.size(); ++i)
+    measures[i].area = std::max(0.0, measures[i].area - islands[i]);
+  phase.advance(measures.size());
+}
+
+NestedReport report_nested(const std::vector<LoopMeasures>& found, std::vector<std::size_t> selected) {
+  std::vector<std::int64_t> place_of(found.size(), -1);
+  for (std::size_t i = 0; i < selected.size(); ++i) place_of[selected[i]] = static_cast<std::int64_t>(i);
+  const auto parent_of = [&](const LoopMeasures& loop) {
+    return loop.parent < 0 ? -1 : place_of[static_cast<std::size_t>(loop.parent)];
+  };
+  NestedReport report;
+  for (const std::size_t loop : selected) {
+    report.loops.push_back(found[loop]);
+    report.loops.back().parent = parent_of(found[loop]);
+  }
+  report.inner_rings.resize(selected.size());
+  report.found = std::move(selected);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const std::int64_t parent = parent_of(found[i]);
+    const bool is_left_out = place_of[i] < 0;
+    if (parent < 0 || (is_left_out && found[i].kind == LoopKind::kHole)) continue;
+    const std::size_t number = is_left_out ? report.found.size() : static_cast<std::size_t>(place_of[i]);
+    if (is_left_out) report.found.push_back(i);
+    report.inner_rings[static_cast<std::size_t>(parent)].push_back({number, found[i].points});
+  }
+  return report;
+}
+
+}  // namespace lacuna

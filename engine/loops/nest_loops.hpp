@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// nest_loops: finds the islands of holes, and the holes of surfaces with an outer curve.
+#pragma once
+
+#include "engine/loops/measure_loops.hpp"
+#include "engine/model/detection.hpp"
+#include "engine/run/job.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace lacuna {
+
+// Sets `parent` of each loop to the smallest loop around it, if this is of the other kind. Then takes the
+// areas of islands from the areas of holes, projected along the hole's normal. An island is an outer curve
+// whose parent is the hole.
+//
+// A loop is around another one if it is larger and their normals differ by less than 60 degrees. Nine in ten
+// points of the other loop, of up to 32, are within its polygon, projected along its normal. There the slope
+// from the nearest edge is less than 45 degrees. The edge is searched along a line through the point. So what
+// hides a surface from above, such as a table, is no island in the hole below.
+//
+// Ties: by order. A loop that encloses no area has no parent and is none. Memory: 1 kB a loop, beyond a share
+// of the limit on disk. Cost: a pass over the loops, and over each loop with others near its inside.
+void nest_loops(MeasuredLoops& loops, Job& job);
+
+// Loops as they are reported.
+struct NestedReport {
+  std::vector<LoopMeasures> loops;                  // the parent is a reported loop, or -1
+  std::vector<std::vector<InnerRing>> inner_rings;  // of each
+  std::vector<std::size_t> found;                   // of each number in a ring: the found loop
+};
+
+// `selected`: ascending. An island of a reported hole is an inner ring even if it is not selected. A hole is
+// one only if it is.
+NestedReport report_nested(const std::vector<LoopMeasures>& found, std::vector<std::size_t> selected);
+
+}  // namespace lacuna
