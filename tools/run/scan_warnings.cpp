@@ -134,6 +134,13 @@ void refuse_degrees(const FileScan& scan) {
   if (!stated.crs.empty()) return;
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
     if (!scan.is_geographic(i)) continue;
+    const bool is_guess = scan.crs()[i].empty() && (scan.formats()[i] == "text" || scan.formats()[i] == "NumPy");
+    if (is_guess && !stated.unit.empty()) continue;
+    if (is_guess)
+      throw Error(visible(scan.files()[i].string()) +
+                  ": x and y are longitude and latitude, by their names or values, and holes need lengths; "
+                  "project them first, as with `gdaltransform`; if they are lengths, --unit m or another unit "
+                  "says so");
     const std::string name = scan.crs()[i].empty() ? "its system" : crs_name(scan.crs()[i]);
     throw Error(
         visible(scan.files()[i].string()) + ": " + name + kDegrees +

@@ -77,6 +77,77 @@ TEST_CASE("a first column that counts the rows is not taken for x", "[io]") {
   CHECK(read_table(folder.write("a.csv", "id,x,y,z\n" + ids)).rows.size() == 50);
 }
 
+TEST_CASE("columns of the field are x, y and z by their names, also in comments", "[io]") {
+  const ScratchFolder folder;
+  const auto names = [&](const std::string& text) { return read_table(folder.write("a.txt", text)).names; };
+  CHECK(names("# id Easting Northing Elevation\n7 1 2 3\n") == Names{"id", "x", "y", "z"});
+  CHECK(names("Northing (m),Easting (m),Height (m)\n1,2,3\n") == Names{"y", "x", "z"});
+  CHECK(names("# X_m Y_m Z_m\n1 2 3\n") == Names{"x", "y", "z"});
+  CHECK(names("# a list\n# ID, X, Y, Z, ERROR, TRACK[] as (IMAGE, POINT)\n# Number of points: 2\n"
+              "1 2 3 4 0.5 6 7\n2 3 4 5 0.5\n") == Names{"ID", "x", "y", "z", "ERROR"});
+  CHECK_THAT(read_error(folder.write("a.txt", "# ID LONGITUDE_LOW LATITUDE_LOW ELEVATION_LOW\n1 2 3 4\n")),
+             Catch::Contains("no columns named x, y and z"));
+  CHECK_THAT(read_error(folder.write("a.txt", "# id x y z\n1 2 3 4 5\n")),
+             Catch::Contains("the row has 5 values, and the comment before it names 4 columns"));
+}
+
+TEST_CASE("whole numbers before three columns with decimals are not taken for x", "[io]") {
+  const ScratchFolder folder;
+  const auto error = [&](const std::string& text) { return read_error(folder.write("a.xyz", text)); };
+  const auto number = [](int i) { return std::to_string(i); };
+  const auto place = [&](int i) { return number(i % 7) + ".5 " + number(i % 5) + ".25 1.75"; };
+  CHECK_THAT(error(rows(60, [&](int i) { return number(i / 9) + " " + number(i % 9) + " " + place(i); })),
+             Catch::Contains("the first 2 columns have whole numbers alone"));
+  CHECK_THAT(error(rows(60, [&](int i) { return number(99 * i % 61) + " " + place(i); })),
+             Catch::Contains("the first column has whole numbers alone"));
+  CHECK_THAT(error(rows(60, [&](int i) { return "42." + number(i + 10) + " " + place(i); })),
+             Catch::Contains("rises from row to row"));
+}
+
+TEST_CASE("longitude and latitude in text are known by their names or values", "[io]") {
+  const ScratchFolder folder;
+  const auto is_geographic = [&](const std::string& text, const std::string& columns = "") {
+    return open_scan(folder.write("a.txt", text), {.columns = columns})->is_geographic();
+  };
+  const auto number = [](int i) { return std::to_string(i); };
+  CHECK(is_geographic("# lat lon alt\n48 11 500\n"));
+  CHECK(is_geographic("Longitude,Latitude,Height\n48,11,500\n"));
+  CHECK(is_geographic("1 2 3\n", "lat lon alt"));
+  CHECK(is_geographic("id,LAT_A,LON_A,H\n1,2,3,4\n", "x=LON_A y=LAT_A z=H") == false);
+  CHECK(is_geographic(rows(60, [&](int i) {
+    return "11.00000" + number(10 + i) + " 48.00000" + number(10 + i % 7) + " " + number(500 + i % 3);
+  })));
+  CHECK_FALSE(is_geographic(rows(60, [&](int i) {
+    return "11." + number(10 + i) + " 48." + number(10 + i % 7) + " " + number(500 + i % 3);
+  })));
+}
+
+TEST_CASE("columns of words are not read, quotes and empty cells are", "[io]") {
+  const ScratchFolder folder;
+  const Table words = read_table(folder.write("a.csv", "Point;X;Y;Z;Code\nP0;1;2;3;TOPO\nP1;4;5;6;\"a;b\"\n"));
+  CHECK(words.names == Names{"x", "y", "z"});
+  CHECK(words.rows == Rows{{1, 2, 3}, {4, 5, 6}});
+  CHECK(read_table(folder.write("a.csv", "\"X\",\"Y\",\"Z\"\n\"1\",\"2.5\",\"-3\"\n")).rows == Rows{{1, 2.5, -3}});
+  CHECK(read_table(folder.write("a.csv", "\"1,5\",\"2,5\",\"3,0\"\n")).rows == Rows{{1.5, 2.5, 3}});
+  const Table empty = read_table(folder.write("a.csv", "x,y,z,i\n1,2,3,\n1,2,3,4\n1,,3,NA\n"));
+  CHECK(std::isnan(empty.rows.at(0)[3]));
+  CHECK(std::isnan(empty.rows.at(2)[1]));
+  CHECK(std::isnan(empty.rows.at(2)[3]));
+  CHECK(read_table(folder.write("a.csv", "1,2,3,4\n"), 9, {.columns = "_ x y z"}).rows == Rows{{2, 3, 4}});
+  CHECK(read_table(folder.write("a.csv", "9 1 2 3 4 5\n9 1 2 3\n"), 9, {.columns = "_ x y z ..."}).rows ==
+        Rows{{1, 2, 3}, {1, 2, 3}});
+}
+
+TEST_CASE("lines before the header are passed over", "[io]") {
+  const ScratchFolder folder;
+  const std::string before = "Project: Test\nDate: 2020\nUnits: m\n";
+  CHECK(read_table(folder.write("a.txt", before + "X Y Z\n1 2 3\n4 5 6\n")).rows == Rows{{1, 2, 3}, {4, 5, 6}});
+  CHECK(read_table(folder.write("a.txt", "X,Y,Z\nm,m,m\n1,2,3\n")).rows == Rows{{1, 2, 3}});
+  CHECK_THAT(read_error(folder.write("a.txt", before + "1 2 3\n")),
+             Catch::Contains("line 1: 'Project: Test' is neither a header line"));
+  CHECK(read_table(folder.write("a.txt", before + "1 2 3\n"), 9, {.columns = "x y z"}).rows == Rows{{1, 2, 3}});
+}
+
 TEST_CASE("x on a grid is x", "[io]") {
   const ScratchFolder folder;
   const auto error = [&](const std::string& text) { return read_error(folder.write("a.xyz", text)); };
@@ -167,18 +238,18 @@ TEST_CASE("decimal commas, exponents of Fortran and what is not a number for Mic
 
 TEST_CASE("columns of a header may be given other names", "[io]") {
   const ScratchFolder folder;
-  const std::string text = "Northing,Easting,Height,I\n1,2,3,4\n";
+  const std::string text = "Nord,Ost,Hoehe,I\n1,2,3,4\n";
   const Table table =
-      read_table(folder.write("a.csv", text), 10, {.columns = "x=Easting y=Northing z=Height"});
+      read_table(folder.write("a.csv", text), 10, {.columns = "x=Ost y=Nord z=Hoehe"});
   CHECK(table.names == std::vector<std::string>{"y", "x", "z", "I"});
   CHECK(table.rows == Rows{{1, 2, 3, 4}});
   const auto error = [&](const std::string& columns) {
     return read_error(folder.write("a.csv", text), {.columns = columns});
   };
-  CHECK(error("").find("no columns named x, y and z, but 'Northing', 'Easting', 'Height', 'I'; --columns "
+  CHECK(error("").find("no columns named x, y and z, but 'Nord', 'Ost', 'Hoehe', 'I'; --columns "
                        "x=...,y=...,z=...") != std::string::npos);
-  CHECK(error("x=East y=Northing z=Height")
-            .find("no column for 'x=East'; the columns are 'Northing', 'Easting'") != std::string::npos);
+  CHECK(error("x=East y=Nord z=Hoehe")
+            .find("no column for 'x=East'; the columns are 'Nord', 'Ost'") != std::string::npos);
 }
 
 TEST_CASE("a header line alone is an empty scan, comments alone are none", "[io]") {
@@ -207,7 +278,6 @@ TEST_CASE("a row that does not fit is an error that names its line", "[io]") {
       {"1 2 3\n4 5 6 7\n", "line 2: more values than the 3 columns"},
       {"1 2 3\n4 5 six\n", "line 2: 'six' is not a number"},
       {"1 2 three\n", "line 1: 'three' is not a number"},
-      {"1,2,3\n4,,6\n", "line 2: '' is not a number"},
       {"1,2,3\n4,5,6,,\n", "line 2: more values"},
       {"1,5;2,5;x\n", "line 1: 'x' is not a number"},
       {"1 2\n", "line 1: 2 values"},
@@ -218,7 +288,7 @@ TEST_CASE("a row that does not fit is an error that names its line", "[io]") {
        "?"
        "?'"},
       {"x y z\n1 2 3 4\n", "line 2: more values"},
-      {"EDITION 0.7\n1 2 3\n", "line 1: 2 values"},
+      {"EDITION 0.7\n1 2 3\n", "line 1: 'EDITION 0.7' is neither a header"},
       {"1 2 3\r4 5 6\r", "line 1: a carriage return within the line"},
       {"# x y z\r1 2 3\r\n", "line 1: a carriage return within the line"},
       {"1 2 3\n4 5 \x01\x02\n",
