@@ -14,8 +14,8 @@ namespace lacuna::io {
 // What names say of the position: nothing, lengths, or longitude and latitude.
 enum class PositionNames : std::uint8_t { kNone, kLengths, kDegrees };
 
-// Renames the columns of the position to x, y and z, if exactly one choice is possible. x, y and z in any
-// case come first, then names of the field such as Easting, Northing, Height or X_m, then lon and lat.
+// Renames the columns of the position to x, y and z, if exactly one choice is possible. The names x, y and z
+// have priority. Names of the field follow, such as Easting, Northing, Height or X_m, then lon and lat.
 PositionNames name_position(std::vector<std::string>& names);
 
 // Whether a name begins as one of longitude or latitude does.
@@ -37,8 +37,8 @@ struct SampledRows {
 // Fewer than ten rows say nothing.
 std::string doubt_of_first_columns(const SampledRows& rows);
 
-// Whether x and y can only be longitude and latitude: they lie within 180 degrees, and z changes at least a
-// thousand times as much from row to row; a hundred times where it lies beyond 180.
+// Whether x and y can only be longitude and latitude. They lie within 180 degrees, and z changes at least a
+// thousand times as much from row to row. A hundred times is enough where z lies beyond 180.
 bool look_like_degrees(const SampledRows& rows, std::size_t x, std::size_t y, std::size_t z);
 
 }  // namespace lacuna::io
