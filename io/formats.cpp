@@ -6,11 +6,13 @@
 #include "io/las/las_reader.hpp"
 #include "io/mesh/obj_reader.hpp"
 #include "io/mesh/stl_reader.hpp"
+#include "io/numpy/numpy_reader.hpp"
 #include "io/pcd/pcd_reader.hpp"
 #include "io/ply/ply_reader.hpp"
 #include "io/text/ptx_reader.hpp"
 #include "io/text/text_reader.hpp"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -32,6 +34,7 @@ constexpr std::array kFormats = {
     Format{"E57", looks_like_e57, open_e57},
     Format{"STL", looks_like_stl, open_stl},
     Format{"OBJ", looks_like_obj, open_obj},
+    Format{"NumPy (npy)", looks_like_numpy, open_numpy},
     Format{"PTX", looks_like_ptx, open_ptx},
     Format{"text (xyz, csv, pts)", looks_like_text, open_text},
 };
@@ -46,6 +49,8 @@ struct OtherFormat {
 
 constexpr std::string_view kConvert = "CloudCompare or `pdal translate` convert it to LAS or PLY";
 constexpr std::string_view kMeshLab = "MeshLab saves it as PLY";
+constexpr std::string_view kExportPoints = "its points must be exported to LAS, PLY or text";
+constexpr std::string_view kGridToText = "`gdal_translate -of XYZ IN OUT.xyz` makes points of its cells";
 constexpr std::string_view kUnpack = "unpack it first";
 
 constexpr std::string_view kSaveAsUtf8 = "an editor saves it as UTF-8";
@@ -56,7 +61,12 @@ constexpr std::array kOtherFormats = {
     OtherFormat{"\xfd\x37zXZ"sv, "a file packed by xz", kUnpack},
     OtherFormat{"\x28\xb5\x2f\xfd"sv, "a file packed by zstd", kUnpack},
     OtherFormat{"PK\x03\x04"sv, "a zip archive", kUnpack},
-    OtherFormat{"\x89HDF\r\n\x1a\n"sv, "HDF5", "its points must be exported to LAS, PLY or text"},
+    OtherFormat{"DRACO"sv, "Draco", "`draco_decoder -i IN -o OUT.ply` converts it"},
+    OtherFormat{"AutoCAD Binary DXF"sv, "DXF", kExportPoints},
+    OtherFormat{"AC10"sv, "DWG", kExportPoints},
+    OtherFormat{"DSAA"sv, "a grid of Surfer", kGridToText},
+    OtherFormat{"DSBB"sv, "a grid of Surfer", kGridToText},
+    OtherFormat{"\x89HDF\r\n\x1a\n"sv, "HDF5", kExportPoints},
     OtherFormat{"# vtk DataFile"sv, "VTK", "ParaView exports it as PLY"},
     OtherFormat{"<VTKFile"sv, "VTK XML", "ParaView exports it as PLY"},
     OtherFormat{"CCB2"sv, "CloudCompare's BIN", "CloudCompare saves it as PLY or LAS"},
@@ -72,11 +82,60 @@ constexpr std::array kOtherFormats = {
     OtherFormat{"<html"sv, "a web page", "a download may have failed"},
 };
 
+// Formats without first bytes of their own are known by their names.
+struct NamedFormat {
+  std::string_view ending;
+  std::string_view name;
+  std::string_view way_out;
+};
+
+constexpr std::string_view kFromReCap = "Autodesk ReCap exports it as E57";
+
+constexpr std::array kNamedFormats = {
+    NamedFormat{".rcp", "a project of Autodesk ReCap", kFromReCap},
+    NamedFormat{".rcs", "a scan of Autodesk ReCap", kFromReCap},
+    NamedFormat{".npz", "an archive of NumPy", "numpy.load reads it, and numpy.save writes one array as .npy"},
+    NamedFormat{".slpk", "a scene layer package", "ArcGIS Pro exports its points as LAS"},
+};
+
+std::string lower_ending(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return ending;
+}
+
+std::string describe(std::string_view name, std::string_view way_out) {
+  return "this is " + std::string(name) + ", which is not read; " + std::string(way_out);
+}
+
+// The first two words of text, in lower case.
+std::array<std::string, 2> first_words(std::string_view text) {
+  std::array<std::string, 2> words;
+  std::size_t at = 0;
+  for (std::string& word : words) {
+    at = std::min(text.find_first_not_of(kBlanks, at), text.size());
+    const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
+    for (const char c : text.substr(at, end - at))
+      word += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    at = end;
+  }
+  return words;
+}
+
 // Names a format that is not read, and a way out.
-std::optional<std::string> describe_other_format(std::string_view first_bytes) {
+std::optional<std::string> describe_other_format(const std::filesystem::path& file,
+                                                 std::string_view first_bytes) {
+  const bool is_zip = first_bytes.starts_with("PK\x03\x04"sv);
+  for (const NamedFormat& format : kNamedFormats) {
+    const bool may_be = is_zip || format.ending.starts_with(".rc");
+    if (may_be && lower_ending(file) == format.ending) return describe(format.name, format.way_out);
+  }
+  const auto [first, second] = first_words(first_bytes);
+  if (first == "ncols" || first == "nrows") return describe("a grid of Esri (ASC)", kGridToText);
+  if ((first == "0" && second == "section") || (first == "999" && first_bytes.find("\nSECTION") != first_bytes.npos))
+    return describe("DXF", kExportPoints);
   for (const OtherFormat& format : kOtherFormats) {
-    if (first_bytes.starts_with(format.begins))
-      return "this is " + std::string(format.name) + ", which is not read; " + std::string(format.way_out);
+    if (first_bytes.starts_with(format.begins)) return describe(format.name, format.way_out);
   }
   return std::nullopt;
 }
@@ -113,7 +172,7 @@ Recognised recognise(const std::filesystem::path& file) {
   InputFile in(file, kFirstBytes);
   const FileStart start = file_start(in);
   const Format* const format = find_format(start);
-  if (start.first_bytes.empty() || describe_other_format(start.first_bytes) || format == nullptr)
+  if (start.first_bytes.empty() || describe_other_format(file, start.first_bytes) || format == nullptr)
     return Recognised::kNo;
   return format->recognises == looks_like_text ? Recognised::kAsText : Recognised::kYes;
 }
@@ -122,7 +181,7 @@ std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& file, const R
   InputFile in(file, kFirstBytes);
   const FileStart start = file_start(in);
   if (start.first_bytes.empty()) in.fail_at_byte(0, "the file is empty; a scan file is needed");
-  if (const auto other = describe_other_format(start.first_bytes)) in.fail_at_byte(0, *other);
+  if (const auto other = describe_other_format(file, start.first_bytes)) in.fail_at_byte(0, *other);
   if (const Format* const format = find_format(start)) return format->open(file, options);
   if (is_named_stl(file)) return open_stl(file, options);  // says which size it must have
   in.fail_at_byte(

@@ -2,6 +2,7 @@
 #include "io/files/file_state.hpp"
 
 #include "engine/run/error.hpp"
+#include "engine/run/regular_file.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -47,6 +48,7 @@ std::string difference(const FileState& before, const std::optional<FileState>& 
 
 FileState file_state(const std::filesystem::path& file) {
   const auto state = look_up(file);
+  if (!state) check_regular_file(file, "a scan file");  // says of an address that it is one
   if (!state) throw Error(file.string() + ": cannot be opened: " + std::strerror(errno));
   return *state;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// LAS 1.0 to 1.4, point formats 0 to 10 (ASPRS LAS specification 1.4 R15).
+// LAS 1.0 to 1.5, point formats 0 to 10 (ASPRS LAS specification 1.4 R15).
 #pragma once
 
 #include "io/rows/scan_reader.hpp"

@@ -40,10 +40,6 @@ class IntegerCoder {
     constexpr unsigned kUnused = 32 - kBits;
     put_difference(encoder, static_cast<std::int32_t>((value - prediction) << kUnused) >> kUnused, ks);
   }
-  void encode_signed(ArithmeticEncoder& encoder, std::int32_t prediction, std::int32_t value,
-                     unsigned context = 0) {
-    encode(encoder, static_cast<std::uint32_t>(prediction), static_cast<std::uint32_t>(value), context);
-  }
 
   // Decodes the value, or encodes it.
   template <class Value>

@@ -211,9 +211,7 @@ class LoopsWriter {
 extern "C" GisCrs lacuna_write_loops_gis(const GisTask& task) {
   register_gdal_drivers();
   const GdalSetting time("OGR_CURRENT_DATE", kTime),
-      no_sync("OGR_SQLITE_SYNCHRONOUS", "OFF"),  // synced in the end
-      // GDAL takes inner rings for outer ones where z varies, and turns them.
-      no_turns("SHAPE_REWIND_ON_WRITE", "NO");
+      no_sync("OGR_SQLITE_SYNCHRONOUS", "OFF");  // synced in the end
   if (task.format != GisFormat::kGeoJson) return LoopsWriter(task).write();
   const GdalTextSink sink(task.take);
   LoopsWriter writer(task);

@@ -55,6 +55,12 @@ TEST_CASE("a format that is known but not read is named, with a way out", "[io]"
       Catch::Matchers::Contains("byte 0: this is CloudCompare's BIN, which is not read; CloudCompare"));
   CHECK_THAT(error("\x1f\x8b\x08"),
              Catch::Matchers::Contains("packed by gzip") && Catch::Matchers::Contains("unpack it first"));
+  CHECK_THAT(error("ncols 3\nnrows 3\n"), Catch::Matchers::Contains("a grid of Esri"));
+  CHECK_THAT(error("  0\r\nSECTION\r\n"), Catch::Matchers::Contains("this is DXF"));
+  CHECK_THAT(error("DRACO\2\2"), Catch::Matchers::Contains("this is Draco"));
+  CHECK_THAT(read_error(folder.write("a.npz", "PK\3\4")), Catch::Matchers::Contains("an archive of NumPy"));
+  CHECK_THAT(read_error(folder.write("a.rcp", "anything")), Catch::Matchers::Contains("Autodesk ReCap"));
+  CHECK_THAT(read_error("https://host/a.laz"), Catch::Matchers::Contains("is an address"));
   CHECK_THAT(error("# vtk DataFile Version 3.0\n"), Catch::Matchers::Contains("VTK"));
   CHECK_THAT(error("version https://git-lfs.github.com/spec/v1\noid sha256:1\n"),
              Catch::Matchers::Contains("git lfs pull"));

@@ -3,7 +3,6 @@
 
 #include "io/files/little_endian.hpp"
 #include "io/laz/laz_encoder.hpp"
-#include "tests/support/laz_version1.hpp"
 
 namespace lacuna::test {
 using namespace io;
@@ -12,13 +11,14 @@ laz::Layout laz_layout(int point_format, std::uint16_t extra_bytes, std::uint32_
                        std::uint16_t version) {
   laz::Layout layout = laz::layout_of(point_format, extra_bytes);
   layout.chunk_points = chunk_points;
-  for (laz::Item& item : layout.items) item.version = version;
+  for (laz::Item& item : layout.items) {
+    if (item.type != laz::item_type::kWavepacket13) item.version = version;
+  }
   return layout;
 }
 
 LazBytes laz_chunk(const laz::Layout& layout, std::span<const std::byte> records) {
-  return layout.items[0].version == 1 ? laz_chunk_of_version1(layout, records)
-                                      : laz::encode_chunk(layout, records);
+  return laz::encode_chunk(layout, records);
 }
 
 LazBytes laz_point_data(const laz::Layout& layout, std::span<const std::byte> records,

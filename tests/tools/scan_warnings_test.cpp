@@ -16,6 +16,7 @@ namespace {
 using Catch::Matchers::Contains;
 using Strings = std::vector<std::string>;
 
+const std::string kUtm = "PROJCS[\"UTM 32N\",GEOGCS[\"ETRS89\",UNIT[\"degree\",0.01745]],UNIT[\"metre\",1]]";
 const std::string kFeet =
     "PROJCS[\"Oregon\",GEOGCS[\"NAD83\",UNIT[\"degree\",0.01745]],UNIT[\"foot\",0.3048]]";
 

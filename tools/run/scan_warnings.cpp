@@ -209,6 +209,15 @@ void refuse_degrees(const FileScan& scan) {
   const std::string* checked = nullptr;
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
     const std::string& crs = scan.crs()[i];
+    // Names and values of columns say so, but the user may know better.
+    const bool is_guess = crs.empty() && (scan.formats()[i] == "text" || scan.formats()[i] == "NumPy");
+    if (scan.is_geographic(i) && is_guess && !scan.stated_crs().unit.empty()) continue;
+    if (scan.is_geographic(i) && is_guess)
+      throw Error(
+          file_name(scan, i) +
+          ": x and y are longitude and latitude, by their names or values, and holes need lengths; "
+          "project them first, as with `gdaltransform`; if they are lengths, --unit m or another unit "
+          "says so");
     if (scan.is_geographic(i)) refuse_degrees_of(scan, i);
     if (crs.empty() || (checked != nullptr && crs == *checked)) continue;
     refuse_other_scale(scan, i, file_name(scan, i), crs);

@@ -212,9 +212,32 @@ LasFile small_file() {
   return las;
 }
 
-TEST_CASE("what follows the points of LAS is passed over", "[io]") {
+TEST_CASE("what follows the points of LAS is passed over, where it is shorter than a point", "[io]") {
   const ScratchFolder folder;
-  CHECK(read_table(folder.write("a.las", small_file().bytes() + "extended records")).rows.size() == 3);
+  CHECK(read_table(folder.write("a.las", small_file().bytes() + "some padding")).rows.size() == 3);
+}
+
+TEST_CASE("a LAS header that counts others than the points that follow is an error, unless one is trusted",
+          "[io]") {
+  const ScratchFolder folder;
+  const auto file = [&](std::uint64_t counted, std::size_t cut) {
+    std::string bytes = small_file().bytes();
+    put(bytes, 247, counted);
+    put(bytes, 107, static_cast<std::uint32_t>(counted));
+    return folder.write("a.las", bytes.substr(0, bytes.size() - cut));
+  };
+  const auto rows = [&](std::uint64_t counted, std::size_t cut, Trust trust) {
+    return read_table(file(counted, cut), 1000, {.trust = trust}).rows.size();
+  };
+  CHECK_THAT(read_error(file(2, 0)), Contains("the header counts 2 points, but 3 whole ones of 40 bytes "
+                                              "follow; --trust file reads these, --trust header the others"));
+  CHECK_THAT(read_error(file(0, 0)), Contains("the header counts 0 points, but 3 whole ones"));
+  CHECK_THAT(read_error(file(3, 1)), Contains("the header counts 3 points, but 2 whole ones"));
+  CHECK(rows(2, 0, Trust::kHeader) == 2);
+  CHECK(rows(2, 0, Trust::kFile) == 3);
+  CHECK(rows(0, 0, Trust::kFile) == 3);
+  CHECK(rows(3, 1, Trust::kFile) == 2);
+  CHECK_THAT(read_error(file(3, 1), {.trust = Trust::kHeader}), Contains("the header declares 3 points"));
 }
 
 TEST_CASE("what is wrong with a LAS file is said with its place", "[io]") {
@@ -230,7 +253,8 @@ TEST_CASE("what is wrong with a LAS file is said with its place", "[io]") {
   CHECK_THAT(error(105, std::uint16_t{35}),
              Contains("points of 35 bytes; those of format 7 have 36 or more"));
   CHECK_THAT(error(247, std::uint64_t{1} << 60),
-             Contains("the header counts 1152921504606846976 points, but 3 whole ones of 40 bytes follow") && Contains("--trust file"));
+             Contains("the header counts 1152921504606846976 points, but 3 whole ones of 40 bytes follow") &&
+                 Contains("--trust file"));
   CHECK_THAT(error(131, 0.0), Contains("byte 131: a scale that is 0"));
   CHECK_THAT(error(96, std::uint32_t{100}), Contains("the points begin within the header"));
   CHECK_THAT(error(100, std::uint32_t{7}), Contains("7 variable length records do not fit"));

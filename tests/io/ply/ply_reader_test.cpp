@@ -344,7 +344,7 @@ TEST_CASE("a header that says something impossible is an error that names its li
   const std::pair<std::string, std::string> cases[] = {
       {"ply\nend_header\n", "line 2: no 'format'"},
       {"ply", "line 1: the file ends here"},
-      {"plyx\n1 2 3\n", "no columns named"},
+      {"plyx\n1 2 3\n", "is neither a header line"},
       {"ply\nformat ascii 2.0\n", "line 2: "},
       {"ply\nformat ebcdic 1.0\n", "line 2: unknown encoding 'ebcdic'"},
       {"ply\nformat ascii 1.0\nformat ascii 1.0\n", "line 3: a second 'format'"},

@@ -76,7 +76,7 @@ std::string with_extended(std::string bytes, const std::string& record) {
 std::string laz_bytes(LasFile las) {
   const std::size_t record = las.points[0].size(), count = las.points.size();
   const auto extra = static_cast<std::uint16_t>(record - las_point_bytes(las.format));
-  const laz::Layout layout = laz::layout_of(las.format, extra).value();
+  const laz::Layout layout = laz::layout_of(las.format, extra);
   const std::vector<std::byte> described = laz::layout_record(layout);
   las.records.push_back(las_record("laszip encoded", 22204,
                                    {reinterpret_cast<const char*>(described.data()), described.size()}));
@@ -143,7 +143,7 @@ TEST_CASE("compressed points are read as they were written, for every number of 
   const ScratchFolder folder;
   for (const int format : {0, 3, 6, 8}) {
     const std::size_t record = las_point_bytes(format) + 2;
-    const laz::Layout layout = laz::layout_of(format, 2).value();
+    const laz::Layout layout = laz::layout_of(format, 2);
     REQUIRE(layout.chunk_points == 50'000);
     for (const std::size_t count : {0u, 1u, 49'999u, 50'000u, 50'001u, 130'000u}) {
       INFO("point format " << format << ", " << count << " points");
@@ -170,7 +170,7 @@ TEST_CASE("chunks of long points have fewer of them, and are read as they were w
   const ScratchFolder folder;
   constexpr std::uint16_t kExtra = 9'000;
   for (const int format : {1, 6}) {
-    const laz::Layout layout = laz::layout_of(format, kExtra).value();
+    const laz::Layout layout = laz::layout_of(format, kExtra);
     CHECK(layout.chunk_points == (std::size_t{4} << 20) / layout.record_bytes());
     const std::string points = alike_points(1'000, layout.record_bytes());
     const auto file = compress(folder, format, layout, points, 0);

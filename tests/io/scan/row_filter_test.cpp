@@ -113,7 +113,38 @@ TEST_CASE("withheld points and noise do not take part, unless they are kept or n
   CHECK(read_filtered({file}, {.classes = {7}}).kept == std::vector{1});
   const auto noise = folder.write("b.csv", "x,y,z,classification\n1,1,1,7\n");
   CHECK_THAT(error_of([&] { read_filtered({noise}, {}); }),
-             Contains("classes 7 and 18, leaves out 1, --keep-noise keeps them"));
+             Contains("1 are noise, which --keep-noise keeps"));
+}
+
+TEST_CASE("a condition of any attributes says which points take part") {
+  const ScratchFolder folder;
+  const auto file = folder.write("a.txt", kRows);
+  const auto kept = [&](const std::string& where) { return read_filtered({file}, {.where = where}).kept; };
+  CHECK(kept("Classification == 2") == std::vector{0, 1});
+  CHECK(kept("classification = 6 AND return_number != 1") == std::vector{2});
+  CHECK(kept("Classification==6 or NumberOfReturns>=3") == std::vector{2, 3, 4});
+  CHECK(kept("not (Classification == 6 || x < 1) && z <= 3.5") == std::vector{1});
+  CHECK(kept("x > -1 and !(y > 2)") == std::vector{0, 1, 2});
+  CHECK(read_filtered({file}, {.where = "x > 2"}).out.where == 3);
+  const auto error = [&](const std::string& where) { return error_of([&] { kept(where); }); };
+  CHECK_THAT(error("Colour == 2"),
+             Contains("a.txt: no column for 'Colour' of --where; the columns are x, y, z, Classification"));
+  CHECK_THAT(error("x == red"), Contains("--where 'x == red': 'red' is not a number; allowed: comparisons"));
+  CHECK_THAT(error("x ~ 2"), Contains("'~' is no comparison"));
+  CHECK_THAT(error("(x == 2"), Contains("a parenthesis is not closed"));
+  CHECK_THAT(error("x == 2 y == 3"), Contains("a comparison ends before 'y'"));
+  CHECK_THAT(error("x == 2 and"), Contains("a comparison is missing at the end"));
+  CHECK_THAT(error(std::string(1000, '(')), Contains("nested too deeply"));
+  CHECK_THAT(error("x > 9"), Contains("--where leaves out 5"));
+}
+
+TEST_CASE("a scan without a point is an error that says why") {
+  const ScratchFolder folder;
+  const auto error = [&](const std::string& text) {
+    return error_of([&] { read_filtered({folder.write("a.csv", text)}, {}); });
+  };
+  CHECK_THAT(error("x,y,z\n"), Contains("a.csv: no points: a header alone"));
+  CHECK_THAT(error("x,y,z\nnan,1,2\ninf,1,2\n"), Contains("a.csv: no points: none of 2 rows has a place"));
 }
 
 TEST_CASE("rays without return are at 0 0 0 and at the scanner that a PCD names, before a pose") {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/formats.hpp"
 #include "tests/io/broken_files.hpp"
 
 #include <cmath>
@@ -67,10 +66,8 @@ TEST_CASE("a first column that counts the rows is not taken for x", "[io]") {
   const auto number = [](int i) { return std::to_string(i); };
   const auto places = [&](int i) { return number(i * i) + ".5," + number(7 * i % 5) + ".25,1.75"; };
   const std::string ids = rows(50, [&](int i) { return number(i) + "," + places(i); });
-  CHECK_THAT(
-      error(ids),
-      Catch::Contains(
-          "line 1: no header line, and in '0,0.5,0.25,1.75' the first column counts the rows; --columns"));
+  CHECK_THAT(error(ids), Catch::Contains("line 1: no header line, and the first column counts the rows, in "
+                                         "'0,0.5,0.25,1.75' first; --columns"));
   CHECK_THAT(error(rows(50, [](int i) { return std::to_string(i + 1) + " 3 4 5 6"; })),
              Catch::Contains("counts the rows"));
   CHECK_THAT(error(rows(50, [&](int i) { return number(i + 1001) + "," + places(i); })),
@@ -80,86 +77,75 @@ TEST_CASE("a first column that counts the rows is not taken for x", "[io]") {
   CHECK(read_table(folder.write("a.csv", "id,x,y,z\n" + ids)).rows.size() == 50);
 }
 
-TEST_CASE("columns without names that are probably not x, y and z are asked about", "[io]") {
-  const ScratchFolder folder;
-  const auto error = [&](const std::function<std::string(int)>& row) {
-    return read_error(folder.write("a.xyz", rows(50, row)));
-  };
-  const auto number = [](int i) { return std::to_string(i); };
-  const auto place = [&](int i) { return number(i * i % 17) + ".25 " + number(i % 7) + ".5 1.75"; };
-  CHECK_THAT(
-      error([&](int i) { return number(7 * i * i) + " " + place(i); }),
-      Catch::Contains("the first column has whole numbers alone") && Catch::Contains("--columns id,x,y,z"));
-  CHECK_THAT(error([&](int i) { return number(i / 8) + " " + number(i % 8) + " " + place(i); }),
-             Catch::Contains("the first two columns have whole numbers alone"));
-  CHECK_THAT(error([&](int i) { return number(i % 17) + ".25 " + number(i % 17) + ".25 1"; }),
-             Catch::Contains("column 2 repeats column 1"));
-  const auto file = folder.write(
-      "a.xyz", rows(50, [&](int i) { return number(i / 8) + " " + number(i % 8) + " " + place(i); }));
-  CHECK(read_table(file, 1000, {.columns = "row column x y z"}).rows[0] ==
-        std::vector<double>{0, 0, 0.25, 0.5, 1.75});
-}
-
-TEST_CASE("names of the field are x, y and z, in a header or in a comment before the rows", "[io]") {
+TEST_CASE("columns of the field are x, y and z by their names, also in comments", "[io]") {
   const ScratchFolder folder;
   const auto names = [&](const std::string& text) { return read_table(folder.write("a.txt", text)).names; };
-  CHECK(names("Nr;East;North;Height\n7;1;2;3\n") == Names{"Nr", "x", "y", "z"});
-  CHECK(names("# id Easting Northing Elevation\n# made today\n7 1 2 3\n") == Names{"id", "x", "y", "z"});
-  CHECK(names("N [m],E [m],H [m]\n2,1,3\n") == Names{"y", "x", "z"});
-  CHECK(names("X_m Y_m Z_m I\n1 2 3 4\n") == Names{"x", "y", "z", "I"});
-  CHECK(names("x y z height\n1 2 3 4\n") == Names{"x", "y", "z", "height"});
-  // Which of the two is meant?
-  CHECK_THAT(read_error(folder.write("a.txt", "East North Height Elevation\n1 2 3 4\n")),
+  CHECK(names("# id Easting Northing Elevation\n7 1 2 3\n") == Names{"id", "x", "y", "z"});
+  CHECK(names("Northing (m),Easting (m),Height (m)\n1,2,3\n") == Names{"y", "x", "z"});
+  CHECK(names("# X_m Y_m Z_m\n1 2 3\n") == Names{"x", "y", "z"});
+  CHECK(names("# a list\n# ID, X, Y, Z, ERROR, TRACK[] as (IMAGE, POINT)\n# Number of points: 2\n"
+              "1 2 3 4 0.5 6 7\n2 3 4 5 0.5\n") == Names{"ID", "x", "y", "z", "ERROR"});
+  CHECK_THAT(read_error(folder.write("a.txt", "# ID LONGITUDE_LOW LATITUDE_LOW ELEVATION_LOW\n1 2 3 4\n")),
              Catch::Contains("no columns named x, y and z"));
+  CHECK_THAT(read_error(folder.write("a.txt", "# id x y z\n1 2 3 4 5\n")),
+             Catch::Contains("the row has 5 values, and the comment before it names 4 columns"));
 }
 
-TEST_CASE("longitude and latitude are known by their names, or by their numbers", "[io]") {
+TEST_CASE("whole numbers before three columns with decimals are not taken for x", "[io]") {
   const ScratchFolder folder;
-  const auto are_degrees = [&](const std::string& text) {
-    return open_scan(folder.write("a.txt", text), {})->is_geographic();
-  };
-  CHECK(are_degrees("Latitude,Longitude,Altitude\n48.1,11.2,500\n"));
-  CHECK(are_degrees("# id LONGITUDE_LOW LATITUDE_LOW ELEVATION_LOW LONGITUDE_HIGH\n7 11.2 48.1 500 11.3\n"));
-  CHECK(read_table(folder.write("a.txt", "lat lon h\n48.1 11.2 500\n")).names == Names{"y", "x", "z"});
+  const auto error = [&](const std::string& text) { return read_error(folder.write("a.xyz", text)); };
   const auto number = [](int i) { return std::to_string(i); };
-  CHECK(are_degrees(rows(50, [&](int i) { return "11.0000" + number(i + 10) + " 48.0001 512.5"; })));
-  CHECK(are_degrees(
-      rows(50, [&](int i) { return "11.0000" + number(i + 10) + " 48.0001 " + number(i) + ".5"; })));
-  // A depth image, and a scan in metres with heights above the sea.
-  CHECK(!are_degrees(rows(50, [&](int i) { return "0." + number(i + 10) + " 0.25 1." + number(i); })));
-  CHECK(!are_degrees(rows(50, [&](int i) { return number(i) + ".5 7.25 512.5"; })));
+  const auto place = [&](int i) { return number(i % 7) + ".5 " + number(i % 5) + ".25 1.75"; };
+  CHECK_THAT(error(rows(60, [&](int i) { return number(i / 9) + " " + number(i % 9) + " " + place(i); })),
+             Catch::Contains("the first 2 columns have whole numbers alone"));
+  CHECK_THAT(error(rows(60, [&](int i) { return number(99 * i % 61) + " " + place(i); })),
+             Catch::Contains("the first column has whole numbers alone"));
+  CHECK_THAT(error(rows(60, [&](int i) { return "42." + number(i + 10) + " " + place(i); })),
+             Catch::Contains("rises from row to row"));
 }
 
-TEST_CASE("text, quotes, empty cells and lines before the header do not hide the points", "[io]") {
+TEST_CASE("longitude and latitude in text are known by their names or values", "[io]") {
   const ScratchFolder folder;
-  const auto table = [&](const std::string& text) { return read_table(folder.write("a.csv", text)); };
-  for (const std::string text :
-       {"PointID;X;Y;Z;Code\nP0;1;2;3;TOPO\nP1;4;5;6;\n",
-        "\"i\",\"X\",\"Y\",\"Z\"\n\"-\",\"1\",\"2\",\"3\"\n-,4,5,6\n",
-        "Project: Test\nUnits: m\ni X Y Z\n- 1 2 3\n- 4 5 6\n", "i,x,y,z,a,b\n-,1,2,3\n-,4,5,6,7\n"}) {
-    INFO(text);
-    const Table read = table(text);
-    REQUIRE(read.rows.size() == 2);
-    for (int row = 0; row < 2; ++row) {
-      CHECK(std::isnan(read.rows[row][0]));
-      for (int axis = 0; axis < 3; ++axis) CHECK(read.rows[row][axis + 1] == 3 * row + axis + 1);
-    }
-  }
-  CHECK(std::isnan(table("1,2,3\n4,,6\n").rows[1][1]));
-  CHECK_THAT(read_error(folder.write("a.csv", "x,y,z\n1,2,3\n4,five,6\n")),
-             Catch::Contains("line 3: 'five' is not a number"));
+  const auto is_geographic = [&](const std::string& text, const std::string& columns = "") {
+    return open_scan(folder.write("a.txt", text), {.columns = columns})->is_geographic();
+  };
+  const auto number = [](int i) { return std::to_string(i); };
+  CHECK(is_geographic("# lat lon alt\n48 11 500\n"));
+  CHECK(is_geographic("Longitude,Latitude,Height\n48,11,500\n"));
+  CHECK(is_geographic("1 2 3\n", "lat lon alt"));
+  CHECK(is_geographic("id,LAT_A,LON_A,H\n1,2,3,4\n", "x=LON_A y=LAT_A z=H") == false);
+  CHECK(is_geographic(rows(60, [&](int i) {
+    return "11.00000" + number(10 + i) + " 48.00000" + number(10 + i % 7) + " " + number(500 + i % 3);
+  })));
+  CHECK_FALSE(is_geographic(rows(60, [&](int i) {
+    return "11." + number(10 + i) + " 48." + number(10 + i % 7) + " " + number(500 + i % 3);
+  })));
 }
 
-TEST_CASE("a list at the end of a row is passed over, as COLMAP writes it", "[io]") {
+TEST_CASE("columns of words are not read, quotes and empty cells are", "[io]") {
   const ScratchFolder folder;
-  const std::string text =
-      "# 3D point list with one line of data per point:\n"
-      "#   POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)\n"
-      "# Number of points: 2, mean track length: 3\n"
-      "9 1 2 3 10 20 30 0.5 1 2 3 4\n7 4 5 6 10 20 30 0.5 1 2 3 4 5 6\n";
-  const Table read = read_table(folder.write("points3D.txt", text));
-  CHECK(read.names == Names{"POINT3D_ID", "x", "y", "z", "R", "G", "B", "ERROR"});
-  CHECK(read.rows == Rows{{9, 1, 2, 3, 10, 20, 30, 0.5}, {7, 4, 5, 6, 10, 20, 30, 0.5}});
+  const Table words = read_table(folder.write("a.csv", "Point;X;Y;Z;Code\nP0;1;2;3;TOPO\nP1;4;5;6;\"a;b\"\n"));
+  CHECK(words.names == Names{"x", "y", "z"});
+  CHECK(words.rows == Rows{{1, 2, 3}, {4, 5, 6}});
+  CHECK(read_table(folder.write("a.csv", "\"X\",\"Y\",\"Z\"\n\"1\",\"2.5\",\"-3\"\n")).rows == Rows{{1, 2.5, -3}});
+  CHECK(read_table(folder.write("a.csv", "\"1,5\",\"2,5\",\"3,0\"\n")).rows == Rows{{1.5, 2.5, 3}});
+  const Table empty = read_table(folder.write("a.csv", "x,y,z,i\n1,2,3,\n1,2,3,4\n1,,3,NA\n"));
+  CHECK(std::isnan(empty.rows.at(0)[3]));
+  CHECK(std::isnan(empty.rows.at(2)[1]));
+  CHECK(std::isnan(empty.rows.at(2)[3]));
+  CHECK(read_table(folder.write("a.csv", "1,2,3,4\n"), 9, {.columns = "_ x y z"}).rows == Rows{{2, 3, 4}});
+  CHECK(read_table(folder.write("a.csv", "9 1 2 3 4 5\n9 1 2 3\n"), 9, {.columns = "_ x y z ..."}).rows ==
+        Rows{{1, 2, 3}, {1, 2, 3}});
+}
+
+TEST_CASE("lines before the header are passed over", "[io]") {
+  const ScratchFolder folder;
+  const std::string before = "Project: Test\nDate: 2020\nUnits: m\n";
+  CHECK(read_table(folder.write("a.txt", before + "X Y Z\n1 2 3\n4 5 6\n")).rows == Rows{{1, 2, 3}, {4, 5, 6}});
+  CHECK(read_table(folder.write("a.txt", "X,Y,Z\nm,m,m\n1,2,3\n")).rows == Rows{{1, 2, 3}});
+  CHECK_THAT(read_error(folder.write("a.txt", before + "1 2 3\n")),
+             Catch::Contains("line 1: 'Project: Test' is neither a header line"));
+  CHECK(read_table(folder.write("a.txt", before + "1 2 3\n"), 9, {.columns = "x y z"}).rows == Rows{{1, 2, 3}});
 }
 
 TEST_CASE("x on a grid is x", "[io]") {
@@ -252,17 +238,18 @@ TEST_CASE("decimal commas, exponents of Fortran and what is not a number for Mic
 
 TEST_CASE("columns of a header may be given other names", "[io]") {
   const ScratchFolder folder;
-  const std::string text = "Along,Across,Up,I\n1,2,3,4\n";
-  const Table table = read_table(folder.write("a.csv", text), 10, {.columns = "x=Across y=Along z=Up"});
+  const std::string text = "Nord,Ost,Hoehe,I\n1,2,3,4\n";
+  const Table table =
+      read_table(folder.write("a.csv", text), 10, {.columns = "x=Ost y=Nord z=Hoehe"});
   CHECK(table.names == std::vector<std::string>{"y", "x", "z", "I"});
   CHECK(table.rows == Rows{{1, 2, 3, 4}});
   const auto error = [&](const std::string& columns) {
     return read_error(folder.write("a.csv", text), {.columns = columns});
   };
-  CHECK(error("").find("no columns named x, y and z, but 'Along', 'Across', 'Up', 'I'; --columns "
+  CHECK(error("").find("no columns named x, y and z, but 'Nord', 'Ost', 'Hoehe', 'I'; --columns "
                        "x=...,y=...,z=...") != std::string::npos);
-  CHECK(error("x=East y=Along z=Up").find("no column for 'x=East'; the columns are 'Along', 'Across'") !=
-        std::string::npos);
+  CHECK(error("x=East y=Nord z=Hoehe")
+            .find("no column for 'x=East'; the columns are 'Nord', 'Ost'") != std::string::npos);
 }
 
 TEST_CASE("a header line alone is an empty scan, comments alone are none", "[io]") {
@@ -301,6 +288,7 @@ TEST_CASE("a row that does not fit is an error that names its line", "[io]") {
        "?"
        "?'"},
       {"x y z\n1 2 3 4\n", "line 2: more values"},
+      {"EDITION 0.7\n1 2 3\n", "line 1: 'EDITION 0.7' is neither a header"},
       {"1 2 3\r4 5 6\r", "line 1: a carriage return within the line"},
       {"# x y z\r1 2 3\r\n", "line 1: a carriage return within the line"},
       {"1 2 3\n4 5 \x01\x02\n",
