@@ -91,7 +91,7 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
       {"input", "keep_noise", &input.keep_noise, 0, 1, "true or false",
        "Points of LAS of the classes 7 and 18, which are noise, take part."},
       {"input", "where", &input.where, 0, 0, "a condition such as Classification == 2 and PointSourceId != 7",
-       "Points that do not meet this condition of their attributes do not take part; empty: all."},
+       "Points take part where this condition of their attributes holds; empty: all."},
       {"input", "trust", named(input.trust, kTrust), 0, 2, "neither, header or file",
        "Which number of points holds where the header of LAS counts others than follow; neither: an error."},
       {"input", "crs", &input.crs, 0, 0,

@@ -39,7 +39,7 @@ struct InputConfig {
   Returns returns = Returns::kAll;
   bool drop_origin = false;                        // without points at 0 0 0 or at the scanner
   bool keep_withheld = false, keep_noise = false;  // of LAS: points that are flagged, or of classes 7 and 18
-  std::string where;                               // a condition of attributes that points meet; empty: none
+  std::string where;                               // a condition of attributes; empty: none
   Trust trust = Trust::kNeither;
   std::string crs;  // coordinate reference system: a code, WKT or a file; empty: as the files say
   LengthUnit unit = LengthUnit::kInput;

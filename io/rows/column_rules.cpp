@@ -6,6 +6,7 @@
 #include <iterator>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 namespace lacuna::io {
 namespace {
@@ -14,20 +15,36 @@ constexpr std::size_t kFewestSampledRows = 10;
 
 using Synonyms = std::span<const std::string_view>;
 
-constexpr std::string_view kXNames[] = {"x",    "easting", "east",      "e",      "xcoord",     "xcoordinate",
-                              "xutm", "utmx",    "pointx",    "posx",   "positionx",  "cartesianx",
-                              "rechtswert",      "eastings",  "coordx", "utmeasting", "points0"};
-constexpr std::string_view kYNames[] = {"y",    "northing", "north",     "n",      "ycoord",      "ycoordinate",
-                              "yutm", "utmy",     "pointy",    "posy",   "positiony",   "cartesiany",
-                              "hochwert",         "northings", "coordy", "utmnorthing", "points1"};
-constexpr std::string_view kZNames[] = {"z",        "height", "elevation", "elev",   "alt",       "altitude",
-                              "h",        "zcoord", "zcoordinate", "pointz", "posz",    "positionz",
-                              "cartesianz", "heights", "coordz", "ellipsoidalheight", "orthometricheight",
-                              "points2"};
+constexpr std::string_view kXNames[] = {"x",           "easting",    "east",       "e",        "xcoord",
+                                        "xcoordinate", "xutm",       "utmx",       "pointx",   "posx",
+                                        "positionx",   "cartesianx", "rechtswert", "eastings", "coordx",
+                                        "utmeasting",  "points0"};
+constexpr std::string_view kYNames[] = {"y",           "northing",   "north",    "n",         "ycoord",
+                                        "ycoordinate", "yutm",       "utmy",     "pointy",    "posy",
+                                        "positiony",   "cartesiany", "hochwert", "northings", "coordy",
+                                        "utmnorthing", "points1"};
+constexpr std::string_view kZNames[] = {"z",
+                                        "height",
+                                        "elevation",
+                                        "elev",
+                                        "alt",
+                                        "altitude",
+                                        "h",
+                                        "zcoord",
+                                        "zcoordinate",
+                                        "pointz",
+                                        "posz",
+                                        "positionz",
+                                        "cartesianz",
+                                        "heights",
+                                        "coordz",
+                                        "ellipsoidalheight",
+                                        "orthometricheight",
+                                        "points2"};
 constexpr std::string_view kLongitudes[] = {"lon", "lng", "long", "longitude", "londeg"};
 constexpr std::string_view kLatitudes[] = {"lat", "latitude", "latdeg"};
-constexpr std::string_view kBeginnings[] = {"longitude", "latitude", "easting",  "northing",
-                                  "elevation", "altitude", "height"};
+constexpr std::string_view kBeginnings[] = {"longitude", "latitude", "easting", "northing",
+                                            "elevation", "altitude", "height"};
 
 std::string lower_letters(std::string_view text) {
   std::string lower;
@@ -87,6 +104,16 @@ bool counts_by_one(const SampledRows& rows) {
   return true;
 }
 
+// Whether two columns are the same, and not of one value.
+bool repeats(const SampledRows& rows, std::size_t a, std::size_t b) {
+  bool is_constant = true;
+  for (std::size_t row = 0; row < rows.rows(); ++row) {
+    if (rows.at(row, a) != rows.at(row, b)) return false;
+    is_constant = is_constant && rows.at(row, a) == rows.at(0, a);
+  }
+  return !is_constant;
+}
+
 bool rises(const SampledRows& rows) {
   for (std::size_t row = 1; row < rows.rows(); ++row) {
     if (!(rows.at(row, 0) > rows.at(row - 1, 0))) return false;
@@ -134,7 +161,12 @@ bool name_some_position(std::span<const std::string> names) {
 }
 
 std::string doubt_of_first_columns(const SampledRows& rows) {
-  if (rows.rows() < kFewestSampledRows || rows.columns < 4) return {};
+  if (rows.rows() < kFewestSampledRows || rows.columns < 3) return {};
+  for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 2), std::pair(0, 2)}) {
+    if (repeats(rows, a, b))
+      return "column " + std::to_string(b + 1) + " repeats column " + std::to_string(a + 1);
+  }
+  if (rows.columns < 4) return {};
   std::size_t whole = 0;
   while (whole + 3 < rows.columns && is_whole_column(rows, whole)) ++whole;
   const bool is_from_start = rows.at(0, 0) == 0 || rows.at(0, 0) == 1;
@@ -142,8 +174,7 @@ std::string doubt_of_first_columns(const SampledRows& rows) {
     const double value = rows.at(0, column);
     return std::trunc(value) == value;
   };
-  if (counts_by_one(rows) && whole > 0 &&
-      (is_from_start || (!is_whole(1) && !is_whole(2) && !is_whole(3))))
+  if (counts_by_one(rows) && whole > 0 && (is_from_start || (!is_whole(1) && !is_whole(2) && !is_whole(3))))
     return "the first column counts the rows";
   const auto has_decimals = [&](std::size_t first) {
     return first + 3 <= rows.columns && !is_whole_column(rows, first) && !is_whole_column(rows, first + 1) &&

@@ -254,7 +254,6 @@ cmp island/coverage.tif only/coverage.tif
 cut -d, -f2- island/lids.csv | cmp - <(cut -d, -f2- only/lids.csv)
 ogr2ogr -f GeoJSON only.json only/loops.gpkg lacuna_areas -lco SIGNIFICANT_FIGURES=17
 ogr2ogr -f GeoJSON island.gpkg.json island/loops.gpkg lacuna_areas -lco SIGNIFICANT_FIGURES=17
-ogr2ogr -f GeoJSON island.shp.json island/loops.shp -lco SIGNIFICANT_FIGURES=17
 ogr2ogr -f GeoJSON island.geojson.json island/loops.geojson -t_srs EPSG:25832 -lco RFC7946=NO -lco SIGNIFICANT_FIGURES=17
 gdal_translate -q -of XYZ -b 3 island/coverage.tif island.holes.xyz
 python3 - <<'END'
@@ -286,7 +285,7 @@ with open("island/lids.csv", newline="") as file:
     lids = {int(row["loop"]): float(row["lid_area"]) for row in csv.DictReader(file)}
 assert math.isclose(lids[hole["id"]], hole["area"], rel_tol=1e-3), lids
 assert math.isclose(lids[inner["id"]], inner["area"], rel_tol=1e-3), lids
-for format in ("gpkg", "shp", "geojson"):
+for format in ("gpkg", "geojson"):
     features = json.loads(Path(f"island.{format}.json").read_text(encoding="utf-8"))["features"]
     for feature, loop in zip(features, loops, strict=True):
         assert feature["geometry"]["type"] == "Polygon", (format, feature["geometry"]["type"])
