@@ -131,6 +131,7 @@ class PtxReader final : public ScanReader {
     const std::optional<std::size_t> count = parse_line(next_line(), line_);
     if (count != 4 && count != 7)
       in_.fail_at_line(in_.line(), "a ray needs x y z intensity, or x y z intensity red green blue");
+    std::fill(line_.begin() + static_cast<std::ptrdiff_t>(*count), line_.end(), 0.0);
     return *count;
   }
 

@@ -52,7 +52,9 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"min_hole", "7"},
     {"max_perimeter", "45"},
     {"min_points", "40"},
-    {"columns", "y x z classification return_number number_of_returns"},
+    {"columns", "y x z classification return_number number_of_returns withheld"},
+    {"where", "classification == 2"},
+    {"trust", "file"},
     {"bounds", "2,2,100,300"},
     {"leave_out", "2,2,-5,30,30,5"},
     {"classes", "2"},
@@ -71,18 +73,22 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
 };
 
 // A rough sheet with two holes, and pairs of sheets that join in creases. The points have two classes and
-// returns, and one is at 0 0 0.
+// returns, and one is at 0 0 0. Withheld points make the first hole smaller, and noise the second one.
 std::string scan_text() {
-  Cloud cloud = plane(32).punched({9, 9}, 3).punched({21, 20}, 6).jittered(0.5, 1).noisy(0.12, 2);
+  Cloud cloud = plane(32).punched({9, 9}, 2).punched({21, 20}, 5).jittered(0.5, 1).noisy(0.12, 2);
   for (const int degrees : {40, 60, 80, 100, 120}) {
     cloud = cloud.joined(crease(14, degrees).jittered(0.4, 3).translated({60, 2.0 * degrees, 0}));
   }
   std::ostringstream text;
   text.precision(17);
-  text << "x y z classification return_number number_of_returns\n0 0 0 2 1 1\n";
+  text << "x y z classification return_number number_of_returns withheld\n0 0 0 2 1 1 0\n";
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    text << cloud.positions[i].transpose() << (i % 7 == 0 ? " 6" : " 2")
-         << (i % 5 == 0 ? " 2 2\n" : " 1 1\n");
+    const auto is_within = [&](double x, double y, double radius) {
+      return (cloud.positions[i].head<2>() - Eigen::Vector2d(x, y)).norm() < radius;
+    };
+    const char* const other = i % 7 == 0 ? " 6" : " 2";
+    text << cloud.positions[i].transpose() << (is_within(21, 20, 6) ? " 7" : other)
+         << (i % 5 == 0 ? " 2 2" : " 1 1") << (is_within(9, 9, 3) ? " 1\n" : " 0\n");
   }
   return text.str();
 }
@@ -168,8 +174,8 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
       Parameter parameter = parameters(changed)[i];
       // This scan has neither lines nor normals. The others say which files are read, and the unit of z needs
       // the unit of x and y.
-      const std::string_view passed[] = {"method",    "every_point",  "estimate_normals",
-                                         "recursive", "skip_damaged", "unit_z"};
+      const std::string_view passed[] = {
+          "method", "every_point", "estimate_normals", "recursive", "skip_damaged", "unit_z", "trust"};
       if (std::find(std::begin(passed), std::end(passed), parameter.key) != std::end(passed)) continue;
       set_other(parameter, runs.workspace());
       parameter = parameters(changed)[i];

@@ -210,10 +210,9 @@ TEST_CASE("a report of an earlier run goes with the next one, and a page that La
   CHECK(run_program({"report", made.out().string(), "--overwrite"}).exit_code == 0);
 }
 
-TEST_CASE("a run without points, loops or sample has a report, too") {
-  for (const Cloud& cloud : {Cloud{}, plane(3), line(50)}) {
-    const Made made(cloud.positions.empty() ? Cloud{{Eigen::Vector3d::Constant(NAN)}, {}} : cloud,
-                    {"--report", "--sample-points", "0"});
+TEST_CASE("a run without loops or sample has a report, too") {
+  for (const Cloud& cloud : {plane(3), line(50)}) {
+    const Made made(cloud, {"--report", "--sample-points", "0"});
     const json report = json::parse(element(made.page(), "report"));
     CHECK(report.at("loops").at("shown") <= 1);
     CHECK(run_program({"render", made.out().string(), "--out", (made.scratch() / "x.png").string()})

@@ -486,8 +486,9 @@ TEST_CASE("layouts that are not supported are errors that name the reason", "[la
     return Layout{compressor, 50000, std::move(items)};
   };
   CHECK(error_of(with(2, {{kPoint10, 20, 2}})) == "");
-  CHECK(error_of(with(2, {{kPoint10, 20, 2}, {kGpsTime11, 8, 2}, {kWavepacket13, 29, 1}})) ==
-        "item WAVEPACKET13 of version 1 and 29 bytes is not supported (point formats 0 to 3 and 6 to 8 are)");
+  CHECK(error_of(with(2, {{kPoint10, 20, 2}, {kGpsTime11, 8, 2}, {kWavepacket13, 29, 1}})) == "");
+  CHECK(error_of(with(2, {{kPoint10, 20, 2}, {kWavepacket13, 28, 1}})) ==
+        "item WAVEPACKET13 of version 1 and 28 bytes has a wrong size");
   CHECK(error_of(with(3, {{kPoint14, 30, 5}})) ==
         "item POINT14 of version 5 and 30 bytes is not supported (version 3 and 4 are)");
   CHECK(error_of(with(2, {{kPoint14, 30, 3}})) ==

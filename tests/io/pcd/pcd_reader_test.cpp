@@ -226,7 +226,7 @@ TEST_CASE("PCD: a header that says something impossible is an error that names i
       {version + "FIELDS x y z\nTYPE F F D\n", "line 3: unknown type 'D'"},
       {version + "FIELDS x y z\nSIZE 4 4 3\nPOINTS 1\nDATA ascii\n",
        "line 5: field 'z' has type F of 3 bytes"},
-      {version + "FIELDS x y z\nCOUNT 1 1 0\nPOINTS 1\nDATA ascii\n", "line 5: no field 'z'"},
+      {version + "FIELDS x y z\nCOUNT 1 1 0\nPOINTS 0\nDATA ascii\n", "line 5: no field 'z'"},
       {version + "FIELDS x y z a\nCOUNT 1 1 1 4294967295\nPOINTS 0\nDATA ascii\n",
        "more than the 10,000 columns"},
       {version + "FIELDS x y z\nCOUNT 1 1 2\nPOINTS 0\nDATA ascii\n", "line 5: no field 'z'"},
