@@ -63,7 +63,7 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"unit", "m"},
     {"unit_z", "ft"},
     {"points_format", "ply"},
-    {"sample_points", "200"},
+    {"sample_points", "500"},
     {"coverage", "3"},
     {"cut_outs", "3"},
     {"stations", LACUNA_SOURCE_DIR "/tests/data/station.txt"},
@@ -182,7 +182,9 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
       const bool has_effect = parameter.missing.empty() && parameter.section != "run";
       if (follows(parameter, method, with_points, has_effect)) continue;
       INFO(name_of(method) << (with_points ? " with points: " : ": ") << parameter.key);
-      CHECK((runs.results(changed) != before) == has_effect);
+      const std::string after = runs.results(changed);
+      CAPTURE(before.size(), after.size(), parameter.print());
+      CHECK((after != before) == has_effect);
     }
   }
 }
@@ -203,11 +205,12 @@ TEST_CASE("each option without effect has its warning, each other none") {
     std::string expected;
     for (const Parameter& parameter : parameters(config)) {
       const bool is_flag = std::holds_alternative<bool*>(parameter.value);
-      const bool is_left_out =
-          parameter.is_constant || parameter.section == "run" || parameter.key == "method" ||
-          parameter.key == "points" || parameter.key == "columns" || parameter.key == "eps" ||
-          parameter.key == "max_perimeter" || parameter.key == "max_area" || parameter.key == "polygons" ||
-          parameter.key == "points_format";  // the files that they change are wanted
+      const bool is_left_out = parameter.is_constant || parameter.section == "run" ||
+                               parameter.key == "method" || parameter.key == "points" ||
+                               parameter.key == "columns" || parameter.key == "eps" ||
+                               parameter.key == "max_perimeter" || parameter.key == "max_area" ||
+                               parameter.key == "polygons" || parameter.key == "unit_z" ||
+                               parameter.key == "points_format";  // the files that they change are wanted
       if (is_left_out) continue;
       options.push_back(parameter.option());
       if (!is_flag) options.emplace_back(kOtherValues.at(parameter.key));
