@@ -74,7 +74,12 @@ double ScanSample::last_key(const TileOutputs& outputs, std::size_t tiles, Job& 
     std::vector<DrawnPoint> points = outputs.read(kDrawnPoints, static_cast<TileIndex>(t));
     bins.take(points, most_points_);
   }
-  if (bins.keys <= most_points_) return std::numeric_limits<double>::max();
+  // Outputs of tiles that were evaluated early have keys of later bins, too.
+  const auto first_of = [](std::uint32_t bin) { return std::bit_cast<double>(std::uint64_t{bin} << 48); };
+  if (bins.keys <= most_points_) {
+    const bool has_all = bins.last == KeyBins().last;
+    return has_all ? std::numeric_limits<double>::max() : std::nextafter(first_of(bins.last + 1), -1);
+  }
   const MemoryLedger::Lease sorting = job.ledger.take(job.memory.work / 8);
   SortedRuns<double> of_last_bin(job.file("sample-last"), sorting.bytes());
   for (std::size_t t = 0; t < tiles; ++t) {
@@ -83,8 +88,7 @@ double ScanSample::last_key(const TileOutputs& outputs, std::size_t tiles, Job& 
     }
   }
   // Several equal keys are in the sample all together, or not at all.
-  const double first_of_bin = std::bit_cast<double>(std::uint64_t{bins.last} << 48);
-  double last = std::nextafter(first_of_bin, -1), key_before = last;
+  double last = std::nextafter(first_of(bins.last), -1), key_before = last;
   std::uint64_t taken = bins.keys - of_last_bin.size();  // all of the bins before
   of_last_bin.for_each([&](double key) {
     if (key != key_before && taken <= most_points_) last = key_before;

@@ -63,7 +63,7 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"unit", "m"},
     {"unit_z", "ft"},
     {"points_format", "ply"},
-    {"sample_points", "500"},
+    {"sample_points", "200"},
     {"coverage", "3"},
     {"cut_outs", "3"},
     {"stations", LACUNA_SOURCE_DIR "/tests/data/station.txt"},

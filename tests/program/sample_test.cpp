@@ -46,6 +46,16 @@ double at(const test::Table& table, std::size_t row, const std::string& name) {
   return table.rows[row][table.place(name)];
 }
 
+// Keys are counted by bins: any number may be the end of one.
+TEST_CASE("a sample has as many points as are wanted, whatever the number") {
+  Runs runs(plane(20).jittered(0.3, 1));
+  for (int wanted = 1; wanted < 400; wanted += wanted < 12 ? 1 : 29) {
+    INFO(wanted);
+    const fs::path out = runs.detect({"--sample-points", std::to_string(wanted), "--tile-points", "100"});
+    CHECK(test::read_table(out / "sample.ply").rows.size() == static_cast<std::size_t>(wanted));
+  }
+}
+
 TEST_CASE("the sample has points of the scan in ascending id, with their probabilities and colours") {
   Runs runs(plane(80).punched({40, 40}, 9).jittered(0.3, 1).shuffled(2));
   const fs::path out = runs.detect({"--points", "--points-format", "ply", "--sample-points", "1500"});
