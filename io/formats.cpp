@@ -3,6 +3,7 @@
 
 #include "io/e57/e57_reader.hpp"
 #include "io/files/input_file.hpp"
+#include "io/files/property_name.hpp"
 #include "io/las/las_reader.hpp"
 #include "io/mesh/obj_reader.hpp"
 #include "io/mesh/stl_reader.hpp"
@@ -98,12 +99,6 @@ constexpr std::array kNamedFormats = {
     NamedFormat{".slpk", "a scene layer package", "ArcGIS Pro exports its points as LAS"},
 };
 
-std::string lower_ending(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return ending;
-}
-
 std::string describe(std::string_view name, std::string_view way_out) {
   return "this is " + std::string(name) + ", which is not read; " + std::string(way_out);
 }
@@ -115,8 +110,7 @@ std::array<std::string, 2> first_words(std::string_view text) {
   for (std::string& word : words) {
     at = std::min(text.find_first_not_of(kBlanks, at), text.size());
     const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
-    for (const char c : text.substr(at, end - at))
-      word += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    word = lower_case(text.substr(at, end - at));
     at = end;
   }
   return words;
@@ -128,7 +122,7 @@ std::optional<std::string> describe_other_format(const std::filesystem::path& fi
   const bool is_zip = first_bytes.starts_with("PK\x03\x04"sv);
   for (const NamedFormat& format : kNamedFormats) {
     const bool may_be = is_zip || format.ending.starts_with(".rc");
-    if (may_be && lower_ending(file) == format.ending) return describe(format.name, format.way_out);
+    if (may_be && lower_case(file.extension().string()) == format.ending) return describe(format.name, format.way_out);
   }
   const auto [first, second] = first_words(first_bytes);
   if (first == "ncols" || first == "nrows") return describe("a grid of Esri (ASC)", kGridToText);

@@ -41,9 +41,8 @@ std::unique_ptr<Found> find_in_files(const std::vector<fs::path>& files, const p
                                      const py::object& progress) {
   io::FilesConfig config;
   set_parameters(parameters, config);
-  const io::ReadOptions options{.columns = config.input.columns,
-                                .memory = Memory::share(config.run.memory_limit).reading};
-  return find(tools::expand_inputs(files, options, config.input), config, py::none(), progress);
+  return find(tools::expand_inputs(files, tools::read_options(config), config.input), config, py::none(),
+              progress);
 }
 
 // Names, defaults and what is allowed, of all parameters.

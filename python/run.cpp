@@ -171,7 +171,7 @@ std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig c
         check_config(config);
         found->scan = std::make_unique<io::FileScan>(std::move(inputs), config.input,
                                                      Memory::share(config.run.memory_limit).reading);
-        tools::refuse_degrees(*found->scan);
+        tools::require_lengths(*found->scan);
         found->warnings = tools::input_warnings(*found->scan);
         found->scratch = std::make_unique<ScratchPlace>(*found->scan, config.run);
         const auto stations = io::watch_stations(*found->scan, config.output, found->scratch->path());

@@ -107,15 +107,15 @@ struct ChosenLoops {
   }
 };
 
-// Calls visit(i, points, scratch) for each loop of `Loops` or `ChosenLoops`, from several threads. Memory: a
-// share of the limit, whatever the length of a loop.
+// Calls visit(i, points, scratch) for each loop of `Loops` or `ChosenLoops`, from several threads. Memory:
+// three quarters of the job's working memory, whatever the length of a loop.
 template <class LoopSet, class Visit>
 void for_each_loop(const LoopSet& loops, Job& job, Visit&& visit) {
   std::vector<std::uint64_t> needs;
   const std::uint64_t most = job.memory.work / (2 * job.arena.threads());
   for (std::size_t i = 0; i < loops.size(); ++i)
     needs.push_back(std::min<std::uint64_t>(most, 2 * loops.count(i) * sizeof(StoredLoopPoint)));
-  job.for_each_within(job.memory.work, needs, [&](std::size_t i) {
+  job.for_each_within(job.memory.work / 4 * 3, needs, [&](std::size_t i) {
     Scratch scratch(job.workspace, most);
     const std::span<StoredLoopPoint> points = scratch.array<StoredLoopPoint>(loops.count(i));
     loops.read(i, points);

@@ -58,7 +58,7 @@ struct Inside {
   Eigen::Vector3d at;
   std::size_t loop;
   bool is_inside = false;
-  // The nearest edge is that on the line through `at` along the first axis.
+  // The nearest edge lies on the line through `at` along the first axis.
   double distance = std::numeric_limits<double>::infinity(), height = 0;  // of this edge
 
   bool is_near() const { return std::abs(at.z() - height) <= distance; }
@@ -129,7 +129,7 @@ bool may_be_around(const LoopMeasures& loop, const LoopMeasures& other) {
   return loop.area > other.area && std::abs(loop.normal.dot(other.normal)) >= kLeastCosine;
 }
 
-// Returns those of the loops that are inside the polygon.
+// Returns the loops of `others` that are inside the polygon.
 std::vector<std::size_t> loops_inside(const MeasuredLoops& loops, std::size_t polygon,
                                       std::span<const std::size_t> others,
                                       std::span<const LoopSample> samples) {
@@ -160,9 +160,11 @@ std::vector<std::size_t> loops_inside(const MeasuredLoops& loops, std::size_t po
 // Returns for each loop the smallest loop around it; -1 without one.
 std::vector<std::int64_t> find_around(const MeasuredLoops& loops, Job& job) {
   const std::vector<LoopMeasures>& measures = loops.measures;
-  Scratch scratch(job.workspace, job.memory.work / 4);
+  const MemoryLedger::Lease sampling = job.ledger.take(job.memory.work / 4);
+  Scratch scratch(job.workspace, sampling.bytes());
   const std::span<const LoopSample> samples = sample_loops(loops, job, scratch);
-  const std::size_t most = std::max<std::size_t>(1, job.memory.work / 4 / (kSamples * sizeof(Inside)));
+  const MemoryLedger::Lease comparing = job.ledger.take(job.memory.work / 4);
+  const std::size_t most = std::max<std::size_t>(1, comparing.bytes() / (kSamples * sizeof(Inside)));
   const Centroids centroids(measures);
   std::vector<std::size_t> by_area(measures.size());
   std::iota(by_area.begin(), by_area.end(), std::size_t{0});

@@ -19,6 +19,19 @@ constexpr Unit kUnits[] = {{"m", 1},       {"km", 1000},   {"cm", 0.01},
                            {"mm", 0.001},  {"ft", 0.3048}, {"us-ft", 1200.0 / 3937},
                            {"in", 0.0254}, {"yd", 0.9144}};
 
+// Units of angles, and of the geographic system below it, come before the unit of length: the last counts.
+std::string last_unit(std::string_view system) {
+  const std::size_t unit = system.rfind("UNIT[\"");
+  if (unit == system.npos) return "";
+  const std::size_t comma = system.find("\",", unit);
+  if (comma == system.npos) return "";
+  std::string_view factor = system.substr(comma + 2);
+  factor = factor.substr(0, std::min(factor.size(), factor.find_first_of(",]")));
+  while (factor.starts_with(' ')) factor.remove_prefix(1);
+  double metres = 0;
+  return parse_number(factor, metres) ? unit_of_metres(metres) : "";
+}
+
 }  // namespace
 
 std::string unit_of_metres(double metres) {
@@ -34,23 +47,6 @@ std::optional<double> metres_of_unit(std::string_view unit) {
                                          [&](const Unit& other) { return unit == other.name; });
   return known == std::end(kUnits) ? std::nullopt : std::optional(known->metres);
 }
-
-namespace {
-
-// Units of angles, and of the geographic system below it, come before the unit of length: the last counts.
-std::string last_unit(std::string_view system) {
-  const std::size_t unit = system.rfind("UNIT[\"");
-  if (unit == system.npos) return "";
-  const std::size_t comma = system.find("\",", unit);
-  if (comma == system.npos) return "";
-  std::string_view factor = system.substr(comma + 2);
-  factor = factor.substr(0, std::min(factor.size(), factor.find_first_of(",]")));
-  while (factor.starts_with(' ')) factor.remove_prefix(1);
-  double metres = 0;
-  return parse_number(factor, metres) ? unit_of_metres(metres) : "";
-}
-
-}  // namespace
 
 std::string length_unit(std::string_view crs) {
   return is_geographic(crs) ? "" : last_unit(horizontal_system(crs));

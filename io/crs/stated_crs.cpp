@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 
 #include <spdlog/spdlog.h>
@@ -55,23 +56,30 @@ std::string text_of(const std::string& given) {
               "that has one of them");
 }
 
+// Returns what GDAL knows of a system; nothing without lacuna_gis.so.
+std::optional<CrsLookup> ask_gdal(const std::string& crs) {
+  auto* const look_up_crs = reinterpret_cast<LookUpCrs*>(find_gis_function(kLookUpCrs));
+  if (look_up_crs == nullptr) return std::nullopt;
+  CrsLookup lookup{.given = crs, .known_text = {}, .reason = {}};
+  look_up_crs(lookup);
+  return lookup;
+}
+
 // Returns the system as well-known text.
 std::string look_up(const std::string& given, const std::string& text) {
   if (!is_code(text) && horizontal_system(text).empty())
     refuse_crs(given, "is no coordinate reference system");
-  auto* const look_up_crs = reinterpret_cast<LookUpCrs*>(find_gis_function(kLookUpCrs));
-  if (look_up_crs == nullptr) {
+  const std::optional<CrsLookup> lookup = ask_gdal(text);
+  if (!lookup) {
     spdlog::warn("--crs {}: is not checked, since lacuna_gis.so is missing{}", shown(given),
                  is_code(text) ? "; results have the code alone, and no unit unless --unit states it" : "");
     return text;
   }
-  CrsLookup lookup{.given = text, .known_text = {}, .reason = {}};
-  look_up_crs(lookup);
-  if (lookup.known_text.empty())
+  if (lookup->known_text.empty())
     refuse_crs(given,
-               "GDAL knows no such system" + (lookup.reason.empty() ? "" : " (" + lookup.reason + ")"));
-  if (horizontal_system(lookup.known_text).empty()) refuse_crs(given, "is no system of positions");
-  return is_code(text) ? lookup.known_text : text;
+               "GDAL knows no such system" + (lookup->reason.empty() ? "" : " (" + lookup->reason + ")"));
+  if (horizontal_system(lookup->known_text).empty()) refuse_crs(given, "is no system of positions");
+  return is_code(text) ? lookup->known_text : text;
 }
 
 }  // namespace
@@ -93,12 +101,10 @@ StatedCrs read_stated_crs(const InputConfig& config) {
 
 std::string known_text(const std::string& crs) {
   if (!is_code(crs)) return crs;
-  auto* const look_up_crs = reinterpret_cast<LookUpCrs*>(find_gis_function(kLookUpCrs));
-  if (look_up_crs == nullptr) return "";
-  CrsLookup lookup{.given = crs, .known_text = {}, .reason = {}};
-  look_up_crs(lookup);
+  const std::optional<CrsLookup> lookup = ask_gdal(crs);
+  if (!lookup) return "";
   const std::string flat(without_vertical(crs));
-  return lookup.known_text.empty() && flat != crs ? known_text(flat) : lookup.known_text;
+  return lookup->known_text.empty() && flat != crs ? known_text(flat) : lookup->known_text;
 }
 
 std::optional<ScaleAtPlace> scale_at(const std::string& crs, const Eigen::Vector3d& place) {

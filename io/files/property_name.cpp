@@ -3,9 +3,14 @@
 
 namespace lacuna::io {
 
-std::string known_name(std::string_view given) {
-  std::string lower(given);
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
   for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower;
+}
+
+std::string known_name(std::string_view given) {
+  const std::string lower = lower_case(given);
   for (const char* known : {"x", "y", "z", "nx", "ny", "nz"}) {
     if (lower == known) return lower;
   }
@@ -21,11 +26,8 @@ std::string property_name(std::string_view given) {
 }
 
 std::string bare_name(std::string_view name) {
-  std::string bare;
-  for (const char c : name) {
-    if (c >= 'A' && c <= 'Z') bare += static_cast<char>(c - 'A' + 'a');
-    if (c >= 'a' && c <= 'z') bare += c;
-  }
+  std::string bare = lower_case(name);
+  std::erase_if(bare, [](char c) { return c < 'a' || c > 'z'; });
   return bare.starts_with("scalar") ? bare.substr(6) : bare;
 }
 

@@ -7,6 +7,9 @@
 
 namespace lacuna::io {
 
+// Returns the text with A to Z in lower case.
+std::string lower_case(std::string_view text);
+
 // Returns the names of position and normal for X Y Z and NX NY NZ, in any mix of cases, and others as they
 // are.
 std::string known_name(std::string_view given);

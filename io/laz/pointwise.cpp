@@ -32,41 +32,27 @@ class GpsTime11 {
   GpsTimeCoder<GpsTimeCodes::kGpsTime11> coder_;
 };
 
-class Rgb12 {
+// An item that its models code by the last one.
+template <class Value, class Models>
+class ItemByLast {
  public:
-  explicit Rgb12(const std::byte* first) { std::memcpy(&last_, first, sizeof last_); }
+  explicit ItemByLast(const std::byte* first) { std::memcpy(&last_, first, sizeof last_); }
   void code(ArithmeticDecoder& decoder, std::byte* item) {
-    models_.code(decoder, Rgb(last_), last_);
+    models_.code(decoder, Value(last_), last_);
     std::memcpy(item, &last_, sizeof last_);
   }
   void code(ArithmeticEncoder& encoder, const std::byte* item) {
-    const Rgb before = last_;
+    const Value before = last_;
     std::memcpy(&last_, item, sizeof last_);
     models_.code(encoder, before, last_);
   }
 
  private:
-  Rgb last_;
-  RgbModels models_;
+  Value last_;
+  Models models_;
 };
-
-class Wavepacket13 {
- public:
-  explicit Wavepacket13(const std::byte* first) { std::memcpy(&last_, first, sizeof last_); }
-  void code(ArithmeticDecoder& decoder, std::byte* item) {
-    models_.code(decoder, Wavepacket(last_), last_);
-    std::memcpy(item, &last_, sizeof last_);
-  }
-  void code(ArithmeticEncoder& encoder, const std::byte* item) {
-    const Wavepacket before = last_;
-    std::memcpy(&last_, item, sizeof last_);
-    models_.code(encoder, before, last_);
-  }
-
- private:
-  Wavepacket last_;
-  WavepacketModels models_;
-};
+using Rgb12 = ItemByLast<Rgb, RgbModels>;
+using Wavepacket13 = ItemByLast<Wavepacket, WavepacketModels>;
 
 // BYTE (LAZ, "BYTE"): the difference of each byte to the same byte of the last point.
 class ExtraBytes {

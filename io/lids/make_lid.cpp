@@ -66,7 +66,7 @@ Normalised normalised(const Loop& loop, std::span<const Loop> islands) {
   return made;
 }
 
-// Moves vertices back to the place and the order of the loop. Its points and those of islands keep all
+// Moves vertices back to the place and the order of the loop. Its points and the points of islands keep all
 // digits.
 Lid placed(LidMesh mesh, const Normalised& normalised, const Loop& loop, std::span<const Loop> islands) {
   const std::size_t n = loop.size();

@@ -16,7 +16,7 @@ inline constexpr std::size_t kMostLoopPoints = 5000;
 // Memory that make_lid takes at most. Measured: the factor of the thin plate takes most of it.
 inline constexpr std::size_t kLidBytes = 24 << 20;
 
-// Returns why a loop of so many points, with those of so many islands, has no lid; empty if it may have one.
+// Returns why a loop has no lid; empty if it may have one. `points`: of the loop and of its islands.
 std::string left_out(std::uint64_t points, std::size_t islands = 0);
 
 struct Lid {

@@ -84,9 +84,9 @@ Json stations_json(const std::vector<StationSummary>& stations) {
 }
 
 Json counts_of(const FilteredOut& filtered) {
-  return {{"origin", filtered.origin},   {"bounds", filtered.bounds},   {"leave_out", filtered.boxes},
-          {"classes", filtered.classes}, {"returns", filtered.returns}, {"withheld", filtered.withheld},
-          {"noise", filtered.noise},     {"where", filtered.where}};
+  Json counts;
+  for (const FilterCount& filter : kFilterCounts) counts[filter.key] = filtered.*filter.count;
+  return counts;
 }
 
 void put_crs(const FileScan& scan, Json& json) {

@@ -2,6 +2,7 @@
 #include "io/mesh/stl_reader.hpp"
 
 #include "io/files/line_words.hpp"
+#include "io/files/property_name.hpp"
 #include "io/rows/scalar.hpp"
 
 #include <algorithm>
@@ -36,9 +37,7 @@ bool is_binary(const FileStart& start) {
 std::string first_word(LineWords& words) {
   std::string_view word;
   words.next(word);
-  std::string lower(word);
-  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return lower;
+  return lower_case(word);
 }
 
 RowLayout layout_of(Scalar type) {

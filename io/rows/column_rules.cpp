@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/rows/column_rules.hpp"
 
+#include "io/files/property_name.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -47,11 +49,8 @@ constexpr std::string_view kBeginnings[] = {"longitude", "latitude", "easting", 
                                             "elevation", "altitude", "height"};
 
 std::string lower_letters(std::string_view text) {
-  std::string lower;
-  for (const char c : text) {
-    if (c >= 'A' && c <= 'Z') lower += static_cast<char>(c - 'A' + 'a');
-    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) lower += c;
-  }
+  std::string lower = lower_case(text);
+  std::erase_if(lower, [](char c) { return !(c >= 'a' && c <= 'z') && !(c >= '0' && c <= '9'); });
   return lower;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/rows/scalar.hpp"
 
+#include "io/files/property_name.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -122,6 +124,14 @@ RowLayout packed_layout(std::span<const std::pair<std::string, Scalar>> properti
 const Property* RowLayout::find(std::string_view name) const {
   for (const Property& property : properties) {
     if (property.name == name) return &property;
+  }
+  return nullptr;
+}
+
+const Property* RowLayout::find_alike(std::string_view name) const {
+  const std::string bare = bare_name(name);
+  for (const Property& property : properties) {
+    if (bare_name(property.name) == bare) return &property;
   }
   return nullptr;
 }

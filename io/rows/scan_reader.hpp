@@ -42,6 +42,8 @@ struct RowLayout {
   std::size_t stride = 0;            // bytes per row, no padding
 
   LACUNA_API const Property* find(std::string_view name) const;  // one after the other
+  // Returns the first one whose name is spelled alike (bare_name in io/files/property_name.hpp).
+  LACUNA_API const Property* find_alike(std::string_view name) const;
 };
 
 struct RowBatch {

@@ -55,10 +55,7 @@ class ConditionParser {
   }
   bool take(std::initializer_list<std::string_view> words) {
     const std::string_view before = rest_, word = next_word();
-    std::string lower(word);
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    if (std::find(words.begin(), words.end(), lower) != words.end()) return true;
+    if (std::find(words.begin(), words.end(), lower_case(word)) != words.end()) return true;
     rest_ = before;
     return false;
   }
@@ -117,13 +114,11 @@ class ConditionParser {
 
   std::size_t find_column(std::string_view name) {
     if (name.empty()) fail("a comparison is missing at the end");
-    const auto is_it = [&](const Property& property) { return bare_name(property.name) == bare_name(name); };
-    const auto& all = layout_.properties;
-    auto property = std::find_if(all.begin(), all.end(), [&](const Property& p) { return p.name == name; });
-    if (property == all.end()) property = std::find_if(all.begin(), all.end(), is_it);
-    if (bare_name(name).empty() || property == all.end()) {
+    const Property* property = layout_.find(name);
+    if (property == nullptr && !bare_name(name).empty()) property = layout_.find_alike(name);
+    if (property == nullptr) {
       std::string names;
-      for (const Property& p : all) names += (names.empty() ? "" : ", ") + p.name;
+      for (const Property& p : layout_.properties) names += (names.empty() ? "" : ", ") + p.name;
       throw Error(file_ + ": no column for " + in_quotes(name) + " of --where; the columns are " + names);
     }
     for (std::size_t i = 0; i < to_.columns_.size(); ++i) {

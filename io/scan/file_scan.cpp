@@ -35,6 +35,10 @@ std::filesystem::path full_name(const std::filesystem::path& file) {
   return std::filesystem::absolute(file).lexically_normal();
 }
 
+ReadOptions read_options(const InputConfig& config, std::uint64_t memory) {
+  return {.columns = config.columns, .memory = memory, .trust = config.trust};
+}
+
 FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint64_t memory)
     : config_(std::move(config)), memory_(memory), stated_(read_stated_crs(config_)), expected_points_(0) {
   for (ScanInput& input : inputs) {
@@ -102,7 +106,7 @@ void FileScan::choose_z_factors() {
     z_factors_.push_back(z_units_[i].empty() ? 1 : *metres_of_z / *metres);
     is_any = is_any || z_factors_.back() != 1;
   }
-  // The vertical part of a system is no longer that of the results.
+  // The results have z in other units than the vertical part of the system.
   if (is_any) common_crs_ = std::string(without_vertical(common_crs_));
 }
 
@@ -128,8 +132,7 @@ std::unique_ptr<ScanReader> FileScan::open(std::size_t file) const {
 std::unique_ptr<ScanReader> FileScan::open_in_own_units(std::size_t file) const {
   if (arrays_[file]) return read_arrays(*arrays_[file]);
   io::check_unchanged(files_[file], states_[file]);
-  auto reader =
-      open_scan(files_[file], {.columns = config_.columns, .memory = memory_, .trust = config_.trust});
+  auto reader = open_scan(files_[file], read_options(config_, memory_));
   return poses_[file] ? posed(std::move(reader), *poses_[file]) : std::move(reader);
 }
 
@@ -272,20 +275,16 @@ std::vector<ScanInput> inputs_of(std::span<const std::string> names) {
 
 std::vector<std::uint64_t> FileScan::pass_counts() const {
   std::vector<std::uint64_t> counts = rows_read_;
-  for (const std::uint64_t left_out :
-       {filtered_out_.origin, filtered_out_.bounds, filtered_out_.boxes, filtered_out_.classes,
-        filtered_out_.returns, filtered_out_.withheld, filtered_out_.noise, filtered_out_.where})
-    counts.push_back(left_out);
+  for (const FilterCount& filter : kFilterCounts) counts.push_back(filtered_out_.*filter.count);
   return counts;
 }
 
 void FileScan::set_pass_counts(std::span<const std::uint64_t> counts) {
-  if (counts.size() != rows_read_.size() + 8)
+  if (counts.size() != rows_read_.size() + std::size(kFilterCounts))
     fail_inconsistent("the workspace counts another number of files");
   std::copy_n(counts.begin(), rows_read_.size(), rows_read_.begin());
-  const auto left_out = counts.subspan(rows_read_.size());
-  filtered_out_ = {left_out[0], left_out[1], left_out[2], left_out[3],
-                   left_out[4], left_out[5], left_out[6], left_out[7]};
+  auto left_out = counts.begin() + static_cast<std::ptrdiff_t>(rows_read_.size());
+  for (const FilterCount& filter : kFilterCounts) filtered_out_.*filter.count = *left_out++;
 }
 
 bool FileScan::single_precision() const {

@@ -38,6 +38,9 @@ LACUNA_API std::filesystem::path full_name(const std::filesystem::path& file);  
 // The inputs that have these `FileScan::names`. A name as it was given, if it names the same file from here.
 LACUNA_API std::vector<ScanInput> inputs_of(std::span<const std::string> names);
 
+// Returns how the files of a scan with these parameters are read, within so many bytes.
+LACUNA_API ReadOptions read_options(const InputConfig& config, std::uint64_t memory);
+
 // An observer of all rows of a scan that are read, in order.
 class RowObserver {
  public:

@@ -2,7 +2,6 @@
 #include "io/scan/row_filter.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/files/property_name.hpp"
 #include "io/rows/vectors.hpp"
 
 #include <algorithm>
@@ -25,9 +24,7 @@ std::optional<Eigen::AlignedBox3d> box_of(std::span<const double> bounds) {
 
 Property find_property(const std::filesystem::path& file, const RowLayout& layout, const char* name,
                        const char* option) {
-  for (const Property& property : layout.properties) {
-    if (bare_name(property.name) == bare_name(name)) return property;
-  }
+  if (const Property* const property = layout.find_alike(name)) return *property;
   throw Error(file.string() + ": its points have no " + name + ", which " + option + " needs");
 }
 
@@ -50,10 +47,8 @@ RowFilter::RowFilter(const InputConfig& config, const std::filesystem::path& fil
   if (chosen_returns_ == Returns::kLast || chosen_returns_ == Returns::kOnly)
     number_of_returns_ = column("number_of_returns", "--returns");
   const auto column_if_any = [&](const char* name) -> std::optional<Values> {
-    for (const Property& property : reader.layout().properties) {
-      if (bare_name(property.name) == bare_name(name)) return Values{.property = property, .values = {}};
-    }
-    return std::nullopt;
+    const Property* const property = reader.layout().find_alike(name);
+    return property == nullptr ? std::nullopt : std::optional(Values{.property = *property, .values = {}});
   };
   if (!config.keep_withheld) withheld_ = column_if_any("withheld");
   if (!config.keep_noise && chosen_classes_.empty()) class_or_noise_ = column_if_any("classification");
@@ -92,11 +87,13 @@ std::string describe_no_row_left(const InputConfig& config, const FilteredOut& f
     }
   }
   if (config.returns != Returns::kAll) add("--returns", filtered.returns);
-  if (filtered.withheld > 0)
-    text << separator << filtered.withheld << " are withheld, which --keep-withheld keeps";
-  if (filtered.withheld > 0) separator = "; ";
-  if (filtered.noise > 0) text << separator << filtered.noise << " are noise, which --keep-noise keeps";
-  if (filtered.noise > 0) separator = "; ";
+  const auto add_kept = [&](std::uint64_t count, const char* what) {
+    if (count == 0) return;
+    text << separator << count << what;
+    separator = "; ";
+  };
+  add_kept(filtered.withheld, " are withheld, which --keep-withheld keeps");
+  add_kept(filtered.noise, " are noise, which --keep-noise keeps");
   if (!config.where.empty()) add("--where", filtered.where);
   return text.str();
 }
@@ -147,7 +144,8 @@ std::uint64_t* RowFilter::refusing(std::size_t row, const Eigen::Vector3d& posit
 std::uint64_t* RowFilter::refused_by_flags(std::size_t row, FilteredOut& filtered) const {
   constexpr double kLowNoise = 7, kHighNoise = 18;
   if (withheld_ && withheld_->values[row] != 0) return &filtered.withheld;
-  if (class_or_noise_ && (class_or_noise_->values[row] == kLowNoise || class_or_noise_->values[row] == kHighNoise))
+  if (class_or_noise_ &&
+      (class_or_noise_->values[row] == kLowNoise || class_or_noise_->values[row] == kHighNoise))
     return &filtered.noise;
   return nullptr;
 }

@@ -30,10 +30,30 @@ struct FilteredOut {
   std::uint64_t noise = 0;
   std::uint64_t where = 0;
 
-  std::uint64_t total() const {
-    return origin + bounds + boxes + classes + returns + withheld + noise + where;
-  }
+  std::uint64_t total() const;
 };
+
+// What outputs and a workspace need of every filter, in its order.
+struct FilterCount {
+  std::uint64_t FilteredOut::*count;
+  const char* key;     // in JSON
+  const char* points;  // that it leaves out, for messages
+};
+inline constexpr FilterCount kFilterCounts[] = {
+    {&FilteredOut::origin, "origin", "without return"},
+    {&FilteredOut::bounds, "bounds", "outside of the bounds"},
+    {&FilteredOut::boxes, "leave_out", "in boxes that are left out"},
+    {&FilteredOut::classes, "classes", "of other classes"},
+    {&FilteredOut::returns, "returns", "of other returns"},
+    {&FilteredOut::withheld, "withheld", "withheld"},
+    {&FilteredOut::noise, "noise", "of classes 7 and 18, noise"},
+    {&FilteredOut::where, "where", "that --where leaves out"}};
+
+inline std::uint64_t FilteredOut::total() const {
+  std::uint64_t sum = 0;
+  for (const FilterCount& filter : kFilterCounts) sum += this->*filter.count;
+  return sum;
+}
 
 // Facts about the rows, for the error if the filters leave no row.
 struct BeforeFilters {

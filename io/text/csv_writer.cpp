@@ -3,6 +3,7 @@
 
 #include "engine/run/parallel.hpp"
 #include "engine/run/utf8.hpp"
+#include "io/files/property_name.hpp"
 #include "io/rows/scalar.hpp"
 
 #include <algorithm>
@@ -23,8 +24,7 @@ constexpr std::string_view kReplacement = "\xef\xbf\xbd";  // U+FFFD
 
 bool is_plain(const std::string& name) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-  std::string lower;
-  for (const char c : name) lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const std::string lower = lower_case(name);
   const bool is_number = lower.starts_with("nan") || lower.starts_with("inf");
   return !name.empty() && is_letter(name.front()) && !is_number;
 }

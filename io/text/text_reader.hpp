@@ -12,9 +12,10 @@ namespace lacuna::io {
 bool looks_like_text(const FileStart& start);
 
 // Blanks, commas, semicolons or tabs divide the fields: whichever the first row has. If it does not fit the
-// header, the header decides. Commas within values that blanks or semicolons divide are decimal commas. Quotes
-// around values are no part of them. Lines that are blank or begin with # or // are comments. A first line
-// that is a bare count says how many rows follow; behind these rows, another count may begin another block
+// header, the header decides. Commas within values that blanks or semicolons divide are decimal commas.
+// Quotes around values are no part of them. Lines that are blank or begin with # or // are comments. A first
+// line that is a bare count says how many rows follow; behind these rows, another count may begin another
+// block
 // (.pts). The options name columns, else a header line or a comment before the rows does. Lines of text may
 // come before a header that names a position (name_position in io/rows/column_rules.hpp). Else columns are x
 // y z column_4 ... The option "x=Easting" names a column of the header anew. A column named "_", or with

@@ -2,6 +2,7 @@
 #include "tools/run/input_files.hpp"
 
 #include "engine/run/error.hpp"
+#include "tests/io/las/las_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <filesystem>
@@ -65,6 +66,20 @@ TEST_CASE("text with binary scans is not read; options read deeper folders and l
   CHECK(inputs[0].file == a);
   CHECK(inputs[1].file == deep);
   CHECK_THROWS_WITH(expand_inputs({broken}, {}, config), Catch::Matchers::Contains("no other file is left"));
+}
+
+TEST_CASE("a file whose own count is trusted is not damaged") {
+  const test::ScratchFolder scratch;
+  test::LasFile las{.points = {test::las_point(20, 1, 2, 3), test::las_point(20, 4, 5, 6)}};
+  std::string bytes = las.bytes();
+  test::put(bytes, 107, std::uint32_t{1});
+  const auto file = scratch.write("a.las", bytes);
+  FilesConfig config;
+  config.input.skip_damaged = true;
+  CHECK_THROWS_WITH(expand_inputs({file}, read_options(config), config.input),
+                    Catch::Matchers::Contains("the header counts 1 points, but 2 whole ones"));
+  config.input.trust = Trust::kFile;
+  CHECK(expand_inputs({file}, read_options(config), config.input).size() == 1);
 }
 
 TEST_CASE("a pose follows a name in a list, as numbers or as the file that holds them") {

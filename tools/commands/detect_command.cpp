@@ -123,7 +123,7 @@ FilesConfig config_of(const StoredRun& run, const fs::path& workspace) {
 
 std::unique_ptr<FileScan> open_inputs(const std::vector<ScanInput>& inputs, const FilesConfig& config) {
   auto scan = std::make_unique<FileScan>(inputs, config.input, read_options(config).memory);
-  refuse_degrees(*scan);
+  require_lengths(*scan);
   for (const std::string& warning : input_warnings(*scan)) spdlog::warn("{}", warning);
   return scan;
 }

@@ -187,14 +187,7 @@ std::string print_left_out(const Counts& counts, const FilteredOut& filtered) {
     if (points > 0) text += "; " + print_count(points) + " " + why;
   };
   add(counts.dropped - filtered.total(), "not finite, dropped");
-  add(filtered.origin, "without return");
-  add(filtered.bounds, "outside of the bounds");
-  add(filtered.boxes, "in boxes that are left out");
-  add(filtered.classes, "of other classes");
-  add(filtered.returns, "of other returns");
-  add(filtered.withheld, "withheld");
-  add(filtered.noise, "of classes 7 and 18, noise");
-  add(filtered.where, "that --where leaves out");
+  for (const FilterCount& filter : kFilterCounts) add(filtered.*filter.count, filter.points);
   return text;
 }
 

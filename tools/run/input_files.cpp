@@ -225,7 +225,7 @@ Option add_scans(const Command& command, std::vector<fs::path>& scans) {
 }
 
 ReadOptions read_options(const FilesConfig& config) {
-  return {.columns = config.input.columns, .memory = Memory::share(config.run.memory_limit).reading};
+  return io::read_options(config.input, Memory::share(config.run.memory_limit).reading);
 }
 
 }  // namespace lacuna::tools

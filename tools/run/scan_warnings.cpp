@@ -181,7 +181,7 @@ void refuse_other_scale(const FileScan& scan, std::size_t file, const std::strin
   throw Error(text.str());
 }
 
-[[noreturn]] void refuse_degrees_of(const FileScan& scan, std::size_t file) {
+[[noreturn]] void refuse_longitudes(const FileScan& scan, std::size_t file) {
   const std::string name = scan.crs()[file].empty() ? "its system" : crs_name(scan.crs()[file]);
   std::ostringstream text;
   text.precision(10);
@@ -201,7 +201,7 @@ void refuse_other_scale(const FileScan& scan, std::size_t file, const std::strin
 
 }  // namespace
 
-void refuse_degrees(const FileScan& scan) {
+void require_lengths(const FileScan& scan) {
   const std::string& stated = scan.stated_crs().crs;
   if (is_geographic(stated))
     throw Error("--crs: " + crs_name(stated) + kDegrees + "; allowed: a projected or geocentric system");
@@ -218,7 +218,7 @@ void refuse_degrees(const FileScan& scan) {
           ": x and y are longitude and latitude, by their names or values, and holes need lengths; "
           "project them first, as with `gdaltransform`; if they are lengths, --unit m or another unit "
           "says so");
-    if (scan.is_geographic(i)) refuse_degrees_of(scan, i);
+    if (scan.is_geographic(i)) refuse_longitudes(scan, i);
     if (crs.empty() || (checked != nullptr && crs == *checked)) continue;
     refuse_other_scale(scan, i, file_name(scan, i), crs);
     checked = &crs;

@@ -17,7 +17,7 @@ std::string crs_name(const std::string& crs);
 // Throws `Error` if positions are longitude and latitude, because nothing of a run fits degrees. Throws, too,
 // if lengths differ by more than 1 in 100 from true ones, at the first point of a file. This check is of
 // projected systems, and needs lacuna_gis.so.
-void refuse_degrees(const io::FileScan& scan);
+void require_lengths(const io::FileScan& scan);
 
 // Returns, before a run, one line for each file that is given more than once, also by another name. Another
 // line comes for each file whose coordinate reference system differs from the first. One line names all files
