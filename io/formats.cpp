@@ -95,7 +95,8 @@ constexpr std::string_view kFromReCap = "Autodesk ReCap exports it as E57";
 constexpr std::array kNamedFormats = {
     NamedFormat{".rcp", "a project of Autodesk ReCap", kFromReCap},
     NamedFormat{".rcs", "a scan of Autodesk ReCap", kFromReCap},
-    NamedFormat{".npz", "an archive of NumPy", "numpy.load reads it, and numpy.save writes one array as .npy"},
+    NamedFormat{".npz", "an archive of NumPy",
+                "numpy.load reads it, and numpy.save writes one array as .npy"},
     NamedFormat{".slpk", "a scene layer package", "ArcGIS Pro exports its points as LAS"},
 };
 
@@ -122,11 +123,13 @@ std::optional<std::string> describe_other_format(const std::filesystem::path& fi
   const bool is_zip = first_bytes.starts_with("PK\x03\x04"sv);
   for (const NamedFormat& format : kNamedFormats) {
     const bool may_be = is_zip || format.ending.starts_with(".rc");
-    if (may_be && lower_case(file.extension().string()) == format.ending) return describe(format.name, format.way_out);
+    if (may_be && lower_case(file.extension().string()) == format.ending)
+      return describe(format.name, format.way_out);
   }
   const auto [first, second] = first_words(first_bytes);
   if (first == "ncols" || first == "nrows") return describe("a grid of Esri (ASC)", kGridToText);
-  if ((first == "0" && second == "section") || (first == "999" && first_bytes.find("\nSECTION") != first_bytes.npos))
+  if ((first == "0" && second == "section") ||
+      (first == "999" && first_bytes.find("\nSECTION") != first_bytes.npos))
     return describe("DXF", kExportPoints);
   for (const OtherFormat& format : kOtherFormats) {
     if (first_bytes.starts_with(format.begins)) return describe(format.name, format.way_out);

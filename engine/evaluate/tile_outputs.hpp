@@ -66,7 +66,7 @@ class TileOutput {
   struct Stream {
     std::string_view name;
     std::span<std::byte> bytes;
-    std::shared_ptr<void> records;  // that have these bytes
+    std::shared_ptr<void> records;                                           // that have these bytes
     void (*store_rows)(std::span<std::byte> records, const Tiling& tiling);  // null: the records have no rows
   };
 

@@ -91,7 +91,9 @@ class HeaderText {
     }
     return sizes;
   }
-  [[noreturn]] void fail() const { in_.fail_at_byte(10, "the header is not one of NumPy; it must be complete"); }
+  [[noreturn]] void fail() const {
+    in_.fail_at_byte(10, "the header is not one of NumPy; it must be complete");
+  }
 
  private:
   const InputFile& in_;
@@ -100,8 +102,8 @@ class HeaderText {
 
 NumpyField parse_type(const InputFile& in, const std::string& code) {
   static constexpr std::pair<std::string_view, Scalar> kTypes[] = {
-      {"i1", Scalar::kInt8},    {"u1", Scalar::kUint8},  {"b1", Scalar::kUint8},   {"i2", Scalar::kInt16},
-      {"u2", Scalar::kUint16},  {"i4", Scalar::kInt32},  {"u4", Scalar::kUint32},  {"f4", Scalar::kFloat32},
+      {"i1", Scalar::kInt8},    {"u1", Scalar::kUint8},   {"b1", Scalar::kUint8},  {"i2", Scalar::kInt16},
+      {"u2", Scalar::kUint16},  {"i4", Scalar::kInt32},   {"u4", Scalar::kUint32}, {"f4", Scalar::kFloat32},
       {"f8", Scalar::kFloat64}, {"i8", Scalar::kFloat64}, {"u8", Scalar::kFloat64}};
   NumpyField field;
   for (const auto& [name, type] : kTypes) {
@@ -149,8 +151,9 @@ void parse_fields(const InputFile& in, HeaderText& text, NumpyHeader& header) {
     const bool is_position = count == 3 && (bare == "xyz" || bare.starts_with("pos") || bare == "points");
     for (std::size_t i = 0; i < count; ++i) {
       NumpyField& one = header.fields.emplace_back(field);
-      one.name = !is_list ? property_name(name)
-                          : is_position ? std::string(1, "xyz"[i]) : property_name(name) + "_" + std::to_string(i);
+      one.name = !is_list      ? property_name(name)
+                 : is_position ? std::string(1, "xyz"[i])
+                               : property_name(name) + "_" + std::to_string(i);
       one.offset = header.row_bytes;
       header.row_bytes += one.bytes();
     }
@@ -162,12 +165,14 @@ void lay_out(const InputFile& in, const NumpyField& type, const std::vector<std:
              NumpyHeader& header) {
   std::uint64_t columns = shape.size() < 2 ? 1 : shape.back();
   if (!header.has_names) {
-    if (shape.size() < 2 || columns < 3 || (shape.size() == 2 && shape[0] >= 3 && shape[0] < 10 && columns >= 10))
-      in.fail_at_byte(10, "an array of " + [&] {
-        std::string text;
-        for (const std::uint64_t size : shape) text += (text.empty() ? "" : " x ") + std::to_string(size);
-        return text.empty() ? std::string("one value") : text;
-      }() + "; N x 3 or more are needed, such as its transpose");
+    if (shape.size() < 2 || columns < 3 ||
+        (shape.size() == 2 && shape[0] >= 3 && shape[0] < 10 && columns >= 10))
+      in.fail_at_byte(
+          10, "an array of " + [&] {
+            std::string text;
+            for (const std::uint64_t size : shape) text += (text.empty() ? "" : " x ") + std::to_string(size);
+            return text.empty() ? std::string("one value") : text;
+          }() + "; N x 3 or more are needed, such as its transpose");
     check_columns(in, static_cast<std::size_t>(std::min<std::uint64_t>(columns, kMostColumns + 1)));
     for (std::size_t i = 0; i < columns; ++i) {
       NumpyField& field = header.fields.emplace_back(type);
@@ -189,7 +194,9 @@ void lay_out(const InputFile& in, const NumpyField& type, const std::vector<std:
 NumpyHeader read_header(InputFile& in) {
   const std::string_view start = in.peek(12);
   if (start.size() < 12) in.fail_at_byte(start.size(), "the file ends here, within its header");
-  const auto byte = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(start[i])); };
+  const auto byte = [&](std::size_t i) {
+    return static_cast<std::size_t>(static_cast<unsigned char>(start[i]));
+  };
   const std::size_t length_bytes = byte(6) == 1 ? 2 : 4;
   std::size_t length = 0;
   for (std::size_t i = 0; i < length_bytes; ++i) length |= byte(8 + i) << 8 * i;
@@ -253,8 +260,8 @@ class NumpyReader final : public ScanReader {
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
     const std::size_t fitting = std::max<std::size_t>(1, kBatchBytes / header_.row_bytes);
-    batch.count = static_cast<std::size_t>(
-        std::min<std::uint64_t>(header_.rows - row_, std::min(max_rows, fitting)));
+    batch.count =
+        static_cast<std::size_t>(std::min<std::uint64_t>(header_.rows - row_, std::min(max_rows, fitting)));
     batch.bytes.resize(batch.count * layout_.stride);
     if (batch.count == 0) return false;
     const bool by_columns = header_.is_fortran && !header_.has_names;
@@ -285,8 +292,8 @@ class NumpyReader final : public ScanReader {
     for (std::size_t i = 0; i < count; ++i) {
       std::int64_t whole = 0;
       std::memcpy(&whole, to.data + i * to.stride, sizeof whole);
-      const double value =
-          field.wide == 'i' ? static_cast<double>(whole) : static_cast<double>(static_cast<std::uint64_t>(whole));
+      const double value = field.wide == 'i' ? static_cast<double>(whole)
+                                             : static_cast<double>(static_cast<std::uint64_t>(whole));
       std::memcpy(to.data + i * to.stride, &value, sizeof value);
     }
   }
@@ -324,8 +331,9 @@ class NumpyReader final : public ScanReader {
     for (std::size_t row = 0; row < count; ++row) {
       for (const Property& property : layout_.properties) {
         double value = 0;
-        copy_column({batch.bytes.data() + row * layout_.stride + property.offset, layout_.stride, property.type},
-                    {reinterpret_cast<std::byte*>(&value), sizeof value, Scalar::kFloat64}, 1);
+        copy_column(
+            {batch.bytes.data() + row * layout_.stride + property.offset, layout_.stride, property.type},
+            {reinterpret_cast<std::byte*>(&value), sizeof value, Scalar::kFloat64}, 1);
         rows.values.push_back(value);
       }
     }

@@ -42,8 +42,8 @@ std::string normals_warning(const GivenNormals& normals);
 // Names stations that do not count, because they cannot have measured all of their points.
 std::vector<std::string> station_warnings(const std::vector<io::StationSummary>& stations);
 
-// Warns after a run of strays, given normals that do not fit, too few points for their neighbourhoods, and coordinates too coarse for their
-// spacing. Warns, too, of rows that LAS or LAZ cannot hold.
+// Warns after a run of strays, given normals that do not fit, too few points for their neighbourhoods, and
+// coordinates too coarse for their spacing. Warns, too, of rows that LAS or LAZ cannot hold.
 std::vector<std::string> scan_warnings(const io::FileScan& scan, const Summary& summary,
                                        const io::FilesConfig& config);
 

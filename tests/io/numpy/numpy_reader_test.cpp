@@ -29,7 +29,9 @@ std::vector<WholeFile> npy_files() {
 TEST_CASE("arrays of NumPy have the rows that they were made of", "[io]") {
   using NpyRows = std::vector<std::vector<double>>;
   const ScratchFolder folder;
-  const auto rows = [&](const std::string& bytes) { return read_table(folder.write("a.npy", bytes), 1).rows; };
+  const auto rows = [&](const std::string& bytes) {
+    return read_table(folder.write("a.npy", bytes), 1).rows;
+  };
   const NpyRows expected = {{1, 2, 3}, {4, 5, 6}};
   CHECK(rows(npy("'<f8'", "(2, 3)", false, Bytes() << 1. << 2. << 3. << 4. << 5. << 6.)) == expected);
   CHECK(rows(npy("'<f4'", "(2, 3)", true, Bytes() << 1.f << 4.f << 2.f << 5.f << 3.f << 6.f)) == expected);
@@ -42,8 +44,8 @@ TEST_CASE("arrays of NumPy have the rows that they were made of", "[io]") {
       folder.write("b.npy", npy("[('t', '|u1'), ('', '|V3'), ('Easting', '<f8'), ('Northing', '<f8'), "
                                 "('Height', '<f4')]",
                                 "(1,)", false,
-                                Bytes() << std::uint8_t{9} << std::uint8_t{0} << std::uint8_t{0} << std::uint8_t{0}
-                                        << 1.5 << 2.5 << 3.5f)));
+                                Bytes() << std::uint8_t{9} << std::uint8_t{0} << std::uint8_t{0}
+                                        << std::uint8_t{0} << 1.5 << 2.5 << 3.5f)));
   CHECK(named.names == std::vector<std::string>{"t", "x", "y", "z"});
   CHECK(named.rows == NpyRows{{9, 1.5, 2.5, 3.5}});
 }

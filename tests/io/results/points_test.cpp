@@ -66,9 +66,9 @@ TEST_CASE(
     "[io][results]") {
   const ScratchFolder folder;
   std::filesystem::create_directory(folder / "in");
-  const std::vector<std::pair<std::string, std::string>> inputs = {
-      {"a.xyz", kText},       {"b.ply", kPly}, {"c.d.pcd", kPcd},
-      {"e.LAS", las_bytes()}, {"f", kPly},     {"g.obj", "v 1 2 3\n"}};
+  const std::vector<std::pair<std::string, std::string>> inputs = {{"a.xyz", kText},  {"b.ply", kPly},
+                                                                   {"c.d.pcd", kPcd}, {"e.LAS", las_bytes()},
+                                                                   {"f", kPly},       {"g.obj", "v 1 2 3\n"}};
   std::vector<ScanInput> names;
   for (const auto& [name, content] : inputs) names.emplace_back(folder.write("in/" + name, content));
   FileScan scan(names, {});

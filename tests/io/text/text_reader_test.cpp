@@ -124,10 +124,12 @@ TEST_CASE("longitude and latitude in text are known by their names or values", "
 
 TEST_CASE("columns of words are not read, quotes and empty cells are", "[io]") {
   const ScratchFolder folder;
-  const Table words = read_table(folder.write("a.csv", "Point;X;Y;Z;Code\nP0;1;2;3;TOPO\nP1;4;5;6;\"a;b\"\n"));
+  const Table words =
+      read_table(folder.write("a.csv", "Point;X;Y;Z;Code\nP0;1;2;3;TOPO\nP1;4;5;6;\"a;b\"\n"));
   CHECK(words.names == Names{"x", "y", "z"});
   CHECK(words.rows == Rows{{1, 2, 3}, {4, 5, 6}});
-  CHECK(read_table(folder.write("a.csv", "\"X\",\"Y\",\"Z\"\n\"1\",\"2.5\",\"-3\"\n")).rows == Rows{{1, 2.5, -3}});
+  CHECK(read_table(folder.write("a.csv", "\"X\",\"Y\",\"Z\"\n\"1\",\"2.5\",\"-3\"\n")).rows ==
+        Rows{{1, 2.5, -3}});
   CHECK(read_table(folder.write("a.csv", "\"1,5\",\"2,5\",\"3,0\"\n")).rows == Rows{{1.5, 2.5, 3}});
   const Table empty = read_table(folder.write("a.csv", "x,y,z,i\n1,2,3,\n1,2,3,4\n1,,3,NA\n"));
   CHECK(std::isnan(empty.rows.at(0)[3]));
@@ -141,11 +143,13 @@ TEST_CASE("columns of words are not read, quotes and empty cells are", "[io]") {
 TEST_CASE("lines before the header are passed over", "[io]") {
   const ScratchFolder folder;
   const std::string before = "Project: Test\nDate: 2020\nUnits: m\n";
-  CHECK(read_table(folder.write("a.txt", before + "X Y Z\n1 2 3\n4 5 6\n")).rows == Rows{{1, 2, 3}, {4, 5, 6}});
+  CHECK(read_table(folder.write("a.txt", before + "X Y Z\n1 2 3\n4 5 6\n")).rows ==
+        Rows{{1, 2, 3}, {4, 5, 6}});
   CHECK(read_table(folder.write("a.txt", "X,Y,Z\nm,m,m\n1,2,3\n")).rows == Rows{{1, 2, 3}});
   CHECK_THAT(read_error(folder.write("a.txt", before + "1 2 3\n")),
              Catch::Contains("line 1: 'Project: Test' is neither a header line"));
-  CHECK(read_table(folder.write("a.txt", before + "1 2 3\n"), 9, {.columns = "x y z"}).rows == Rows{{1, 2, 3}});
+  CHECK(read_table(folder.write("a.txt", before + "1 2 3\n"), 9, {.columns = "x y z"}).rows ==
+        Rows{{1, 2, 3}});
 }
 
 TEST_CASE("x on a grid is x", "[io]") {
@@ -239,8 +243,7 @@ TEST_CASE("decimal commas, exponents of Fortran and what is not a number for Mic
 TEST_CASE("columns of a header may be given other names", "[io]") {
   const ScratchFolder folder;
   const std::string text = "Nord,Ost,Hoehe,I\n1,2,3,4\n";
-  const Table table =
-      read_table(folder.write("a.csv", text), 10, {.columns = "x=Ost y=Nord z=Hoehe"});
+  const Table table = read_table(folder.write("a.csv", text), 10, {.columns = "x=Ost y=Nord z=Hoehe"});
   CHECK(table.names == std::vector<std::string>{"y", "x", "z", "I"});
   CHECK(table.rows == Rows{{1, 2, 3, 4}});
   const auto error = [&](const std::string& columns) {
@@ -248,8 +251,8 @@ TEST_CASE("columns of a header may be given other names", "[io]") {
   };
   CHECK(error("").find("no columns named x, y and z, but 'Nord', 'Ost', 'Hoehe', 'I'; --columns "
                        "x=...,y=...,z=...") != std::string::npos);
-  CHECK(error("x=East y=Nord z=Hoehe")
-            .find("no column for 'x=East'; the columns are 'Nord', 'Ost'") != std::string::npos);
+  CHECK(error("x=East y=Nord z=Hoehe").find("no column for 'x=East'; the columns are 'Nord', 'Ost'") !=
+        std::string::npos);
 }
 
 TEST_CASE("a header line alone is an empty scan, comments alone are none", "[io]") {
