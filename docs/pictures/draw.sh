@@ -70,7 +70,7 @@ if [[ -e $page ]]; then
 fi
 
 if [[ -n $scans ]]; then
-  detect ground "$scans/autzen_trim.laz" --classes 2
+  detect ground "$scans/autzen_trim.laz" --where 'Classification == 2'
   render ground --view top --size 760x420
   detect dragon "$scans/dragon_30scans_793k.ply"
   render dragon --size 760x520

@@ -94,7 +94,7 @@ std::string shown(const toml::node& node) {
 // Sets the parameter from the text of a value, once the value has the type of the parameter.
 void set(const Parameter& parameter, const toml::node& node) {
   const bool is_text = is_any_of<std::string*>(parameter);
-  const bool is_list = is_any_of<std::vector<double>*, std::vector<std::int64_t>*>(parameter);
+  const bool is_list = is_any_of<std::vector<double>*>(parameter);
   const bool may_be_text = is_text || is_any_of<NamedValue, std::uint64_t*>(parameter);
   if (may_be_text && node.is_string()) {
     parameter.set(node.ref<std::string>());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A parameter by name, and its value as text. A config is a struct with a function `parameters` that lists its
-// parameters. The engine has one (config.hpp); the config of runs on files (io/options) adds to it.
+// A parameter by name, and its value as text. A config is a struct with a function `parameters` that lists
+// its parameters. The engine has one (config.hpp); the config of runs on files (io/options) adds to it.
 #pragma once
 
 #include "engine/export.hpp"
@@ -31,7 +31,7 @@ NamedValue named(Enum& value, std::span<const std::string_view> names) {
 // One line of a list: `[section] key = value`, on the command line `--key` with dashes.
 struct Parameter {
   using Value = std::variant<std::int64_t*, double*, bool*, std::string*, std::uint64_t*,
-                             std::vector<double>*, std::vector<std::int64_t>*, NamedValue>;
+                             std::vector<double>*, NamedValue>;
   std::string_view section;
   std::string_view key;
   Value value;  // points into the config it was listed from; uint64_t: a size in bytes

@@ -6,14 +6,15 @@
 #include "io/stations/cause.hpp"
 
 #include <array>
+#include <limits>
 #include <string_view>
 
 namespace lacuna::io {
 
 struct LoopMeasure {
   std::string_view name;
-  double (*of)(const ExplainedLoop& loop);
-  bool is_count = false;  // a whole number
+  double (*of)(const ExplainedLoop& loop);  // NaN where there is none
+  bool is_count = false;                    // a whole number
 };
 
 template <Cause cause>
@@ -22,6 +23,11 @@ double share_of(const ExplainedLoop& loop) {
 }
 
 inline constexpr auto kLoopMeasures = std::to_array<LoopMeasure>({
+    {"parent",
+     [](const ExplainedLoop& loop) {
+       return loop.parent < 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(loop.parent);
+     },
+     true},
     {"points", [](const ExplainedLoop& loop) { return static_cast<double>(loop.points); }, true},
     {"confidence", [](const ExplainedLoop& loop) { return loop.track.confidence; }},
     {"persistence", [](const ExplainedLoop& loop) { return loop.track.persistence; }},

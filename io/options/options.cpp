@@ -11,7 +11,6 @@ namespace lacuna::io {
 namespace {
 
 // In the order of their enumerations.
-constexpr std::string_view kReturns[] = {"all", "first", "last", "only"};
 constexpr std::string_view kTrust[] = {"neither", "header", "file"};
 constexpr std::string_view kUnitNames[] = {"input", "m", "km", "cm", "mm", "ft", "us-ft", "in", "yd"};
 constexpr std::string_view kPointsFormats[] = {"input", "ply", "csv"};
@@ -80,10 +79,6 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
       {"input", "leave_out", &input.leave_out, -1e153, 1e153,
        "6 numbers, min x y z and max x y z, for each box; none: no box",
        "Points in these boxes do not take part."},
-      {"input", "classes", &input.classes, 0, 255, "whole numbers from 0 to 255; none: all classes",
-       "Points of other classes do not take part; the property classification has them."},
-      {"input", "returns", named(input.returns, kReturns), 0, 3, "all, first, last or only",
-       "Other returns of a laser pulse do not take part; only: of pulses with one return."},
       {"input", "drop_origin", &input.drop_origin, 0, 1, "true or false",
        "Points at 0 0 0, or at the scanner where a file has its place, do not take part."},
       {"input", "keep_withheld", &input.keep_withheld, 0, 1, "true or false",

@@ -14,9 +14,6 @@
 
 namespace lacuna::io {
 
-// Which returns of a pulse count.
-enum class Returns : std::uint8_t { kAll, kFirst, kLast, kOnly };
-
 // The unit of the lengths of the scan.
 enum class LengthUnit : std::uint8_t {
   kInput,  // what the files say
@@ -34,10 +31,8 @@ LACUNA_API std::string_view name_of(LengthUnit unit);  // as in the config file
 struct InputConfig {
   std::string columns;         // names of a text file's columns, space separated; empty: from its header line
   std::vector<double> bounds;  // min x y max x y, or min x y z max x y z; empty: no bounds
-  std::vector<double> leave_out;      // boxes, of min x y z max x y z each; points in them take no part
-  std::vector<std::int64_t> classes;  // of property classification; empty: all
-  Returns returns = Returns::kAll;
-  bool drop_origin = false;                        // without points at 0 0 0 or at the scanner
+  std::vector<double> leave_out;  // boxes, of min x y z max x y z each; points in them take no part
+  bool drop_origin = false;       // without points at 0 0 0 or at the scanner
   bool keep_withheld = false, keep_noise = false;  // of LAS: points that are flagged, or of classes 7 and 18
   std::string where;                               // a condition of attributes; empty: none
   Trust trust = Trust::kNeither;

@@ -127,7 +127,9 @@ Json loops_of(const Scene::Loops& loops, int decimals) {
   add("kind", [](const ExplainedLoop& loop) { return Json(name_of(loop.kind)); });
   for (const LoopMeasure& measure : kLoopMeasures)
     add(measure.name, [&](const ExplainedLoop& loop) {
-      return measure.is_count ? Json(loop.points) : Json(rounded(measure.of(loop)));
+      const double value = measure.of(loop);
+      return measure.is_count && std::isfinite(value) ? Json(static_cast<std::uint64_t>(value))
+                                                      : Json(rounded(value));
     });
   add("centroid", [decimals](const ExplainedLoop& loop) {
     return list(loop.centroid.unaryExpr([decimals](double value) {

@@ -60,7 +60,8 @@ ExplainedLoop measures_of(const Json& record) {
                      .persistence = number(record.at("persistence")),
                      .first_scale = number(record.at("first_scale")),
                      .last_scale = number(record.at("last_scale"))},
-           .tiles = record.at("tiles").get<std::uint64_t>()},
+           .tiles = record.at("tiles").get<std::uint64_t>(),
+           .parent = record.at("parent").is_null() ? -1 : record.at("parent").get<std::int64_t>()},
           cause_of(record.value("cause", Json()))};
 }
 

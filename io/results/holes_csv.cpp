@@ -10,9 +10,14 @@ namespace lacuna::io {
 namespace {
 
 // Writes an empty field if the value is not finite.
-void append(std::string& line, double value) {
+void append(std::string& line, double value, bool is_count = false) {
   line += ',';
-  if (std::isfinite(value)) append_shortest(line, value);
+  if (!std::isfinite(value)) return;
+  if (is_count) {
+    line += std::to_string(static_cast<std::uint64_t>(value));
+  } else {
+    append_shortest(line, value);
+  }
 }
 
 }  // namespace
@@ -31,13 +36,7 @@ void write_table(const ExplainedDetection& detection, OutputFile& out) {
   for (std::size_t id = 0; id < detection.loops.size(); ++id) {
     const ExplainedLoop loop = detection.loop(id);
     std::string line = std::to_string(id) + "," + name_of(loop.kind);
-    for (const LoopMeasure& measure : kLoopMeasures) {
-      if (measure.is_count) {
-        line.append(",").append(std::to_string(static_cast<std::uint64_t>(measure.of(loop))));
-      } else {
-        append(line, measure.of(loop));
-      }
-    }
+    for (const LoopMeasure& measure : kLoopMeasures) append(line, measure.of(loop), measure.is_count);
     for (const Eigen::Vector3d& vector : {loop.centroid, loop.normal}) {
       for (const double component : vector) append(line, component);
     }

@@ -28,9 +28,9 @@ class ConditionParser {
   using Kind = Condition::Kind;
 
   [[noreturn]] void fail(const std::string& reason) const {
-    throw Error(
-        "--where " + in_quotes(text_) + ": " + reason +
-        "; allowed: comparisons (== != < <= > >=) of a column with a number, and, or, not, parentheses");
+    throw Error("--where " + in_quotes(text_) + ": " + reason +
+                "; allowed: comparisons (== != < <= > >=) of a column with a number or a column, and, or, "
+                "not, parentheses");
   }
 
   // Takes a name, a number or a sign; empty at the end.
@@ -108,8 +108,8 @@ class ConditionParser {
         std::find_if(std::begin(kSigns), std::end(kSigns), [&](const auto& s) { return s.first == sign; });
     if (found == std::end(kSigns)) fail(in_quotes(sign) + " is no comparison");
     double value;
-    if (!parse_number(next_word(), value)) fail(in_quotes(last_word_) + " is not a number");
-    return add({.kind = found->second, .column = column, .value = value});
+    if (parse_number(next_word(), value)) return add({.kind = found->second, .a = column, .value = value});
+    return add({.kind = found->second, .a = column, .b = find_column(last_word_)});
   }
 
   std::size_t find_column(std::string_view name) {
@@ -146,20 +146,21 @@ void Condition::load(const RowBatch& rows) {
 
 bool Condition::holds(std::size_t at, std::size_t row) const {
   const Node& node = nodes_[at];
-  const auto value = [&] { return columns_[node.column].values[row]; };
+  const auto left = [&] { return columns_[node.a].values[row]; };
+  const auto right = [&] { return node.b == kNone ? node.value : columns_[node.b].values[row]; };
   switch (node.kind) {
     case Kind::kEqual:
-      return value() == node.value;
+      return left() == right();
     case Kind::kUnequal:
-      return value() != node.value;
+      return left() != right();
     case Kind::kLess:
-      return value() < node.value;
+      return left() < right();
     case Kind::kLessOrEqual:
-      return value() <= node.value;
+      return left() <= right();
     case Kind::kGreater:
-      return value() > node.value;
+      return left() > right();
     case Kind::kGreaterOrEqual:
-      return value() >= node.value;
+      return left() >= right();
     case Kind::kAnd:
       return holds(node.a, row) && holds(node.b, row);
     case Kind::kOr:

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Conditions of attributes, as PDAL has them: Classification == 2 and not (ReturnNumber > 1 or Withheld ==
-// 1).
+// Conditions of attributes, as PDAL has them:
+// Classification == 2 and not (ReturnNumber != NumberOfReturns or Withheld == 1).
 #pragma once
 
 #include "io/rows/scan_reader.hpp"
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,11 +27,13 @@ class Condition {
  private:
   friend class ConditionParser;
   enum class Kind { kEqual, kUnequal, kLess, kLessOrEqual, kGreater, kGreaterOrEqual, kAnd, kOr, kNot };
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
   struct Node {
     Kind kind;
-    std::size_t column = 0;    // of a comparison
-    double value = 0;          // of a comparison
-    std::size_t a = 0, b = 0;  // nodes of the others
+    // A comparison: of columns a and b, or of column a with the value if b is kNone. Others: of nodes a and
+    // b.
+    std::size_t a = 0, b = kNone;
+    double value = 0;
   };
   struct Column {
     Property property;

@@ -22,39 +22,21 @@ std::optional<Eigen::AlignedBox3d> box_of(std::span<const double> bounds) {
                              Eigen::Vector3d(max[0], max[1], is_flat ? kInfinite : max[2]));
 }
 
-Property find_property(const std::filesystem::path& file, const RowLayout& layout, const char* name,
-                       const char* option) {
-  if (const Property* const property = layout.find_alike(name)) return *property;
-  throw Error(file.string() + ": its points have no " + name + ", which " + option + " needs");
-}
-
 }  // namespace
 
 RowFilter::RowFilter(const InputConfig& config, const std::filesystem::path& file, const ScanReader& reader)
-    : stride_(reader.layout().stride),
-      bounds_(box_of(config.bounds)),
-      chosen_classes_(config.classes),
-      chosen_returns_(config.returns) {
-  const auto column = [&](const char* name, const char* option) {
-    return Values{.property = find_property(file, reader.layout(), name, option), .values = {}};
-  };
+    : stride_(reader.layout().stride), bounds_(box_of(config.bounds)) {
   for (std::size_t at = 0; at < config.leave_out.size(); at += 6)
     boxes_.push_back(*box_of(std::span(config.leave_out).subspan(at, 6)));
   if (config.drop_origin) no_return_places_ = reader.no_return_places();
-  if (!chosen_classes_.empty()) class_ = column("classification", "--classes");
-  if (chosen_returns_ == Returns::kFirst || chosen_returns_ == Returns::kLast)
-    return_number_ = column("return_number", "--returns");
-  if (chosen_returns_ == Returns::kLast || chosen_returns_ == Returns::kOnly)
-    number_of_returns_ = column("number_of_returns", "--returns");
   const auto column_if_any = [&](const char* name) -> std::optional<Values> {
     const Property* const property = reader.layout().find_alike(name);
     return property == nullptr ? std::nullopt : std::optional(Values{.property = *property, .values = {}});
   };
   if (!config.keep_withheld) withheld_ = column_if_any("withheld");
-  if (!config.keep_noise && chosen_classes_.empty()) class_or_noise_ = column_if_any("classification");
+  if (!config.keep_noise) class_ = column_if_any("classification");
   if (!config.where.empty()) where_.emplace(config.where, file.string(), reader.layout());
-  is_active_ = config.drop_origin || bounds_ || !boxes_.empty() || class_ || return_number_ ||
-               number_of_returns_ || withheld_ || class_or_noise_ || where_;
+  is_active_ = config.drop_origin || bounds_ || !boxes_.empty() || withheld_ || class_ || where_;
 }
 
 std::string describe_no_row_left(const InputConfig& config, const FilteredOut& filtered,
@@ -78,15 +60,6 @@ std::string describe_no_row_left(const InputConfig& config, const FilteredOut& f
     }
   }
   if (!config.leave_out.empty()) add("--leave-out", filtered.boxes);
-  if (!config.classes.empty()) {
-    add("--classes", filtered.classes);
-    const char* between = ", the classes here are ";
-    for (const auto& [number, count] : before.classes) {
-      text << between << number << " (" << count << " points)";
-      between = ", ";
-    }
-  }
-  if (config.returns != Returns::kAll) add("--returns", filtered.returns);
   const auto add_kept = [&](std::uint64_t count, const char* what) {
     if (count == 0) return;
     text << separator << count << what;
@@ -101,11 +74,8 @@ std::string describe_no_row_left(const InputConfig& config, const FilteredOut& f
 void RowFilter::apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions, FilteredOut& filtered,
                       BeforeFilters& before) {
   if (!is_active_) return;
-  load(rows, class_);
-  load(rows, return_number_);
-  load(rows, number_of_returns_);
   load(rows, withheld_);
-  load(rows, class_or_noise_);
+  load(rows, class_);
   if (where_) where_->load(rows);
   for (std::size_t row = 0; row < positions.size(); ++row) {
     Eigen::Vector3d& position = positions[row];
@@ -124,7 +94,6 @@ void RowFilter::apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions
 // Returns the count of the first filter that refuses the row; null if none does.
 std::uint64_t* RowFilter::refusing(std::size_t row, const Eigen::Vector3d& position, FilteredOut& filtered,
                                    BeforeFilters& before) const {
-  constexpr std::size_t kMostClasses = 256;
   if (is_no_return(position)) return &filtered.origin;
   if (bounds_) {
     before.bounds.extend(position);
@@ -132,20 +101,13 @@ std::uint64_t* RowFilter::refusing(std::size_t row, const Eigen::Vector3d& posit
   }
   if (std::any_of(boxes_.begin(), boxes_.end(), [&](const auto& box) { return box.contains(position); }))
     return &filtered.boxes;
-  if (class_ && before.kept == 0) {  // afterwards nobody needs to know
-    const double found = class_->values[row];
-    if (before.classes.size() < kMostClasses || before.classes.contains(found)) ++before.classes[found];
-  }
-  if (!has_chosen_class(row)) return &filtered.classes;
-  if (!is_chosen_return(row)) return &filtered.returns;
   return where_ && !where_->holds(row) ? &filtered.where : nullptr;
 }
 
 std::uint64_t* RowFilter::refused_by_flags(std::size_t row, FilteredOut& filtered) const {
   constexpr double kLowNoise = 7, kHighNoise = 18;
   if (withheld_ && withheld_->values[row] != 0) return &filtered.withheld;
-  if (class_or_noise_ &&
-      (class_or_noise_->values[row] == kLowNoise || class_or_noise_->values[row] == kHighNoise))
+  if (class_ && (class_->values[row] == kLowNoise || class_->values[row] == kHighNoise))
     return &filtered.noise;
   return nullptr;
 }
@@ -157,26 +119,6 @@ void RowFilter::load(const RowBatch& rows, std::optional<Values>& column) const 
 
 bool RowFilter::is_no_return(const Eigen::Vector3d& position) const {
   return std::find(no_return_places_.begin(), no_return_places_.end(), position) != no_return_places_.end();
-}
-
-bool RowFilter::has_chosen_class(std::size_t row) const {
-  return !class_ || std::any_of(chosen_classes_.begin(), chosen_classes_.end(), [&](std::int64_t chosen) {
-    return class_->values[row] == static_cast<double>(chosen);
-  });
-}
-
-bool RowFilter::is_chosen_return(std::size_t row) const {
-  switch (chosen_returns_) {
-    case Returns::kAll:
-      break;
-    case Returns::kFirst:
-      return return_number_->values[row] == 1;
-    case Returns::kLast:
-      return return_number_->values[row] == number_of_returns_->values[row];
-    case Returns::kOnly:
-      return number_of_returns_->values[row] == 1;
-  }
-  return true;
 }
 
 }  // namespace lacuna::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses the rows of a scan that take part: the user's choice by place, class and return.
+// Chooses the rows of a scan that take part, by place and by attributes.
 #pragma once
 
 #include "io/options/options.hpp"
@@ -8,7 +8,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,8 +23,6 @@ struct FilteredOut {
   std::uint64_t origin = 0;
   std::uint64_t bounds = 0;
   std::uint64_t boxes = 0;
-  std::uint64_t classes = 0;
-  std::uint64_t returns = 0;
   std::uint64_t withheld = 0;
   std::uint64_t noise = 0;
   std::uint64_t where = 0;
@@ -43,8 +40,6 @@ inline constexpr FilterCount kFilterCounts[] = {
     {&FilteredOut::origin, "origin", "without return"},
     {&FilteredOut::bounds, "bounds", "outside of the bounds"},
     {&FilteredOut::boxes, "leave_out", "in boxes that are left out"},
-    {&FilteredOut::classes, "classes", "of other classes"},
-    {&FilteredOut::returns, "returns", "of other returns"},
     {&FilteredOut::withheld, "withheld", "withheld"},
     {&FilteredOut::noise, "noise", "of classes 7 and 18, noise"},
     {&FilteredOut::where, "where", "that --where leaves out"}};
@@ -57,9 +52,8 @@ inline std::uint64_t FilteredOut::total() const {
 
 // Facts about the rows, for the error if the filters leave no row.
 struct BeforeFilters {
-  Eigen::AlignedBox3d bounds;               // of all finite rows but those without a return
-  std::map<double, std::uint64_t> classes;  // of the rows that reach the filter of classes; few at most
-  std::uint64_t kept = 0;                   // finite rows that every filter accepts
+  Eigen::AlignedBox3d bounds;  // of all finite rows but those without a return
+  std::uint64_t kept = 0;      // finite rows that every filter accepts
 };
 
 // Returns the message of an error: which filter left out how many rows, and what these are.
@@ -68,8 +62,7 @@ std::string describe_no_row_left(const InputConfig& config, const FilteredOut& f
 
 class RowFilter {
  public:
-  // Makes the filter for the rows of one file. Throws `Error` if they have no class or return, and the choice
-  // needs it.
+  // Makes the filter for the rows of one file. Throws `Error` if they lack a column that --where names.
   RowFilter(const InputConfig& config, const std::filesystem::path& file, const ScanReader& reader);
 
   // Makes the positions of rows that do not take part NaN, and counts them.
@@ -85,9 +78,6 @@ class RowFilter {
   std::uint64_t* refusing(std::size_t row, const Eigen::Vector3d& position, FilteredOut& filtered,
                           BeforeFilters& before) const;
   bool is_no_return(const Eigen::Vector3d& position) const;
-  bool has_chosen_class(std::size_t row) const;
-  bool is_chosen_return(std::size_t row) const;
-
   std::uint64_t* refused_by_flags(std::size_t row, FilteredOut& filtered) const;
 
   bool is_active_;
@@ -95,10 +85,7 @@ class RowFilter {
   std::vector<Eigen::Vector3d> no_return_places_;
   std::optional<Eigen::AlignedBox3d> bounds_;
   std::vector<Eigen::AlignedBox3d> boxes_;  // whose points are left out
-  std::vector<std::int64_t> chosen_classes_;
-  Returns chosen_returns_;
-  std::optional<Values> class_, return_number_, number_of_returns_;
-  std::optional<Values> withheld_, class_or_noise_;  // where such points are left out
+  std::optional<Values> withheld_, class_;  // where withheld points or noise are left out
   std::optional<Condition> where_;
 };
 

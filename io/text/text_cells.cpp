@@ -4,6 +4,7 @@
 #include "io/files/number.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <string>
 
 namespace lacuna::io {
@@ -50,6 +51,17 @@ Cells split(std::string_view line, char separator) {
   Cells cells;
   for (std::string_view cell; next_cell(line, separator, cell);) cells.push_back(cell);
   return cells;
+}
+
+bool take_number(std::string_view& rest, char separator, double& value) {
+  const char *begin = rest.data(), *const end = begin + rest.size();
+  while (begin != end && (*begin == ' ' || *begin == '\t')) ++begin;
+  const auto [stop, status] = std::from_chars(begin, end, value);
+  if (status != std::errc{}) return false;
+  if (stop != end && *stop != separator && !(separator == ' ' && (*stop == '\t' || *stop == '\r')))
+    return false;
+  rest.remove_prefix(static_cast<std::size_t>(stop - rest.data()) + (stop == end ? 0 : 1));
+  return true;
 }
 
 bool parse_cell(std::string_view cell, double& value) {

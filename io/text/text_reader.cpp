@@ -68,7 +68,16 @@ class TextReader final : public ScanReader {
     ++rows_;
     const std::string_view row = rest;
     std::string_view cell;
+    const auto put = [&](double value) {
+      std::memcpy(to, &value, sizeof(value));
+      to += sizeof(value);
+    };
     for (std::size_t i = 0; i < is_read_.size(); ++i) {
+      double value;
+      if (is_read_[i] && take_number(rest, columns_.separator, value)) {
+        put(value);
+        continue;
+      }
       if (!next_cell(rest, columns_.separator, cell)) {
         // No field follows a last separator, but an empty cell does.
         if (i + 1 < is_read_.size() || i == 0 || columns_.separator == ' ' ||
@@ -77,13 +86,11 @@ class TextReader final : public ScanReader {
         cell = {};
       }
       if (!is_read_[i]) continue;
-      double value;
       if (!parse_cell(cell, value)) {
         if (!is_missing(cell)) fail_number(cell);
         value = std::numeric_limits<double>::quiet_NaN();
       }
-      std::memcpy(to, &value, sizeof(value));
-      to += sizeof(value);
+      put(value);
     }
     if (!columns_.has_more && next_cell(rest, columns_.separator, cell)) fail_number_of_values("more");
   }

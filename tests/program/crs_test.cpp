@@ -41,7 +41,49 @@ std::string degrees_las() {
   return las.bytes();
 }
 
+// Keys of GeoTIFF in a LAS file: a projected system by its code, without one for the unit.
+std::string coded_las(std::uint16_t code) {
+  test::LasFile las;
+  std::string keys(8 + 16, '\0');
+  test::put<std::uint16_t>(keys, 0, 1);
+  test::put<std::uint16_t>(keys, 6, 2);
+  test::put<std::uint16_t>(keys, 8, 1024), test::put<std::uint16_t>(keys, 12, 1);
+  test::put<std::uint16_t>(keys, 14, 1), test::put<std::uint16_t>(keys, 16, 3072);
+  test::put<std::uint16_t>(keys, 20, 1), test::put<std::uint16_t>(keys, 22, code);
+  las.records = {test::las_record("LASF_Projection", 34735, keys)};
+  las.points = {test::las_point(20, 0, 0, 0)};
+  return las.bytes();
+}
+
 }  // namespace
+
+TEST_CASE("a system whose lengths are not those on the ground is refused, with the UTM zone of the scan") {
+  const ScratchFolder scratch;
+  // Web Mercator stretches lengths by 1.5 at 48 degrees north, and by 1 at the equator.
+  const std::string north = scratch.write(
+      "north.xyz", plane(30).punched({15, 15}, 5).translated({1'000'000, 6'100'000, 100}).text());
+  const std::string equator =
+      scratch.write("equator.xyz", plane(30).punched({15, 15}, 5).translated({1'000'000, 100, 100}).text());
+  const auto detect = [&](const std::string& scan, const std::string& crs) {
+    return run_program({"detect", scan, "--out", (scratch / "out").string(), "--overwrite", "--crs", crs});
+  };
+  check_failure(detect(north, "EPSG:3857"), 1, "EPSG:32632");
+  CHECK(detect(equator, "EPSG:3857").exit_code == 0);
+  check_failure(detect(north, "EPSG:3395"), 1, "EPSG:32632");
+}
+
+TEST_CASE("the unit of a system that a file names by its code alone is the unit of the code") {
+  const ScratchFolder scratch;
+  const auto unit_of = [&](std::uint16_t code) {
+    const std::string scan = scratch.write("a.las", coded_las(code));
+    const ProgramResult info = run_program({"info", scan, "--json"});
+    REQUIRE(info.exit_code == 0);
+    return nlohmann::json::parse(info.out)["unit"];
+  };
+  CHECK(unit_of(25832) == "m");
+  CHECK(unit_of(2992) == "ft");     // NAD83 / Oregon GIC Lambert (ft)
+  CHECK(unit_of(2263) == "us-ft");  // NAD83 / New York Long Island (ftUS)
+}
 
 TEST_CASE("a scan in degrees is refused before the work with the ways out, and info says so") {
   const ScratchFolder scratch;
@@ -137,16 +179,7 @@ TEST_CASE("a code and well-known text of one system are the same for a scan of s
     return scratch.write(name + ".las", las.bytes());
   };
   const std::string text = las_of("text", "EPSG:25832"), other = las_of("other", "EPSG:25833");
-  test::LasFile coded;
-  std::string keys(8 + 16, '\0');
-  test::put<std::uint16_t>(keys, 0, 1);
-  test::put<std::uint16_t>(keys, 6, 2);
-  test::put<std::uint16_t>(keys, 8, 1024), test::put<std::uint16_t>(keys, 12, 1);
-  test::put<std::uint16_t>(keys, 14, 1), test::put<std::uint16_t>(keys, 16, 3072);
-  test::put<std::uint16_t>(keys, 20, 1), test::put<std::uint16_t>(keys, 22, 25832);
-  coded.records = {test::las_record("LASF_Projection", 34735, keys)};
-  coded.points = {test::las_point(20, 0, 0, 0)};
-  const std::string code = scratch.write("code.las", coded.bytes());
+  const std::string code = scratch.write("code.las", coded_las(25832));
   const auto detect = [&](const std::vector<std::string>& scans) {
     std::vector<std::string> words = {"detect", "--out", (scratch / "out").string(), "--quiet"};
     words.insert(words.end(), scans.begin(), scans.end());

@@ -48,6 +48,7 @@ std::vector<ReadLoop> loops_of(const nlohmann::json& report) {
     ReadLoop& loop = loops.emplace_back();
     loop.kind = record.at("kind");
     for (const std::string& name : kMeasures) loop.measures[name] = record.at(name);
+    if (!record.at("parent").is_null()) loop.measures["parent"] = record.at("parent");
     loop.points = record.at("coordinates").get<std::vector<Point>>();
   }
   return loops;

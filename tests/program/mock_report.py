@@ -67,7 +67,7 @@ def measures(number, is_hole, vertices, confidence, planarity):
         perimeter += math.dist(a, b)
         diameter = max(diameter, 2 * math.dist(a, centre))
     area = math.hypot(*normal)
-    return {"id": number, "kind": "hole" if is_hole else "outer", "points": len(vertices), "confidence": confidence,
+    return {"id": number, "kind": "hole" if is_hole else "outer", "parent": None, "points": len(vertices), "confidence": confidence,
             "persistence": short(2 * confidence), "first_scale": 0, "last_scale": 0.5,
             "perimeter": short(perimeter), "area": short(area), "diameter": short(diameter), "planarity": planarity,
             "mean_probability": short(0.6 + 0.35 * confidence), "centroid": [round(value, 5) for value in centre],
@@ -244,14 +244,14 @@ def assemble(arguments, points, spacing, probabilities, normals, colours, raw_lo
     for value in probabilities:
         histogram[min(19, value * 20 // 256)] += 1
     has_colours = bool(arguments.colours and colours)
-    columns = ["id", "kind", "points", "confidence", "persistence", "first_scale", "last_scale", "perimeter", "area", "diameter", "planarity", "mean_probability",
+    columns = ["id", "kind", "parent", "points", "confidence", "persistence", "first_scale", "last_scale", "perimeter", "area", "diameter", "planarity", "mean_probability",
                "centroid", "normal", "cause", "hidden_by", "hidden_from", "hidden_from_place", *CAUSES]
     holes = sum(loop["kind"] == "hole" for loop in loops)
     report = {
         "lacuna": "0.1.0", "title": arguments.ply.name if arguments.ply else "scan.laz",
         "crs": "EPSG:25832" if arguments.utm else None, "unit": "" if arguments.ply else "m",
         "inputs": [{"file": str(arguments.ply or "scans/court/scan.laz"), "points": len(points) + 1810}],
-        "counts": {"points": len(points), "dropped": 0, "filtered_out": {"origin": 0, "bounds": 1700, "classes": 0, "returns": 0},
+        "counts": {"points": len(points), "dropped": 0, "filtered_out": {"origin": 0, "bounds": 1700, "leave_out": 0, "withheld": 0, "noise": 0, "where": 0},
                    "thinned_out": 0, "duplicates": 110, "candidates": len(points) // 40, "coherent": len(points) // 60,
                    "boundary_points": first[-1], "boundary_edges": first[-1], "holes": holes,
                    "outer": len(loops) - holes, "loops": len(loops)},

@@ -57,8 +57,6 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"trust", "file"},
     {"bounds", "2,2,100,300"},
     {"leave_out", "2,2,-5,30,30,5"},
-    {"classes", "2"},
-    {"returns", "first"},
     {"crs", "EPSG:25832"},
     {"unit", "m"},
     {"unit_z", "ft"},

@@ -31,8 +31,8 @@ void check(const std::filesystem::path& folder, const std::optional<Disk>& disk,
 
 // Whether the headers say how many points take part.
 bool takes_all_points(const InputConfig& input, const ScaleConfig& scale) {
-  return first_edge(scale) == 0 && input.bounds.empty() && input.leave_out.empty() && input.classes.empty() &&
-         input.returns == Returns::kAll && !input.drop_origin && input.where.empty();
+  return first_edge(scale) == 0 && input.bounds.empty() && input.leave_out.empty() && !input.drop_origin &&
+         input.where.empty();
 }
 
 }  // namespace

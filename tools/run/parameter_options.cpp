@@ -15,7 +15,7 @@ namespace {
 
 // The parameters that people use, which --help shows. --help-all shows the others, too.
 constexpr std::array<std::string_view, 11> kCommon = {"min_hole", "k",         "min_confidence", "holes_only",
-                                                      "bounds",   "classes",   "points",         "gpkg",
+                                                      "bounds",   "where",     "points",         "gpkg",
                                                       "report",   "workspace", "memory_limit"};
 
 struct TypeName {
@@ -25,7 +25,6 @@ struct TypeName {
   std::string operator()(const std::string*) const { return "TEXT"; }
   std::string operator()(const std::uint64_t*) const { return "SIZE"; }
   std::string operator()(const std::vector<double>*) const { return "X,X..."; }
-  std::string operator()(const std::vector<std::int64_t>*) const { return "N,N..."; }
   std::string operator()(const NamedValue& value) const {
     std::string names;
     for (const std::string_view name : value.names) names += (names.empty() ? "" : "|") + std::string(name);

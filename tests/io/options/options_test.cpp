@@ -201,16 +201,10 @@ TEST_CASE("lists of numbers come as text with commas and as arrays, and print as
   find(all, "bounds").set("-1, 2.5,3 4");
   CHECK(config.input.bounds == std::vector{-1.0, 2.5, 3.0, 4.0});
   CHECK(find(all, "bounds").print() == "[-1.0, 2.5, 3.0, 4.0]");
-  find(all, "classes").set("2,6");
-  CHECK(find(all, "classes").print() == "[2, 6]");
-  CHECK(read("[input]\nbounds = [1, 2.5, 3, 4]\nclasses = [2, 9]\n").input.classes ==
-        std::vector<std::int64_t>{2, 9});
-  CHECK_THAT(error_of_set("classes", "2,256"), Contains("classes = 2,256 is not possible"));
-  CHECK_THAT(error_of_set("classes", "ground"), Contains("whole numbers from 0 to 255"));
   CHECK_THAT(error_of_set("bounds", "1,nan,3,4"), Contains("bounds = 1,nan,3,4"));
-  CHECK_THAT(error_of_file("[input]\nclasses = 2\n"), Contains(":2: classes = 2 is not"));
-  CHECK_THAT(error_of_file("[input]\nclasses = [2, 1.5]\n"), Contains("classes = 2, 1.5 is not"));
-  CHECK_THAT(error_of_set("returns", "second"), Contains("allowed: all, first, last or only"));
+  CHECK(read("[input]\nbounds = [1, 2.5, 3, 4]\n").input.bounds == std::vector{1.0, 2.5, 3.0, 4.0});
+  CHECK_THAT(error_of_file("[input]\nbounds = 2\n"), Contains(":2: bounds = 2 is not"));
+  CHECK_THAT(error_of_set("trust", "both"), Contains("allowed: neither, header or file"));
 }
 
 TEST_CASE("bounds of another count of numbers, or without content, contradict themselves") {

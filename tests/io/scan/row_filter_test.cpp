@@ -63,43 +63,29 @@ TEST_CASE("bounds keep their faces, and are open in z where they have four numbe
   CHECK(read_rows({.bounds = {0, 0, 1.5, 9, 9, 9}}).kept == std::vector{2, 3, 4});
 }
 
-TEST_CASE("classes and returns are chosen by their properties, whatever a program calls these") {
-  CHECK(read_rows({.classes = {6}}).kept == std::vector{2, 3});
-  CHECK(read_rows({.classes = {6, 1}}).kept == std::vector{2, 3, 4});
-  CHECK(read_rows({.returns = Returns::kFirst}).kept == std::vector{0, 1, 3});
-  CHECK(read_rows({.returns = Returns::kLast}).kept == std::vector{0, 2, 3});
-  CHECK(read_rows({.returns = Returns::kOnly}).kept == std::vector{0, 3});
-  const ScratchFolder folder;
-  const auto other = folder.write("a.csv", "x,y,z,scalar_Return_Number\n1,1,1,1\n2,2,2,2\n");
-  CHECK(read_filtered({other}, {.returns = Returns::kFirst}).kept == std::vector{0});
-}
-
 TEST_CASE("each row is counted by the first filter that refuses it, in each pass anew") {
   const ScratchFolder folder;
-  const Filtered filtered = read_filtered(
-      {folder.write("a.csv", kRows + "2 1 2 2 2 2\n")},
-      {.bounds = {-1, -1, 3, 3}, .classes = {2, 1}, .returns = Returns::kLast, .drop_origin = true});
-  CHECK(filtered.kept == std::vector{6});
-  CHECK(filtered.out.origin == 1);   // row 0
-  CHECK(filtered.out.bounds == 1);   // row 4
-  CHECK(filtered.out.classes == 2);  // rows 2 and 3
-  CHECK(filtered.out.returns == 1);  // row 1
+  const Filtered filtered =
+      read_filtered({folder.write("a.csv", kRows + "2 1 2 2 2 2\n")},
+                    {.bounds = {-1, -1, 3, 3}, .drop_origin = true, .where = "Classification == 2"});
+  CHECK(filtered.kept == std::vector{1, 6});
+  CHECK(filtered.out.origin == 1);  // row 0
+  CHECK(filtered.out.bounds == 1);  // row 4
+  CHECK(filtered.out.where == 2);   // rows 2 and 3
 }
 
 TEST_CASE("filters that leave no point are an error that names each of them and what there is") {
   const auto error = [](const InputConfig& config) { return error_of([&] { read_rows(config); }); };
-  CHECK(
-      error({.classes = {99}}) ==
-      "the filters leave none of the 5 points: --classes leaves out 5, the classes here are 1 (1 points), 2 "
-      "(2 points), 6 (2 points)");
+  CHECK(error({.where = "Classification == 99"}) ==
+        "the filters leave none of the 5 points: --where leaves out 5");
   CHECK(error({.bounds = {10, 10, 11, 11}}) ==
         "the filters leave none of the 5 points: --bounds leaves out 5, the scan lies from 0 0 0 to 4 4 4");
-  CHECK(error({.bounds = {-1, -1, 3, 3}, .classes = {1}, .drop_origin = true}) ==
+  CHECK(error({.bounds = {-1, -1, 3, 3}, .drop_origin = true, .where = "Classification == 1"}) ==
         "the filters leave none of the 5 points: --drop-origin leaves out 1; --bounds leaves out 1, the scan "
-        "lies from 1 1 1 to 4 4 4; --classes leaves out 3, the classes here are 2 (1 points), 6 (2 points)");
+        "lies from 1 1 1 to 4 4 4; --where leaves out 3");
 }
 
-TEST_CASE("withheld points and noise do not take part, unless they are kept or named") {
+TEST_CASE("withheld points and noise do not take part, unless they are kept") {
   const ScratchFolder folder;
   const auto file = folder.write("a.csv",
                                  "x,y,z,Classification,Withheld\n1,1,1,2,0\n2,2,2,7,0\n3,3,3,18,0\n"
@@ -110,7 +96,7 @@ TEST_CASE("withheld points and noise do not take part, unless they are kept or n
   CHECK(usual.out.noise == 2);
   CHECK(read_filtered({file}, {.keep_withheld = true}).kept == std::vector{0, 3});
   CHECK(read_filtered({file}, {.keep_noise = true}).kept == std::vector{0, 1, 2});
-  CHECK(read_filtered({file}, {.classes = {7}}).kept == std::vector{1});
+  CHECK(read_filtered({file}, {.keep_noise = true, .where = "Classification == 7"}).kept == std::vector{1});
   const auto noise = folder.write("b.csv", "x,y,z,classification\n1,1,1,7\n");
   CHECK_THAT(error_of([&] { read_filtered({noise}, {}); }),
              Contains("1 are noise, which --keep-noise keeps"));
@@ -125,12 +111,14 @@ TEST_CASE("a condition of any attributes says which points take part") {
   CHECK(kept("Classification==6 or NumberOfReturns>=3") == std::vector{2, 3, 4});
   CHECK(kept("not (Classification == 6 || x < 1) && z <= 3.5") == std::vector{1});
   CHECK(kept("x > -1 and !(y > 2)") == std::vector{0, 1, 2});
+  CHECK(kept("ReturnNumber == NumberOfReturns") == std::vector{0, 2, 3});
+  CHECK(kept("scalar_Return_Number < number_of_returns") == std::vector{1, 4});
   CHECK(read_filtered({file}, {.where = "x > 2"}).out.where == 3);
   const auto error = [&](const std::string& where) { return error_of([&] { kept(where); }); };
   CHECK_THAT(error("Colour == 2"),
              Contains("a.txt: no column for 'Colour' of --where; the columns are x, y, z, Classification"));
-  CHECK_THAT(error("x == red"), Contains("--where 'x == red': 'red' is not a number; allowed: comparisons"));
-  CHECK_THAT(error("x ~ 2"), Contains("'~' is no comparison"));
+  CHECK_THAT(error("x == red"), Contains("no column for 'red' of --where"));
+  CHECK_THAT(error("x ~ 2"), Contains("--where 'x ~ 2': '~' is no comparison; allowed: comparisons"));
   CHECK_THAT(error("(x == 2"), Contains("a parenthesis is not closed"));
   CHECK_THAT(error("x == 2 y == 3"), Contains("a comparison ends before 'y'"));
   CHECK_THAT(error("x == 2 and"), Contains("a comparison is missing at the end"));
@@ -167,15 +155,6 @@ TEST_CASE("rays without return are at the camera of a PLY, too") {
       "property float view_pz\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
       "end_header\n1 2 3\n0 0 0\n1 2 3\n1 2 4\n");
   CHECK(read_filtered({scan}, {.drop_origin = true}).kept == std::vector{2});
-}
-
-TEST_CASE("a file without the property that a filter needs is an error that names both") {
-  const ScratchFolder folder;
-  const auto bare = folder.write("a.xyz", "1 2 3\n");
-  CHECK_THAT(error_of([&] { FileScan({bare}, {.classes = {2}}); }),
-             Contains("a.xyz: its points have no classification, which --classes needs"));
-  CHECK_THAT(error_of([&] { FileScan({bare}, {.returns = Returns::kLast}); }),
-             Contains("no return_number, which --returns needs"));
 }
 
 }  // namespace lacuna::test
