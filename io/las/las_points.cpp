@@ -58,8 +58,8 @@ class ChunkInFile final : public laz::ChunkBytes {
 // after the other, in the blocks that the caller wants.
 class CompressedPoints final : public LasPoints {
  public:
-  CompressedPoints(const InputFile& in, const LasHeader& header, std::uint64_t memory)
-      : in_(in), points_at_(header.points_at), memory_(memory) {
+  CompressedPoints(const InputFile& in, const LasHeader& header, Trust trust, std::uint64_t memory)
+      : in_(in), points_at_(header.points_at), memory_(memory), trusts_header_(trust == Trust::kHeader) {
     if (header.laszip.empty())
       in.fail_at_byte(104, "the points are compressed, but no record says how: 'laszip encoded' is missing");
     locating(points_at_, [&] {
@@ -162,8 +162,11 @@ class CompressedPoints final : public LasPoints {
     const auto points =
         static_cast<std::size_t>(std::min<std::uint64_t>(block_->left, records.size() / record_bytes));
     const std::size_t count = points * record_bytes;
-    locating(block_->chunk.offset, [&] { block_->decoder.decode(records.first(count)); });
     block_->left -= points;
+    locating(block_->chunk.offset, [&] {
+      block_->decoder.decode(records.first(count));
+      if (block_->left == 0) check_end(block_->chunk, block_->decoder);
+    });
     if (block_->left == 0) block_.reset();
     return count;
   }
@@ -214,8 +217,9 @@ class CompressedPoints final : public LasPoints {
         in_.read_at(chunks[i].offset, bytes);
         const laz::ChunkInMemory in_memory(bytes);
         locating(chunks[i].offset, [&] {
-          laz::ChunkDecoder(layout_, in_memory)
-              .decode(std::span(decoded_).subspan(places[i], places[i + 1] - places[i]));
+          laz::ChunkDecoder decoder(layout_, in_memory);
+          decoder.decode(std::span(decoded_).subspan(places[i], places[i + 1] - places[i]));
+          check_end(chunks[i], decoder);
         });
       } catch (...) {
         errors[i] = std::current_exception();
@@ -226,8 +230,21 @@ class CompressedPoints final : public LasPoints {
     }
   }
 
+  // Refuses a last chunk with more points than the header counts. Without chunks, other data may follow the
+  // points.
+  void check_end(const laz::Chunk& chunk, const laz::ChunkDecoder& decoder) const {
+    const bool is_last = chunk.offset == chunks_.back().offset;
+    if (!is_last || trusts_header_ || layout_.compressor == laz::compressor::kPointwise) return;
+    if (decoder.has_more_than(chunk.points))
+      throw laz::Corrupt(
+          "the last chunk holds more points than the header counts; --trust header leaves them, and `laszip` "
+          "or "
+          "`lasinfo -repair` count them");
+  }
+
   const InputFile& in_;
   std::uint64_t points_at_, memory_;
+  bool trusts_header_;
   laz::Layout layout_{};
   std::vector<laz::Chunk> chunks_;
   std::size_t next_chunk_ = 0;
@@ -238,8 +255,9 @@ class CompressedPoints final : public LasPoints {
 
 }  // namespace
 
-std::unique_ptr<LasPoints> las_points(InputFile& in, const LasHeader& header, std::uint64_t memory) {
-  if (header.is_compressed) return std::make_unique<CompressedPoints>(in, header, memory);
+std::unique_ptr<LasPoints> las_points(InputFile& in, const LasHeader& header, Trust trust,
+                                      std::uint64_t memory) {
+  if (header.is_compressed) return std::make_unique<CompressedPoints>(in, header, trust, memory);
   return std::make_unique<PlainPoints>(in, header);
 }
 

@@ -4,6 +4,7 @@
 
 #include "io/files/input_file.hpp"
 #include "io/las/las_header.hpp"
+#include "io/options/trust.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -24,6 +25,8 @@ class LasPoints {
 // decompressed by several threads: one for each, or up to four while these are small. A larger chunk is
 // decompressed in the blocks that are read, by one thread. Where even its models do not fit, that is an
 // `Error`.
-std::unique_ptr<LasPoints> las_points(InputFile& in, const LasHeader& header, std::uint64_t memory);
+// `trust`: kHeader: more compressed points than the header counts are no error, and are left.
+std::unique_ptr<LasPoints> las_points(InputFile& in, const LasHeader& header, Trust trust,
+                                      std::uint64_t memory);
 
 }  // namespace lacuna::io

@@ -56,7 +56,7 @@ class LasReader final : public ScanReader {
   LasReader(const std::filesystem::path& file, const ReadOptions& options)
       : in_(file),
         header_(counted_header(in_, options.trust)),
-        points_(las_points(in_, header_, options.memory)),
+        points_(las_points(in_, header_, options.trust, options.memory)),
         columns_(header_),
         left_(header_.points) {}
 

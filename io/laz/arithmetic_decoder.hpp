@@ -25,6 +25,10 @@ class ArithmeticDecoder {
     if (value_ == length_) throw Corrupt("the compressed points begin with bytes that no encoder writes");
   }
 
+  std::uint64_t unread_bytes() const {
+    return left_end_ - left_at_ + static_cast<std::uint64_t>(end_ - next_);
+  }
+
   // Not to be copied: the bytes may lie in its buffer.
   ArithmeticDecoder(ArithmeticDecoder&&) = default;
   ArithmeticDecoder& operator=(ArithmeticDecoder&&) = default;

@@ -190,6 +190,7 @@ class LayeredDecoder final : public RecordDecoder {
  public:
   LayeredDecoder(const Layout& layout, const ChunkBytes& bytes, std::span<const std::byte> first)
       : record_bytes_(first.size()),
+        points_(load<std::uint32_t>(read_all(bytes, record_bytes_, record_bytes_ + kNumberBytes).data())),
         layers_(read_layers(bytes, record_bytes_, layer_count(layout))),
         records_(layout, first, layers_) {}
 
@@ -197,8 +198,11 @@ class LayeredDecoder final : public RecordDecoder {
     for (std::size_t at = 0; at < records.size(); at += record_bytes_) records_.code(records.data() + at);
   }
 
+  bool has_more_than(std::uint64_t points) const override { return points_ > points; }
+
  private:
   std::size_t record_bytes_;
+  std::uint64_t points_;
   std::vector<DecodedLayer> layers_;
   Records<DecodedLayer> records_;
 };

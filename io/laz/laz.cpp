@@ -32,6 +32,10 @@ void ChunkDecoder::decode(std::span<std::byte> records) {
   rest_->decode(records);
 }
 
+bool ChunkDecoder::has_more_than(std::uint64_t points) const {
+  return rest_ && rest_->has_more_than(points);
+}
+
 std::uint64_t decoder_bytes(const Layout& layout) {
   // Models of all values of three fields, in four scanner channels.
   constexpr std::uint64_t kPoints = std::uint64_t{2} << 20;

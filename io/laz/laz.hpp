@@ -132,6 +132,9 @@ class ChunkDecoder {
 
   // The next records, never more than the chunk has.
   void decode(std::span<std::byte> records);
+  // Whether the chunk holds more records than those `points` that are decoded. Chunks of layers say how many
+  // they hold. Others have bytes left, of which a few are no sign: some records take less than a byte.
+  bool has_more_than(std::uint64_t points) const;
 
  private:
   const Layout& layout_;

@@ -126,6 +126,11 @@ class PointwiseDecoder final : public RecordDecoder {
       items_.code(decoder_, records.data() + at);
   }
 
+  bool has_more_than(std::uint64_t) const override {
+    constexpr std::uint64_t kFew = 16;
+    return decoder_.unread_bytes() > kFew;
+  }
+
  private:
   std::size_t record_bytes_;
   Items items_;

@@ -154,6 +154,28 @@ TEST_CASE("LAZ gives the same points, whether its chunks fit into the memory or 
   }
 }
 
+TEST_CASE("LAZ whose header counts fewer points than its last chunk has is an error, unless it is trusted",
+          "[io]") {
+  const ScratchFolder folder;
+  for (const int format : {3, 7}) {
+    WholeFile file = compressed(format < 6 ? 2 : 4, format, format < 6 ? 2 : 3, {30'000, 30'000});
+    if (format < 6) {
+      put(file.bytes, 107, std::uint32_t{50'000});
+    } else {
+      put(file.bytes, 247, std::uint64_t{50'000});
+    }
+    const auto path = folder.write("a.laz", file.bytes);
+    for (const std::uint64_t memory :
+         {std::uint64_t{3} << 20, std::uint64_t{64} << 20}) {  // by blocks, whole
+      INFO(file.name << " within " << memory);
+      CHECK_THAT(error_of([&] { read_table(path, 999, {.columns = "", .memory = memory}); }),
+                 Catch::Contains("the last chunk holds more points than the header counts; --trust header"));
+      const ReadOptions trusting{.columns = "", .memory = memory, .trust = Trust::kHeader};
+      CHECK(read_table(path, 999, trusting).rows.size() == 50'000);
+    }
+  }
+}
+
 TEST_CASE("LAZ whose models alone take more than the memory is an error at once", "[io]") {
   const ScratchFolder folder;
   const auto file = folder.write("a.laz", compressed(2, 3, 2, kFixed).bytes);

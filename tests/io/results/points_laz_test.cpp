@@ -18,7 +18,7 @@ namespace {
 std::string records_of(const std::filesystem::path& file) {
   InputFile in(file);
   const LasHeader header = read_las_header(in);
-  const auto points = las_points(in, header, std::uint64_t{1} << 30);
+  const auto points = las_points(in, header, Trust::kNeither, std::uint64_t{1} << 30);
   std::string records(header.points * header.record_bytes, '\0');
   points->read(std::as_writable_bytes(std::span(records)));
   return records;
