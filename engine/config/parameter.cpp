@@ -62,13 +62,12 @@ struct SetFromText {
     *target = text;
     return true;
   }
-  template <typename Number>
-  bool operator()(std::vector<Number>* target) const {
-    std::vector<Number> numbers;
+  bool operator()(std::vector<double>* target) const {
+    std::vector<double> numbers;
     constexpr std::string_view kBetween = ", \t";
     for (std::size_t at = text.find_first_not_of(kBetween); at < text.size();) {
       const std::size_t end = std::min(text.find_first_of(kBetween, at), text.size());
-      if (!set(&numbers.emplace_back(), parse_number<Number>(text.substr(at, end - at)))) return false;
+      if (!set(&numbers.emplace_back(), parse_number<double>(text.substr(at, end - at)))) return false;
       at = text.find_first_not_of(kBetween, end);
     }
     *target = std::move(numbers);
@@ -96,10 +95,9 @@ struct PrintValue {
   std::string operator()(const bool* value) const { return *value ? "true" : "false"; }
   std::string operator()(const std::string* value) const { return quote(*value); }
   std::string operator()(const std::uint64_t* value) const { return quote(print_bytes(*value)); }
-  template <typename Number>
-  std::string operator()(const std::vector<Number>* values) const {
+  std::string operator()(const std::vector<double>* values) const {
     std::string text;
-    for (const Number value : *values) text += (text.empty() ? "" : ", ") + (*this)(&value);
+    for (const double value : *values) text += (text.empty() ? "" : ", ") + (*this)(&value);
     return "[" + text + "]";
   }
   std::string operator()(const NamedValue& value) const { return quote(value.names[*value.value]); }

@@ -55,6 +55,7 @@ class LasRows final : public InputRows {
   LasRows(const FileScan& scan, std::size_t file, const std::vector<Kept>& kept)
       : in_(scan.files()[file]),
         header_(read_las_header(in_)),
+        // Its counts were checked when the scan was read.
         points_(las_points(in_, header_, Trust::kHeader, scan.memory())),
         kept_(kept),
         most_rows_(scan.batch_rows(file)),

@@ -80,8 +80,7 @@ void RowFilter::apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions
   for (std::size_t row = 0; row < positions.size(); ++row) {
     Eigen::Vector3d& position = positions[row];
     if (!position.allFinite()) continue;
-    std::uint64_t* count = refused_by_flags(row, filtered);
-    if (count == nullptr) count = refusing(row, position, filtered, before);
+    std::uint64_t* const count = refusing(row, position, filtered, before);
     if (count == nullptr) {
       ++before.kept;
       continue;
@@ -94,6 +93,10 @@ void RowFilter::apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions
 // Returns the count of the first filter that refuses the row; null if none does.
 std::uint64_t* RowFilter::refusing(std::size_t row, const Eigen::Vector3d& position, FilteredOut& filtered,
                                    BeforeFilters& before) const {
+  constexpr double kLowNoise = 7, kHighNoise = 18;
+  if (withheld_ && withheld_->values[row] != 0) return &filtered.withheld;
+  if (class_ && (class_->values[row] == kLowNoise || class_->values[row] == kHighNoise))
+    return &filtered.noise;
   if (is_no_return(position)) return &filtered.origin;
   if (bounds_) {
     before.bounds.extend(position);
@@ -102,14 +105,6 @@ std::uint64_t* RowFilter::refusing(std::size_t row, const Eigen::Vector3d& posit
   if (std::any_of(boxes_.begin(), boxes_.end(), [&](const auto& box) { return box.contains(position); }))
     return &filtered.boxes;
   return where_ && !where_->holds(row) ? &filtered.where : nullptr;
-}
-
-std::uint64_t* RowFilter::refused_by_flags(std::size_t row, FilteredOut& filtered) const {
-  constexpr double kLowNoise = 7, kHighNoise = 18;
-  if (withheld_ && withheld_->values[row] != 0) return &filtered.withheld;
-  if (class_ && (class_->values[row] == kLowNoise || class_->values[row] == kHighNoise))
-    return &filtered.noise;
-  return nullptr;
 }
 
 void RowFilter::load(const RowBatch& rows, std::optional<Values>& column) const {

@@ -17,8 +17,8 @@
 
 namespace lacuna::io {
 
-// Numbers of rows left out, each counted by the first of these filters that refuses it. No filter counts a
-// row that is not finite.
+// Numbers of rows left out. Each is counted by the first filter that refuses it: withheld and noise first,
+// then in this order. No filter counts a row that is not finite.
 struct FilteredOut {
   std::uint64_t origin = 0;
   std::uint64_t bounds = 0;
@@ -78,8 +78,6 @@ class RowFilter {
   std::uint64_t* refusing(std::size_t row, const Eigen::Vector3d& position, FilteredOut& filtered,
                           BeforeFilters& before) const;
   bool is_no_return(const Eigen::Vector3d& position) const;
-  std::uint64_t* refused_by_flags(std::size_t row, FilteredOut& filtered) const;
-
   bool is_active_;
   std::size_t stride_;
   std::vector<Eigen::Vector3d> no_return_places_;

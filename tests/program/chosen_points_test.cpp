@@ -38,7 +38,9 @@ TEST_CASE("scans in their own coordinates with poses, and filters, give the loop
                                  "0 0 0 2\n0 0 0 2\n");
   const auto list = scratch.write("list.txt", "left.csv\nright.csv pose=512 -1024 0 0 0 0 1\n");
   const json found = test::read_json(
-      test::detect("@" + list, scratch / "posed", {"--where", "Classification == 2 or z > 100", "--drop-origin", "--keep-noise"}) / "holes.json");
+      test::detect("@" + list, scratch / "posed",
+                   {"--where", "Classification == 2 or z > 100", "--drop-origin", "--keep-noise"}) /
+      "holes.json");
   CHECK(found["loops"] == expected["loops"]);
   CHECK(found["counts"]["filtered_out"]["where"] == 64);
   CHECK(found["counts"]["filtered_out"]["origin"] == 2);

@@ -102,9 +102,10 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
                       "probability\":0.0,\"centroid\":[1.0,2.0,3.0],"
                       "\"normal\":[0.0,0.0,1.0],\"cause\":null,\"tiles\":0,\"points\":3,\"ids\":[1,5,3],"
                       "\"coordinates\":[[0.1,2.0,3.0],[0.5,2.0,3.0],[0.30000000000000004,2.0,3.0]]},\n"));
-  CHECK_THAT(read_file(folder / "holes.csv"),
-             Contains("\n0,hole,,3,1,0,0,0,0.1,0,0,0,0,,,,,,1,2,3,0,0,1,,,,\n1,outer,,4,1,0,0,0,0.1,,0,0,0,,,,,"
-                      ",1,2,3,0,0,1,,,,\n"));
+  CHECK_THAT(
+      read_file(folder / "holes.csv"),
+      Contains("\n0,hole,,3,1,0,0,0,0.1,0,0,0,0,,,,,,1,2,3,0,0,1,,,,\n1,outer,,4,1,0,0,0,0.1,,0,0,0,,,,,"
+               ",1,2,3,0,0,1,,,,\n"));
   config.output.no_coordinates = true;
   write_results(detection, scan, config, folder.path());
   CHECK_FALSE(report(folder.path()).at("loops")[0].contains("coordinates"));
