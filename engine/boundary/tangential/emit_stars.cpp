@@ -42,7 +42,10 @@ class TileRadii {
     return sum / static_cast<float>(neighbours.size());
   }
 
+  // Scales of one point ask one after the other.
   SamplingRadius& around(LocalIndex p) {
+    if (at_ == p) return radii_;
+    at_ = p;
     radii_.clear();
     radii_.add(of_star(p), found_.samplings[p].distance);
     for (const LocalIndex q : tile_.neighbourhoods[p]) radii_.add(of_star(q), found_.samplings[q].distance);
@@ -57,6 +60,7 @@ class TileRadii {
   const TangentialConfig& config_;
   std::vector<StarRadii> of_star_;
   SamplingRadius radii_;
+  LocalIndex at_ = kNoIndex;  // the point of `radii_`
 };
 
 // Returns the seeds, ascending.
