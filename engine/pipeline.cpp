@@ -9,6 +9,7 @@
 #include "engine/halo/halo.hpp"
 #include "engine/loops/measure_loops.hpp"
 #include "engine/loops/nest_loops.hpp"
+#include "engine/loops/rate_loops.hpp"
 #include "engine/pipeline_steps.hpp"
 #include "engine/results/collect.hpp"
 #include "engine/results/loop_rows.hpp"
@@ -97,6 +98,7 @@ FoundLevel find_loops(const Level& level, Consumers& consumers, const Workspace&
   job.trim();
   method.stitch(outputs, totals);
   FoundLoops found = method.find_loops(outputs);
+  if (job.config.loops.method == LoopMethod::kTangential) rate_loops(level.store, found.loops, job);
   return {std::move(outputs), std::move(totals), std::move(found)};
 }
 

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Fits the confidence of the method `tangential`, so that it is a probability. Of the loops said to be 0.7 sure, 7 in
-10 are true. Prints the five coefficients of `tracked` in engine/track/confidence.cpp, and how well they hold on the
-scans of the fit. Likewise it prints how well the program's own confidence holds on these scans, and on those of run.py.
+10 are true. Prints the coefficients of `log_odds` in engine/loops/confidence.cpp, and how well they hold on the scans
+of the fit. Likewise it prints how well the program's own confidence holds on these scans, and on those of run.py.
 bench/accuracy/README.md has more.
 
-The scans of the fit are none of run.py's. `lacuna_track_features` finds the loops of every level, and what is known of
-each. Whether a loop is true is known from `lacuna-bench evaluate`. Logistic regression gives the coefficients."""
+The scans of the fit are none of run.py's. `lacuna detect` finds the loops that stand, whatever their confidence, and
+the evidence of each. Whether a loop is true is known from `lacuna-bench evaluate`. Logistic regression gives the
+coefficients."""
 
 import argparse
 import csv
@@ -25,7 +26,7 @@ from range_map import SCENES, range_map  # noqa: E402
 from sets import (GROUPS, RANGE_NOISES, SYNTH_KINDS, cut_mesh, degraded, fail, made_mesh, quick_sets,  # noqa: E402
                   real, run, synth)
 
-UNDECIDED = ("joined", "parted", "step")  # such loops are neither right nor wrong
+UNDECIDED = ("joined", "parted")  # such loops are neither right nor wrong
 REPORTED = 0.5  # the least confidence, by default
 MESH_SEEDS = (11, 12, 13, 14)
 CONTRAST = 6  # of densities that vary
@@ -126,8 +127,9 @@ def lidar_sets(arguments):
              "aerial-rings": ["--stations", 4, "--ring-ratio", 3],
              "aerial-step": ["--stations", 2, "--station-factor", 6, "--noise", 0.05]}
     for seed, (name, options) in enumerate(scans.items(), start=501):
-        yield synth(arguments, "lidar", f"fit-{name}", "scan",
-                    ["--scene", name.split("-")[0], "--points", 150_000, "--seed", seed, *options])
+        scene = name.split("-")[0]
+        yield synth(arguments, "aerial" if scene == "aerial" else "lidar", f"fit-{name}", "scan",
+                    ["--scene", scene, "--points", 150_000, "--seed", seed, *options])
 
 
 def fit_sets(arguments):
@@ -150,10 +152,11 @@ class Loop:
     verdict: str  # of `lacuna-bench evaluate`
     confidence: float  # of the program
     terms: tuple = ()  # what the coefficients belong to
+    known: float = 0  # the rest of the log-odds
 
     @property
     def is_true(self):
-        return self.verdict != "false"
+        return self.verdict not in ("false", "step")
 
 
 def verdicts(arguments, case, result):
@@ -168,35 +171,34 @@ def probability(log_odds):
     return (1 + math.tanh(log_odds / 2)) / 2  # never overflows
 
 
-def terms(row):
-    """As `tracked` in engine/track/confidence.cpp has them."""
-    surface = row["surface"]
-    return (surface * row["best"], surface ** 2 / (row["roundness"] + 0.1), min(row["persistence"], 2.0),
-            row["sampling_gap"], 1.0)
+def octaves(ratio):
+    mantissa, power = math.frexp(ratio)
+    return power + 2 * mantissa - 2
+
+
+def terms(loop):
+    """As `log_odds` in engine/loops/confidence.cpp has them."""
+    evidence = loop["evidence"]
+    return (min(evidence["clearness"], 0.7), evidence["surface"], evidence["roundness"],
+            octaves(min(max(evidence["width"], 0.5), 8)), evidence["sampling_gap"], 1.0)
+
+
+def of_emptiness(loop):
+    """What the emptiness adds to the log-odds. It is not fitted: hardly any true loop has less than 0.8."""
+    return 20 * (min(loop["emptiness"], 0.8) - 0.8)
 
 
 def formula(coefficients):
-    best, shape, persistence, gap, constant = coefficients
-    return (f"{best:+.2f} S best {shape:+.2f} S^2 / (roundness + 0.1) {persistence:+.2f} min(persistence, 2) "
-            f"{gap:+.2f} g {constant:+.2f}")
+    names = ("clearness", "surface", "roundness", "width", "sampling_gap", "1")
+    return " ".join(f"{coefficient:+.2f} {name}" for coefficient, name in zip(coefficients, names))
 
 
-def loops_of_all_levels(arguments, case):
-    stem = arguments.work / "out" / "calibrate" / case.name
-    ids, features = stem.with_name(f"{case.name}.loops.txt"), stem.with_name(f"{case.name}.csv")
-    run([arguments.features, case.scan, ids, features])
-    with features.open(encoding="utf-8", newline="") as file:
-        rows = [{name: float(text) for name, text in row.items()} for row in csv.DictReader(file)]
-    return [Loop(case.group, verdict, probability(row["log_odds"]), terms(row))
-            for row, verdict in zip(rows, verdicts(arguments, case, ids), strict=True)]
-
-
-def reported_loops(arguments, case):
+def standing_loops(arguments, case):
     folder = arguments.work / "out" / "calibrate" / case.name
     run([arguments.lacuna, "detect", case.scan, "--out", folder, "--quiet", "--overwrite", "--threads", 1,
          "--sample-points", 0, "--min-confidence", 0])
     found = json.loads((folder / "holes.json").read_text(encoding="utf-8"))["loops"]
-    return [Loop(case.group, verdict, loop["confidence"])
+    return [Loop(case.group, verdict, loop["confidence"], terms(loop), of_emptiness(loop))
             for loop, verdict in zip(found, verdicts(arguments, case, folder), strict=True)]
 
 
@@ -229,14 +231,13 @@ def solve(rows, right):
 
 
 def log_odds(coefficients, loop):
-    return sum(a * b for a, b in zip(coefficients, loop.terms))
+    return loop.known + sum(a * b for a, b in zip(coefficients, loop.terms))
 
 
 def fit(loops):
     """The coefficients under which the truth is likeliest, by Newton's method. In each group the true loops weigh the
-    same in total; of lidar scans, which most users have, twice that."""
-    weighted = [(loop, (2 if group == "lidar" else 1) / sum(other.is_true for other in own))
-                for group, own in by_group(loops).items() for loop in own]
+    same in total."""
+    weighted = [(loop, 1 / sum(other.is_true for other in own)) for own in by_group(loops).values() for loop in own]
     size = len(loops[0].terms)
     coefficients = [0.0] * size
     for _ in range(50):
@@ -300,7 +301,6 @@ def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--lacuna", type=Path, required=True, help="the program that finds holes")
     parser.add_argument("--bench", type=Path, required=True, help="the program lacuna-bench")
-    parser.add_argument("--features", type=Path, required=True, help="lacuna_track_features, of the same build")
     parser.add_argument("--work", type=Path, required=True, help="sets and results; sets are kept")
     parser.add_argument("--data", type=Path, required=True, help="folder of the real scans")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="scans at a time")
@@ -316,14 +316,13 @@ def main():
         if not case.scan.exists():
             print(f"calibrate: {case.name}", file=sys.stderr)
         case.ensure()
-    loops = of_all(arguments, fitted, loops_of_all_levels)
+    loops = of_all(arguments, fitted, standing_loops)
     coefficients = fit(decided(loops))
     print(formula(coefficients), flush=True)
-    print_section("All loops of the scans of the fit, with these coefficients:", loops,
+    print_section("The loops that stand on the scans of the fit, with these coefficients:", loops,
                   lambda loop: probability(log_odds(coefficients, loop)))
-    print_section("All loops of the scans of the fit, as the program has them:", loops, lambda loop: loop.confidence)
     print_section("The loops that stand on the test scans, as the program has them:",
-                  of_all(arguments, tested, reported_loops), lambda loop: loop.confidence)
+                  of_all(arguments, tested, standing_loops), lambda loop: loop.confidence)
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ from paper import eligible_edges, paper_loops, spanning_graph
 from scans import island, patch, uneven
 from tracking import levels_of, track
 
-FIELDS = "confidence", "persistence", "first_scale", "last_scale"
+FIELDS = "confidence", "first_scale", "last_scale"
 # points; weights; threshold
 SCANS = [(patch(24, [(8, 9, 3), (16, 15, 2.5)], 0.25, 0.0, 1), (1, 1, 1), 0.5),
          (patch(24, [(8, 9, 3), (16, 15, 2.5)], 0.5, 0.3, 2), (1, 1, 1), 0.5),
@@ -53,7 +53,7 @@ def expected(levels):
     for count in sorted({1, len(levels)}):
         tracked = track(levels[:count])
         for least in (0, 0.5):
-            result["tangential", least, count] = [(x.points, [x.confidence, x.persistence, x.first, x.last])
+            result["tangential", least, count] = [(x.points, [x.confidence, x.first, x.last])
                                                   for x in tracked if x.confidence >= least]
     scan, _ = levels[0]
     e = round(2 * math.sqrt(math.pi * sum(map(len, scan.around)) / len(scan.points)))

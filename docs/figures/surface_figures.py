@@ -7,7 +7,7 @@ from paper import eligible_edges, paper_loops, spanning_graph
 from scans import nearest_to, patch, uneven
 from svg import BLUE, FILL, GREEN, INK, LINE, MUTED, ORANGE, RED, Page
 from tangential import COARSE, COARSE_BOUND, FINE, MAX_RADIUS, MIN_CURVE, SCALES, Surface, points_of
-from tracking import choose, levels_of, rated
+from tracking import levels_of, rated
 
 HOLE = (9.0, 8.0, 2.9)
 LIGHT_ORANGE, LIGHT_GREEN = "#f5d7b0", "#cfe6d8"
@@ -185,10 +185,10 @@ def scales(path):
     hole = (12, 12, 4.6)
     found = levels_of(uneven(hole))
     scan, _ = found[0]
-    loops, near, ranks = rated(found)
-    stands = next(loop for loop in choose(loops, near, ranks) if (loop.level, loop.scale) == (0, COARSE))
-    gives_way = max((loop for loop in loops if (loop.level, loop.scale) == (0, FINE)),
-                    key=lambda loop: len(set(loop.points) & set(stands.points)))
+    loops, _, _ = rated(found)
+    surer = max((loop for loop in loops if (loop.level, loop.scale) == (0, COARSE)), key=lambda loop: loop.odds)
+    other = max((loop for loop in loops if (loop.level, loop.scale) == (0, FINE)),
+                key=lambda loop: len(set(loop.points) & set(surer.points)))
     fine, coarse = ({min((p, a, b), (a, b, p), (b, p, a)) for p, s in enumerate(scan.stars)
                      for _, a, b in s.triangles(scale) if scan.is_consistent(p, a, b, scan.active, scale)}
                     for scale in SCALES)
@@ -197,17 +197,17 @@ def scales(path):
     for triangles, fill in ((fine, FILL), (coarse - fine, LIGHT_ORANGE)):
         panel.triangles([corners(scan, *t) for t in sorted(triangles)], "#a9c3da", 0.5, fill)
     panel.dots(scan.points, MUTED, 2)
-    panel.path(gives_way.places, BLUE, 5, closed=True)
-    panel.path(stands.places, RED, 2.2, closed=True)
+    panel.path(other.places, BLUE, 5, closed=True)
+    panel.path(surer.places, RED, 2.2, closed=True)
     panel.circle(hole[:2], hole[2], INK, 1.2, dash=True)
     page.legend(448, 50, [("fill", FILL, "within the fine bound"),
                           ("fill", LIGHT_ORANGE, "within the coarse bound only"),
                           ("line", BLUE, "fine loop"),
                           ("line", RED, "coarse loop"), ("dash", INK, "the hole, as made")])
-    page.text(448, 172, f"Clearness {gives_way.clearness:.2f} and {stands.clearness:.2f},", MUTED)
-    page.text(448, 192, f"surface share {gives_way.surface:.2f} and {stands.surface:.2f}:", MUTED)
-    page.text(448, 212, f"confidence {gives_way.confidence:.2f} and {stands.confidence:.2f}.", MUTED)
-    page.text(448, 232, "The coarse loop stands.", MUTED)
+    page.text(448, 172, f"Clearness {other.clearness:.2f} and {surer.clearness:.2f},", MUTED)
+    page.text(448, 192, f"surface share {other.surface:.2f} and {surer.surface:.2f}:", MUTED)
+    page.text(448, 212, f"confidence {other.confidence:.2f} and {surer.confidence:.2f}.", MUTED)
+    page.text(448, 232, "The coarse loop is surer.", MUTED)
     page.text(448, 262, "White places around are gaps of", MUTED)
     page.text(448, 282, "the sampling. Their curves have", MUTED)
     page.text(448, 302, f"fewer than {MIN_CURVE} points, or little", MUTED)

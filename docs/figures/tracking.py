@@ -4,6 +4,7 @@
 import math
 from dataclasses import dataclass
 
+from common import cross, dot, norm, sub
 from tangential import SCALES, Surface, clearness, points_of
 
 DISTANCE_OVER_SPACING = 1.7
@@ -21,13 +22,11 @@ class Loop:
     surface: float
     spacing: float
     gap: float
+    offsets: list  # from each point to the mean of its neighbours
+    odds: float = 0.0  # their logarithm
     confidence: float = 0.0
-    persistence: float = 0.0
     first: float = 0.0  # edges of the first and the last lattice of the track
     last: float = 0.0
-
-    def own(self):
-        return self.clearness * self.surface
 
 
 # ---- D.1 Levels
@@ -106,7 +105,8 @@ def loops_of(surface, level=0):
             n, sampling, distance = (len(curve), sum(w.sampling for w in curve), sum(w.distance for w in curve))
             loop = Loop([surface.names[p] for p in points_of(curve)], [surface.points[p] for p in points_of(curve)],
                         level, scale, clearness(curve), sum(w.surface for w in curve) / n,
-                        distance / n / DISTANCE_OVER_SPACING, sampling / distance)
+                        distance / n / DISTANCE_OVER_SPACING, sampling / distance,
+                        [surface.evaluations[p].mean for p in points_of(curve)])
             if loop.clearness >= 0.5 and loop.surface >= 0.3:
                 loops.append(loop)
     return sorted(loops, key=lambda x: (x.points[0], len(x.points), x.points, x.scale))
@@ -148,15 +148,65 @@ def is_same(near, a, b):
 
 # ---- D.3 Confidence
 
-def roundness(loop):
-    first, area, length = loop.places[0], (0.0, 0.0, 0.0), 0.0
-    for p, q in zip(loop.places, loop.places[1:] + loop.places[:1]):
-        a, b = ([x - y for x, y in zip(r, first)] for r in (p, q))
-        area = tuple(s + (a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2]) / 2 for i, s in enumerate(area))
+def shape_of(loop):
+    """The centroid, the area vector (Newell), the perimeter, and whether the loop is a hole."""
+    places, count = loop.places, len(loop.places)
+    centroid = tuple(sum(p[i] for p in places) / count for i in range(3))
+    area, length = (0.0, 0.0, 0.0), 0.0
+    for p, q in zip(places, places[1:] + places[:1]):
+        area = tuple(s + x / 2 for s, x in zip(area, cross(sub(p, centroid), sub(q, centroid))))
         length += math.dist(p, q)
-    size = math.hypot(*area)
-    width = 2 * size / length / loop.spacing
-    return max(4 * math.pi * size / length**2, 0.5 * min(1, width / 8)), width
+    size, growth, most = norm(area), 0.0, 0.0
+    for i, offset in enumerate(loop.offsets):
+        along = sub(places[(i + 1) % count], places[i - 1])
+        growth += dot(offset, cross(along, area)) / (size or 1)
+        most += norm(offset) * norm(along)
+    return centroid, area, length, not growth < -0.1 * most
+
+
+def is_within(polygon, x, y):
+    crossed = 0
+    for (ax, ay), (bx, by) in zip(polygon[-1:] + polygon[:-1], polygon):
+        if min(ay, by) <= y < max(ay, by):
+            crossed += x < ax + (y - ay) / (by - ay) * (bx - ax)
+    return crossed % 2 == 1
+
+
+def lid(loop, centroid, area):
+    """Places on the lid."""
+    size = norm(area)
+    normal = tuple(x / size for x in area)
+    least = min(range(3), key=lambda i: abs(normal[i]))
+    u = cross(normal, tuple(float(i == least) for i in range(3)))
+    u = tuple(x / norm(u) for x in u)
+    v = cross(normal, u)
+    rim = [tuple(dot(axis, sub(p, centroid)) for axis in (u, v, normal)) for p in loop.places]
+    lows, highs = ([extreme(p[i] for p in rim) for i in range(2)] for extreme in (min, max))
+    extent = [high - low for low, high in zip(lows, highs)]
+    step = max(math.sqrt(max(size / 64, extent[0] * extent[1] / 4096)), max(extent) / 4096)
+    nodes = []
+    for axis in range(2):
+        count = int(extent[axis] / step) + 1
+        middle = (lows[axis] + highs[axis]) / 2
+        nodes.append([middle + step * (i - (count - 1) / 2) for i in range(count)])
+    for y in nodes[1]:
+        for x in nodes[0]:
+            if not is_within([p[:2] for p in rim], x, y):
+                continue
+            weights = [1 / max((x - p[0]) ** 2 + (y - p[1]) ** 2, 1e-300) for p in rim]
+            z = sum(w * p[2] for w, p in zip(weights, rim)) / sum(weights)
+            yield tuple(c + x * a + y * b + z * n for c, a, b, n in zip(centroid, u, v, normal))
+
+
+def emptiness(loop, centroid, area, points):
+    to_points = to_rim = 0.0
+    for place in lid(loop, centroid, area):
+        rim = min(math.dist(place, p) for p in loop.places)
+        distance = min(rim, min(math.dist(place, p) for p in points))
+        if distance >= 0.8 * loop.spacing:
+            to_points += min(distance, 4 * loop.spacing)
+            to_rim += min(rim, 4 * loop.spacing)
+    return to_points / to_rim if to_rim > 0 else 1.0
 
 
 def octaves(ratio):
@@ -164,37 +214,37 @@ def octaves(ratio):
     return power - 1 + 2 * mantissa - 1
 
 
-def log_odds(loop, best):
-    s = loop.surface
-    q, width = roundness(loop)
-    odds = 11.24 * s * best - 1.84 * s * s / (q + 0.1) + 0.93 * min(loop.persistence, 2) - 7.44 * loop.gap - 0.4
-    middle = 0.65 + 2 * max(0, 0.84 - s)
-    is_enough = loop.level == 0 and width <= 8 and q >= 0.2
-    return max(odds, min(25 * (loop.clearness - middle), 2)) if is_enough else odds
+def log_odds(loop, points):
+    """`points`: of the loop's level."""
+    centroid, area, length, is_hole = shape_of(loop)
+    size = norm(area)
+    empty = (emptiness(loop, centroid, area, points) if size > 0 else 0.0) if is_hole else 1.0
+    width = 2 * size / length / loop.spacing
+    return (14.6 * min(loop.clearness, 0.7) + 9.5 * loop.surface + 4.2 * math.sqrt(4 * math.pi * size) / length
+            + 1.4 * octaves(min(max(width, 0.5), 8.0)) - 12.7 * loop.gap - 15.8 + 20 * (min(empty, 0.8) - 0.8))
 
 
 def rated(levels):
-    """All loops of all levels, each with its confidence, persistence, first and last scale; their pairs and ranks."""
-    loops = [loop for i, (surface, _) in enumerate(levels) for loop in loops_of(surface, i)]
+    """All loops of all levels, each with its confidence, first and last scale; their pairs and ranks."""
+    loops = []
+    for i, (surface, _) in enumerate(levels):
+        of_level = loops_of(surface, i)
+        for loop in of_level:
+            loop.odds = log_odds(loop, surface.points)
+            loop.confidence = 1 / (1 + math.exp(-loop.odds))
+        loops += of_level
     edges = [edge for _, edge in levels]
     first = median([e.r for e in levels[0][0].evaluations]) / DISTANCE_OVER_SPACING
     near = shares_of(loops, [edges[0] or first, *edges[1:]])
-    above, below = [x.own() for x in loops], [x.own() for x in loops]
     lasts, firsts = [x.level for x in loops], [x.level for x in loops]
     links = [(a, b) for a, b in near if loops[a].level < loops[b].level and is_same(near, a, b)]
     for a, b in sorted(links, reverse=True):
-        above[a], lasts[a] = max(above[a], above[b]), max(lasts[a], lasts[b])
+        lasts[a] = max(lasts[a], lasts[b])
     for a, b in sorted(links, key=lambda link: link[::-1]):
-        below[b], firsts[b] = max(below[b], below[a]), min(firsts[b], firsts[a])
-
-    ranks = []
+        firsts[b] = min(firsts[b], firsts[a])
     for i, loop in enumerate(loops):
         loop.first, loop.last = edges[firsts[i]], edges[lasts[i]]
-        loop.persistence = octaves(loop.last / loop.spacing) if loop.last > loop.spacing else 0.0
-        odds = log_odds(loop, max(above[i], below[i]))
-        loop.confidence = 1 / (1 + math.exp(-odds))
-        ranks.append(min(odds, 2) - 0.4 * (loop.level + 0.5 * loop.scale))
-    return loops, near, ranks
+    return loops, near, [min(x.odds, 4) - 0.8 * (x.level + 0.5 * x.scale) for x in loops]
 
 
 # ---- D.4 The choice

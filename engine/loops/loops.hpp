@@ -32,20 +32,25 @@ inline LoopPoint loaded(const StoredLoopPoint& p) {
   return {p.point.id, p.point.position(), {p.surface[0], p.surface[1], p.surface[2]}, p.probability};
 }
 
-// What a method finds of a loop in addition to its points (method.md, C.6). The paper's method does not
-// measure it.
-struct LoopEvidence {
+// What a method finds of a loop's curve (method.md, C.6). The paper's method does not measure it.
+struct CurveEvidence {
   double clearness = 1;     // of its wedges, [0, 1]
   double surface = 1;       // how much the neighbourhoods around it resemble a surface, [0, 1]
   double spacing = 0;       // of the points along it; a length
   double sampling_gap = 0;  // sampling radius over the distance to the neighbours, along it
   bool is_coarse = false;   // found within the coarse bound
 
-  // Returns whether the loop may be reported, or be a link of a track. Other loops are gaps of the sampling.
+  // Returns whether the loop may be reported. Other loops are gaps of the sampling.
   bool may_be_hole() const {
     constexpr double kLeastClearness = 0.5, kLeastSurface = 0.3;
     return clearness >= kLeastClearness && surface >= kLeastSurface;
   }
+};
+
+// How sure it is that a loop is true, and why (engine/loops/rate_loops.hpp).
+struct LoopRating {
+  LoopEvidence evidence;
+  double log_odds = 0;
 };
 
 class Loops {
@@ -53,7 +58,7 @@ class Loops {
   explicit Loops(std::filesystem::path file) : points_(std::move(file)) {}
 
   // Adds a loop. point(i): point i of `count` points. From any thread.
-  void add(std::uint64_t count, const LoopEvidence& evidence,
+  void add(std::uint64_t count, const CurveEvidence& evidence,
            const std::function<StoredLoopPoint(std::uint64_t)>& point);
   // Numbers the loops in the order of (first id, length, ids), a fine loop before the same coarse one.
   void sort();
@@ -61,7 +66,9 @@ class Loops {
   std::size_t size() const { return index_.size(); }
   std::uint64_t points() const { return points_.size(); }  // of all loops
   std::uint64_t count(std::size_t loop) const { return index_[loop].count; }
-  const LoopEvidence& evidence(std::size_t loop) const { return index_[loop].evidence; }
+  const CurveEvidence& evidence(std::size_t loop) const { return index_[loop].evidence; }
+  const LoopRating& rating(std::size_t loop) const { return index_[loop].rating; }
+  void rate(std::size_t loop, const LoopRating& rating) { index_[loop].rating = rating; }
   // Reads the points of a loop. `to` has the size of the loop.
   void read(std::size_t loop, std::span<StoredLoopPoint> to) const { points_.read(index_[loop].first, to); }
   // Calls visit for the points, in the order of the loop, in blocks.
@@ -75,7 +82,8 @@ class Loops {
   struct Entry {
     std::uint64_t first, count;  // of its points
     PointId first_id;
-    LoopEvidence evidence;
+    CurveEvidence evidence;
+    LoopRating rating = {};
   };
   static int compare(const Loops& a, const Entry& i, const Loops& b, const Entry& j);
 

@@ -195,7 +195,16 @@ Scratch in_memory() {
 }  // namespace
 
 LoopShape shape_of(std::span<const StoredLoopPoint> loop, Scratch& scratch) {
-  return {perimeter(loop, scratch), area_vector(loop, centroid(loop, scratch), scratch).stableNorm()};
+  LoopShape shape{.kind = LoopKind::kHole,
+                  .perimeter = perimeter(loop, scratch),
+                  .area = 0,
+                  .centroid = centroid(loop, scratch),
+                  .normal = Eigen::Vector3d::Zero()};
+  const Eigen::Vector3d area = area_vector(loop, shape.centroid, scratch);
+  shape.area = area.stableNorm();
+  if (shape.area > 0) shape.normal = area / shape.area;
+  shape.kind = kind(loop, shape.normal, scratch);
+  return shape;
 }
 
 double diameter(std::span<const StoredLoopPoint> loop, Scratch& scratch) {
@@ -205,13 +214,13 @@ double diameter(std::span<const StoredLoopPoint> loop, Scratch& scratch) {
 LoopMeasures measure_loop(std::span<const StoredLoopPoint> loop, double lattice_edge, Scratch& scratch) {
   LoopMeasures measures;
   measures.points = loop.size();
-  measures.perimeter = perimeter(loop, scratch);
+  const LoopShape shape = shape_of(loop, scratch);
+  measures.kind = shape.kind;
+  measures.perimeter = shape.perimeter;
+  measures.area = shape.area;
+  measures.centroid = shape.centroid;
+  measures.normal = shape.normal;
   measures.diameter = diameter(loop, scratch);
-  measures.centroid = centroid(loop, scratch);
-  const Eigen::Vector3d area = area_vector(loop, measures.centroid, scratch);
-  measures.area = area.norm();
-  if (measures.area > 0) measures.normal = area / measures.area;
-  measures.kind = kind(loop, measures.normal, scratch);
   measures.planarity = planarity(loop, measures.centroid, scratch);
   measures.mean_probability = mean_probability(loop, scratch);
   measures.tiles = lattice_cubes(loop, lattice_edge, scratch);

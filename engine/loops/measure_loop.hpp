@@ -23,9 +23,11 @@ namespace lacuna {
 // more. Cost: linear, except for the diameter (see `diameter`).
 LoopMeasures measure_loop(std::span<const StoredLoopPoint> loop, double lattice_edge, Scratch& scratch);
 
-// The shape as in `LoopMeasures`. Cost: linear.
+// As in `LoopMeasures`. Cost: linear.
 struct LoopShape {
+  LoopKind kind;
   double perimeter, area;
+  Eigen::Vector3d centroid, normal;
 };
 LoopShape shape_of(std::span<const StoredLoopPoint> loop, Scratch& scratch);
 

@@ -31,10 +31,20 @@ constexpr const char* name_of(LoopKind kind) {
   return kind == LoopKind::kHole ? "hole" : "outer";
 }
 
-// What all levels at which a hole is found say of it. Lengths are in units of the scan.
+// What confidence is computed from (method.md, D.3). The method "paper" measures none of it.
+struct LoopEvidence {
+  double clearness = 1;     // how much empty circles along the loop exceed those around it, [0, 1]
+  double surface = 1;       // how much the neighbourhoods along it resemble a surface, [0, 1]
+  double sampling_gap = 0;  // radius of empty circles of the sampling over the distance to the neighbours
+  double width = 0;         // 2 area / perimeter, in spacings of the points along the loop
+  double roundness = 0;     // perimeter of the circle of the same area over its own, [0, 1]
+  double emptiness = 1;     // of the space over the lid of a hole, [0, 1]; 1 for an outer curve
+};
+
+// How sure a loop is, and the levels at which it is found. Lengths are in units of the scan.
 struct LoopTrack {
-  double confidence = 1;   // that it is a hole, [0, 1]; 1 by the method "paper"
-  double persistence = 0;  // octaves from the spacing along the loop to the last scale, 0 or more
+  double confidence = 1;  // that it is true, [0, 1]; 1 by the method "paper"
+  LoopEvidence evidence = {};
   // Edges of the first and of the last lattice at which it is found; 0: among all points.
   double first_scale = 0, last_scale = 0;
 };

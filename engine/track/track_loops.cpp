@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/track/track_loops.hpp"
 
-#include "engine/track/confidence.hpp"
+#include "engine/loops/confidence.hpp"
 #include "engine/track/near_loops.hpp"
-#include "engine/track/track_all.hpp"
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -14,14 +14,44 @@
 namespace lacuna {
 namespace {
 
+// A loop of any level, and the levels of its track.
+struct TrackedLoop {
+  std::uint32_t level, loop;  // the number within the level
+  std::uint32_t first, last;
+};
+
+// Returns all loops as `near_loops` numbers them, each with a track of its own.
+std::vector<TrackedLoop> loops_of(std::span<const LevelLoops> levels) {
+  std::vector<TrackedLoop> loops;
+  for (std::uint32_t l = 0; l < levels.size(); ++l) {
+    for (std::uint32_t i = 0; i < levels[l].loops.size(); ++i) loops.push_back({l, i, l, l});
+  }
+  return loops;
+}
+
+// Follows each hole up to its last level, and down to its first one. Pairs and their levels ascend, so each
+// way takes one pass.
+void follow(std::span<const NearLoops> pairs, std::vector<TrackedLoop>& loops) {
+  std::vector<NearLoops> links;
+  std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(links),
+               [&](const NearLoops& p) { return p.is_same_hole() && loops[p.a].level != loops[p.b].level; });
+  for (std::size_t i = links.size(); i-- > 0;)
+    loops[links[i].a].last = std::max(loops[links[i].a].last, loops[links[i].b].last);
+  std::sort(links.begin(), links.end(),
+            [](const NearLoops& x, const NearLoops& y) { return x.b != y.b ? x.b < y.b : x.a < y.a; });
+  for (const NearLoops& link : links)
+    loops[link.b].first = std::min(loops[link.b].first, loops[link.a].first);
+}
+
 // By loop: the loops of the highest rank are chosen first.
 std::vector<double> ranks_of(std::span<const LevelLoops> levels, std::span<const TrackedLoop> loops) {
-  constexpr double kSure = 2;         // log-odds from which on loops are equally good
-  constexpr double kLevelCost = 0.4;  // of a level, in log-odds: fine curves are closer to the hole
+  constexpr double kSure = 4;         // log-odds from which on loops are equally good
+  constexpr double kLevelCost = 0.8;  // of a level, in log-odds: fine curves are closer to the hole
   std::vector<double> ranks;
   for (const TrackedLoop& loop : loops) {
-    const bool is_coarse = levels[loop.level].loops.evidence(loop.loop).is_coarse;
-    ranks.push_back(std::min(loop.log_odds, kSure) - kLevelCost * (loop.level + 0.5 * is_coarse));
+    const Loops& of_level = levels[loop.level].loops;
+    const double steps = loop.level + 0.5 * of_level.evidence(loop.loop).is_coarse;
+    ranks.push_back(std::min(of_level.rating(loop.loop).log_odds, kSure) - kLevelCost * steps);
   }
   return ranks;
 }
@@ -88,10 +118,14 @@ TrackedLoops track_loops(std::vector<LevelLoops> levels, Job& job) {
   if (job.config.loops.method == LoopMethod::kPaper) return all_loops(std::move(levels));
   Phase phase(job, "track", 0);
   const std::vector<NearLoops> pairs = near_loops(levels, job);
-  const std::vector<TrackedLoop> loops = track_all(levels, pairs, job);
+  std::vector<TrackedLoop> loops = loops_of(levels);
+  follow(pairs, loops);
   std::vector<std::uint32_t> chosen = choose(pairs, ranks_of(levels, loops));
   const double min_confidence = job.config.selection.min_confidence;
-  std::erase_if(chosen, [&](std::uint32_t i) { return probability_of(loops[i].log_odds) < min_confidence; });
+  const auto rating = [&](std::uint32_t i) -> const LoopRating& {
+    return levels[loops[i].level].loops.rating(loops[i].loop);
+  };
+  std::erase_if(chosen, [&](std::uint32_t i) { return probability_of(rating(i).log_odds) < min_confidence; });
   // At most one of several loops with the same points is chosen.
   std::sort(chosen.begin(), chosen.end(), [&](std::uint32_t x, std::uint32_t y) {
     return compare_points(levels[loops[x].level].loops, loops[x].loop, levels[loops[y].level].loops,
@@ -102,8 +136,8 @@ TrackedLoops track_loops(std::vector<LevelLoops> levels, Job& job) {
   for (const std::uint32_t i : chosen) {
     const TrackedLoop& loop = loops[i];
     tracked.loops.chosen.push_back({loop.level, loop.loop});
-    tracked.tracks.push_back({.confidence = probability_of(loop.log_odds),
-                              .persistence = loop.evidence.persistence,
+    tracked.tracks.push_back({.confidence = probability_of(rating(i).log_odds),
+                              .evidence = rating(i).evidence,
                               .first_scale = levels[loop.first].edge,
                               .last_scale = levels[loop.last].edge});
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// track: follows the same hole through the levels, rates its loops and chooses one of them (method.md, D).
+// track: follows the same hole through the levels, and chooses one of its loops (method.md, D).
 #pragma once
 
 #include "engine/loops/loops.hpp"

@@ -57,7 +57,7 @@ ExplainedLoop measures_of(const Json& record) {
            .planarity = number(record.at("planarity")),
            .mean_probability = number(record.at("mean_probability")),
            .track = {.confidence = number(record.at("confidence")),
-                     .persistence = number(record.at("persistence")),
+                     .evidence = {.emptiness = number(record.at("emptiness"))},
                      .first_scale = number(record.at("first_scale")),
                      .last_scale = number(record.at("last_scale"))},
            .tiles = record.at("tiles").get<std::uint64_t>(),

@@ -118,6 +118,14 @@ void write_list(std::string_view key, OutputFile& out,
   out.write("]");
 }
 
+Json evidence_json(const LoopEvidence& evidence) {
+  return {{"clearness", evidence.clearness},
+          {"surface", evidence.surface},
+          {"sampling_gap", evidence.sampling_gap},
+          {"width", evidence.width},
+          {"roundness", evidence.roundness}};
+}
+
 // Writes point by point, since a loop may be larger than memory.
 void write_loop(std::size_t id, const ExplainedDetection& detection, bool with_coordinates, OutputFile& out) {
   const ExplainedLoop measures = detection.loop(id);
@@ -125,7 +133,8 @@ void write_loop(std::size_t id, const ExplainedDetection& detection, bool with_c
                      {"kind", name_of(measures.kind)},
                      {"parent", measures.parent < 0 ? Json() : Json(measures.parent)},
                      {"confidence", measures.track.confidence},
-                     {"persistence", measures.track.persistence},
+                     {"emptiness", measures.track.evidence.emptiness},
+                     {"evidence", evidence_json(measures.track.evidence)},
                      {"first_scale", measures.track.first_scale},
                      {"last_scale", measures.track.last_scale},
                      {"perimeter", measures.perimeter},

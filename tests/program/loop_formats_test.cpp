@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using test::read_file;
 using Point = std::array<double, 3>;
 
-const std::vector<std::string> kMeasures{"points",     "confidence",      "persistence", "first_scale",
+const std::vector<std::string> kMeasures{"points",     "confidence",      "emptiness", "first_scale",
                                          "last_scale", "perimeter",       "area",        "diameter",
                                          "planarity",  "mean_probability"};
 

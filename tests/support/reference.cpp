@@ -788,8 +788,10 @@ std::vector<std::vector<CurvePoint>> simple_curves(std::vector<CurvePoint> rim) 
 struct FoundLoop {
   std::vector<PointId> points;  // by their names
   std::vector<Vector3d> places;
+  std::vector<Vector3d> offsets;  // from each point to the mean of its neighbours
   std::size_t level, scale;
   double clearness, surface, spacing, sampling_gap;
+  double log_odds;
 };
 using Loops = std::vector<FoundLoop>;
 
@@ -874,6 +876,7 @@ Loops loops_of(const Level& level, std::size_t number, const Config& config, Det
     loop.level = number;
     for (PointId& p : loop.points) {
       loop.places.push_back(level.positions[value(p)]);
+      loop.offsets.push_back(result.points[value(p)].surface);
       p = level.names[value(p)];
     }
   }
@@ -991,18 +994,30 @@ float share_near(const std::set<LatticeCell>& cells, const std::set<LatticeCell>
 }
 
 struct Shape {
-  double length, area;
+  double length;
+  Vector3d centroid, area;  // Newell
+  bool is_hole;             // the points move away from each other, each by its offset
 };
 
 Shape shape_of(const FoundLoop& loop) {
-  Vector3d area(0, 0, 0);
-  double length = 0;
-  for (std::size_t i = 0; i < loop.places.size(); ++i) {
-    const Vector3d &a = loop.places[i], &b = loop.places[(i + 1) % loop.places.size()];
-    area += (a - loop.places[0]).cross(b - loop.places[0]) / 2;
-    length += (b - a).norm();
+  Shape shape{.length = 0, .centroid = Vector3d::Zero(), .area = Vector3d::Zero(), .is_hole = true};
+  const std::size_t count = loop.places.size();
+  for (const Vector3d& p : loop.places) shape.centroid += (p - loop.places[0]) / static_cast<double>(count);
+  shape.centroid += loop.places[0];
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector3d &a = loop.places[i], &b = loop.places[(i + 1) % count];
+    shape.area += (a - shape.centroid).cross(b - shape.centroid) / 2;
+    shape.length += (b - a).norm();
   }
-  return {length, area.stableNorm()};
+  double growth = 0, most = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector3d along = loop.places[(i + 1) % count] - loop.places[(i + count - 1) % count];
+    const Vector3d& offset = loop.offsets[i];
+    growth += offset.dot(along.cross(shape.area.stableNormalized()));
+    most += offset.norm() * along.norm();
+  }
+  shape.is_hole = !(growth < -0.1 * most);
+  return shape;
 }
 
 double octaves(double ratio) {
@@ -1010,13 +1025,79 @@ double octaves(double ratio) {
   return power + ratio / std::exp2(power) - 1;
 }
 
+// Whether an odd number of the polygon's edges are to the right of a place.
+bool is_within(const std::vector<Eigen::Vector2d>& polygon, double x, double y) {
+  bool is_odd = false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d &a = polygon[i == 0 ? polygon.size() - 1 : i - 1], &b = polygon[i];
+    if (y < std::min(a.y(), b.y()) || y >= std::max(a.y(), b.y())) continue;
+    if (x < a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) is_odd = !is_odd;
+  }
+  return is_odd;
+}
+
+// How empty the space over the lid is: method.md, D.3.
+double emptiness(const FoundLoop& loop, const Shape& shape, const Positions& points) {
+  const double size = shape.area.stableNorm();
+  if (!(size > 0)) return 0;
+  const Vector3d normal = shape.area / size;
+  Eigen::Index least = 0;
+  normal.cwiseAbs().minCoeff(&least);
+  const Vector3d u = normal.cross(Vector3d::Unit(least)).normalized(), v = normal.cross(u);
+  std::vector<Eigen::Vector2d> rim;
+  Eigen::AlignedBox2d box;
+  for (const Vector3d& p : loop.places) {
+    rim.emplace_back(u.dot(p - shape.centroid), v.dot(p - shape.centroid));
+    box.extend(rim.back());
+  }
+  const Eigen::Vector2d extent = box.sizes();
+  const double step =
+      std::max(std::sqrt(std::max(size / 64, extent.prod() / 4096)), extent.maxCoeff() / 4096);
+  const int columns = static_cast<int>(extent.x() / step) + 1, rows = static_cast<int>(extent.y() / step) + 1;
+  double sum = 0, sum_to_loop = 0;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const double x = box.center().x() - step / 2 * (columns - 1) + column * step,
+                   y = box.center().y() - step / 2 * (rows - 1) + row * step;
+      if (!is_within(rim, x, y)) continue;
+      double weights = 0, heights = 0;
+      for (std::size_t i = 0; i < rim.size(); ++i) {
+        const double weight = 1 / std::max((rim[i] - Eigen::Vector2d(x, y)).squaredNorm(), 1e-300);
+        weights += weight;
+        heights += weight * normal.dot(loop.places[i] - shape.centroid);
+      }
+      const Vector3d place = shape.centroid + x * u + y * v + heights / weights * normal;
+      const auto nearest = [&](const Positions& among) {
+        double distance = std::numeric_limits<double>::infinity();
+        for (const Vector3d& p : among) distance = std::min(distance, (p - place).norm());
+        return distance;
+      };
+      const double to_loop = nearest(loop.places), distance = std::min(nearest(points), to_loop);
+      if (distance < 0.8 * loop.spacing) continue;
+      sum += std::min(distance, 4 * loop.spacing);
+      sum_to_loop += std::min(to_loop, 4 * loop.spacing);
+    }
+  }
+  return sum_to_loop > 0 ? sum / sum_to_loop : 1;
+}
+
+// The logarithm of the odds that the loop is true. `points`: of its level.
+double log_odds(const FoundLoop& loop, const Positions& points) {
+  const Shape shape = shape_of(loop);
+  const double area = shape.area.stableNorm(), width = 2 * area / shape.length / loop.spacing;
+  const double empty = shape.is_hole ? emptiness(loop, shape, points) : 1;
+  return 14.6 * std::min(loop.clearness, 0.7) + 9.5 * loop.surface +
+         4.2 * std::sqrt(4 * pi * area) / shape.length + 1.4 * octaves(std::clamp(width, 0.5, 8.)) -
+         12.7 * loop.sampling_gap - 15.8 + 20 * (std::min(empty, 0.8) - 0.8);
+}
+
 struct Tracked {
   std::vector<FoundLoop> loops;
   std::vector<double> confidences;
 };
 
-// `edges`, and the edges of the lattices on which loops are compared: by level.
-Tracked track(const Loops& loops, const std::vector<double>& edges, const std::vector<double>& cells) {
+// `cells`: edges of the lattices on which loops are compared, by level.
+Tracked track(const Loops& loops, const std::vector<double>& cells) {
   const std::size_t count = loops.size();
   std::vector<std::vector<float>> near(count,
                                        std::vector<float>(count, 0));  // share of the first, near the second
@@ -1031,41 +1112,10 @@ Tracked track(const Loops& loops, const std::vector<double>& edges, const std::v
     }
   }
   const auto is_same = [&](std::size_t a, std::size_t b) { return near[a][b] >= 0.7f && near[b][a] >= 0.7f; };
-  const auto own = [&](std::size_t i) { return loops[i].clearness * loops[i].surface; };
-  std::vector<double> above(count), below(count);
-  std::vector<std::size_t> last(count);
-  for (std::size_t a = count; a-- > 0;) {
-    above[a] = own(a);
-    last[a] = loops[a].level;
-    for (std::size_t b = a + 1; b < count; ++b) {
-      if (loops[a].level == loops[b].level || !is_same(a, b)) continue;
-      above[a] = std::max(above[a], above[b]);
-      last[a] = std::max(last[a], last[b]);
-    }
-  }
-  for (std::size_t b = 0; b < count; ++b) {
-    below[b] = own(b);
-    for (std::size_t a = 0; a < b; ++a) {
-      if (loops[a].level != loops[b].level && is_same(a, b)) below[b] = std::max(below[b], below[a]);
-    }
-  }
-  std::vector<double> odds(count), ranks(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const FoundLoop& loop = loops[i];
-    const Shape shape = shape_of(loop);
-    const double edge = edges[last[i]], width = 2 * shape.area / shape.length / loop.spacing,
-                 round =
-                     std::max(4 * pi * shape.area / shape.length / shape.length, std::min(0.5, width / 16));
-    const double persistence = edge > loop.spacing ? octaves(edge / loop.spacing) : 0;
-    odds[i] = 11.24 * loop.surface * std::max(above[i], below[i]) -
-              1.84 * loop.surface * loop.surface / (round + 0.1) + 0.93 * std::min(persistence, 2.) -
-              7.44 * loop.sampling_gap - 0.4;
-    const double middle = 0.65 + 2 * std::max(0., 0.84 - loop.surface);
-    if (loop.level == 0 && width <= 8 && round >= 0.2)
-      odds[i] = std::max(odds[i], std::min(25 * (loop.clearness - middle), 2.));
-    ranks[i] =
-        std::min(odds[i], 2.) - 0.4 * (static_cast<double>(loop.level) + 0.5 * double(loop.scale == 1));
-  }
+  std::vector<double> ranks(count);
+  for (std::size_t i = 0; i < count; ++i)
+    ranks[i] = std::min(loops[i].log_odds, 4.) -
+               0.8 * (static_cast<double>(loops[i].level) + 0.5 * double(loops[i].scale == 1));
 
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -1095,7 +1145,7 @@ Tracked track(const Loops& loops, const std::vector<double>& edges, const std::v
             [&](std::size_t a, std::size_t b) { return order_of(loops[a]) < order_of(loops[b]); });
   for (const std::size_t i : sorted) {
     tracked.loops.push_back(loops[i]);
-    tracked.confidences.push_back(1 / (1 + std::exp(-odds[i])));
+    tracked.confidences.push_back(1 / (1 + std::exp(-loops[i].log_odds)));
   }
   return tracked;
 }
@@ -1123,7 +1173,8 @@ double median_distance(const Detection& result) {
 void find_rims(Level level, const Config& config, Detection& result) {
   const bool has_levels = !config.scale.every_point && config.scale.resolution == 0;
   Loops loops = loops_of(level, 0, config, result);
-  std::vector<double> edges = {0}, cells = {median_distance(result) / 1.7};
+  for (FoundLoop& loop : loops) loop.log_odds = log_odds(loop, level.positions);
+  std::vector<double> cells = {median_distance(result) / 1.7};
   if (has_levels) {
     Config one_eps = config;  // a length, alike at all levels
     one_eps.neighbourhood.eps = result.eps;
@@ -1132,13 +1183,13 @@ void find_rims(Level level, const Config& config, Detection& result) {
     while (std::optional<Level> above = level_above(level, below)) {
       level = *std::move(above);
       below = evaluated(level, one_eps);
-      const Loops of_level = loops_of(level, edges.size(), config, below);
+      Loops of_level = loops_of(level, cells.size(), config, below);
+      for (FoundLoop& loop : of_level) loop.log_odds = log_odds(loop, level.positions);
       loops.insert(loops.end(), of_level.begin(), of_level.end());
-      edges.push_back(level.edge);
       cells.push_back(level.edge);
     }
   }
-  const Tracked tracked = track(loops, edges, cells);
+  const Tracked tracked = track(loops, cells);
   std::set<PointId> on_loop;
   for (std::size_t i = 0; i < tracked.loops.size(); ++i) {
     if (tracked.confidences[i] < config.selection.min_confidence) continue;

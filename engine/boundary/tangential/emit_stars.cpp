@@ -42,7 +42,7 @@ class TileRadii {
     return sum / static_cast<float>(neighbours.size());
   }
 
-  // Scales of one point ask one after the other.
+  // The last point's radii are kept: both scales of a point need them.
   SamplingRadius& around(LocalIndex p) {
     if (at_ == p) return radii_;
     at_ = p;

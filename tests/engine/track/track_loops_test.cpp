@@ -2,9 +2,7 @@
 // Which loops stand, of drawn ones at several levels, and of scans.
 #include "engine/track/track_loops.hpp"
 
-#include "engine/track/confidence.hpp"
 #include "engine/track/near_loops.hpp"
-#include "engine/track/track_all.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/draws.hpp"
@@ -24,14 +22,10 @@ namespace {
 struct DrawnLoop {
   Eigen::Vector3d middle;
   double radius;
-  LoopEvidence evidence = sure();
+  double log_odds = kSure;
+  bool is_coarse = false;
 
-  static LoopEvidence sure(bool is_coarse = false) {
-    return {.clearness = 0.9, .surface = 0.9, .spacing = 1, .sampling_gap = 0.55, .is_coarse = is_coarse};
-  }
-  static LoopEvidence unsure() {
-    return {.clearness = 0.6, .surface = 0.5, .spacing = 1, .sampling_gap = 0.6};
-  }
+  static constexpr double kSure = 5, kUnsure = -1;
 };
 
 class Drawn {
@@ -44,19 +38,20 @@ class Drawn {
         .edge = edge, .cell_edge = edge > 0 ? edge : 1, .points = 1000, .loops = Loops(job_.file("drawn"))};
     for (const DrawnLoop& loop : loops) {
       const int count = std::max(8, static_cast<int>(2 * std::numbers::pi * loop.radius / level.cell_edge));
-      level.loops.add(static_cast<std::uint64_t>(count), loop.evidence, [&](std::uint64_t i) {
+      const CurveEvidence evidence{.is_coarse = loop.is_coarse};
+      level.loops.add(static_cast<std::uint64_t>(count), evidence, [&](std::uint64_t i) {
         const double angle = 2 * std::numbers::pi * static_cast<double>(i) / count;
         const Eigen::Vector3d p =
             loop.middle + loop.radius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
         return StoredLoopPoint{{p.x(), p.y(), p.z(), PointId{next_id_ + i}}, {0, 0, 0}, 0.5f};
       });
       next_id_ += static_cast<std::uint64_t>(count);
+      level.loops.rate(level.loops.size() - 1, {.log_odds = loop.log_odds});
     }
     levels_.push_back(std::move(level));
   }
 
   std::vector<NearLoops> near() const { return near_loops(levels_, job_); }
-  std::vector<TrackedLoop> track_all() { return lacuna::track_all(levels_, near(), job_); }
   TrackedLoops track() { return track_loops(std::move(levels_), job_); }
 
  private:
@@ -106,34 +101,12 @@ TEST_CASE(
   CHECK(tracked.loops.count(0) == 125);  // one apart
   CHECK(tracked.tracks[0].first_scale == 0);
   CHECK(tracked.tracks[0].last_scale == 4);
-  CHECK(tracked.tracks[0].persistence == 2);
   CHECK(tracked.tracks[0].confidence > 0.9);
-}
-
-TEST_CASE("every loop of every level has its own surface, and the best and the last level of its track") {
-  Drawn drawn;
-  drawn.add(0, {{{0, 0, 0}, 20, DrawnLoop::unsure()}, {{100, 0, 0}, 20, DrawnLoop::unsure()}});
-  drawn.add(2, {{{0, 0, 0}, 20}});
-  const std::vector<TrackedLoop> loops = drawn.track_all();
-  REQUIRE(loops.size() == 3);
-  const auto& [fine, other, coarse] = std::tie(loops[0], loops[1], loops[2]);
-  CHECK(fine.evidence.surface == 0.5);
-  CHECK(fine.evidence.best == Approx(0.9 * 0.9));
-  CHECK(fine.evidence.persistence == 1);
-  CHECK(fine.evidence.is_first_level);
-  CHECK(fine.last == 1);
-  CHECK(other.evidence.best == Approx(0.6 * 0.5));
-  CHECK(other.evidence.persistence == 0);
-  CHECK(other.last == 0);
-  CHECK(coarse.evidence.surface == 0.9);
-  CHECK(coarse.evidence.best == fine.evidence.best);
-  CHECK(coarse.first == 0);
-  CHECK(coarse.log_odds == log_odds(coarse.evidence));
 }
 
 TEST_CASE("a coarse loop stands where the fine ones at its place are unsure") {
   Drawn drawn;
-  drawn.add(0, {{{0, 0, 0}, 20, DrawnLoop::unsure()}});
+  drawn.add(0, {{{0, 0, 0}, 20, DrawnLoop::kUnsure}});
   drawn.add(2, {{{0, 0, 0}, 20}});
   const TrackedLoops tracked = drawn.track();
   REQUIRE(tracked.loops.size() == 1);
@@ -142,77 +115,12 @@ TEST_CASE("a coarse loop stands where the fine ones at its place are unsure") {
   CHECK(tracked.tracks[0].last_scale == 2);
 }
 
-TEST_CASE("the best level of a track speaks for all of its loops") {
-  Config all;
-  all.selection.min_confidence = 0;
-  Drawn alone(all), tracked(all);
-  DrawnLoop dim{{0, 0, 0}, 20};
-  dim.evidence.clearness = 0.7;
-  alone.add(1, {dim});
-  tracked.add(1, {dim});
-  tracked.add(1.41, {{{0, 0, 0}, 20}});
-  const TrackedLoops a = alone.track(), b = tracked.track();
-  REQUIRE(a.loops.size() == 1);
-  REQUIRE(b.loops.size() == 1);
-  CHECK(a.loops.count(0) == b.loops.count(0));
-  CHECK(b.tracks[0].confidence > a.tracks[0].confidence);
-}
-
 TEST_CASE("of a fine and a coarse bound at one level, the fine loop stands where both are sure") {
   Drawn drawn;
-  drawn.add(0, {{{0, 0, 0}, 20, DrawnLoop::sure(true)}, {{0, 0, 0}, 20.4}});
+  drawn.add(0, {{{0, 0, 0}, 20, DrawnLoop::kSure, true}, {{0, 0, 0}, 20.4}});
   const TrackedLoops tracked = drawn.track();
   REQUIRE(tracked.loops.size() == 1);
   CHECK(tracked.loops.count(0) == 128);
-}
-
-TEST_CASE("log-odds rise with surface, persistence and roundness, and fall with gaps of the sampling") {
-  const TrackEvidence plain{.clearness = 0.6,
-                            .surface = 0.8,
-                            .sampling_gap = 0.55,
-                            .width = 5,
-                            .roundness = 0.5,
-                            .best = 0.6,
-                            .persistence = 0.5,
-                            .is_first_level = true};
-  const auto with = [&](auto change) {
-    TrackEvidence changed = plain;
-    change(changed);
-    return log_odds(changed);
-  };
-  const double before = log_odds(plain);
-  CHECK(with([](TrackEvidence& e) { e.best = 0.7; }) > before);
-  CHECK(with([](TrackEvidence& e) { e.persistence = 1.5; }) > before);
-  CHECK(with([](TrackEvidence& e) { e.persistence = 2; }) ==
-        with([](TrackEvidence& e) { e.persistence = 9; }));
-  CHECK(with([](TrackEvidence& e) { e.roundness = 0.9; }) > before);
-  CHECK(with([](TrackEvidence& e) { e.sampling_gap = 0.7; }) < before);
-  // Even sampling at the first level is enough.
-  const auto even = [](TrackEvidence& e) {
-    e.surface = 0.85;
-    e.clearness = 0.7;
-    e.persistence = 0;
-    e.sampling_gap = 0.7;
-  };
-  CHECK(with(even) == Approx(25 * 0.05));
-  CHECK(with([&](TrackEvidence& e) {
-          even(e);
-          e.is_first_level = false;
-        }) < 0);
-  CHECK(with([&](TrackEvidence& e) {
-          even(e);
-          e.width = 9;  // it would persist
-        }) < 0);
-  CHECK(probability_of(0) == 0.5);
-  CHECK(probability_of(2) + probability_of(-2) == Approx(1));
-}
-
-TEST_CASE("a circle is round, a wide river half round, and a slit of the sampling is not") {
-  const double pi = std::numbers::pi;
-  CHECK(roundness(2 * pi * 5, pi * 25, 5) == Approx(1));
-  CHECK(roundness(2000, 1000 * 16, 16) == 0.5);
-  CHECK(roundness(2000, 1000 * 4, 4) == Approx(0.25));
-  CHECK(roundness(2000, 1000 * 0.5, 0.5) == Approx(1. / 32));
 }
 
 TEST_CASE("a higher --min-confidence leaves loops out, and changes none") {

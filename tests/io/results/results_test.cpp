@@ -95,7 +95,9 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
   CHECK(json.at("loops")[1].at("area").is_null());
   CHECK_THAT(read_file(folder / "holes.json"),
              Contains("\n    "
-                      "{\"id\":0,\"kind\":\"hole\",\"parent\":null,\"confidence\":1.0,\"persistence\":0.0,"
+                      "{\"id\":0,\"kind\":\"hole\",\"parent\":null,\"confidence\":1.0,\"emptiness\":1.0,"
+                      "\"evidence\":{\"clearness\":1.0,\"surface\":1.0,\"sampling_gap\":0.0,\"width\":0.0,"
+                      "\"roundness\":0.0},"
                       "\"first_scale\":0."
                       "0,\"last_scale\":0.0,"
                       "\"perimeter\":0.1,\"area\":0.0,\"diameter\":0.0,\"planarity\":0.0,\"mean_"
@@ -104,7 +106,7 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
                       "\"coordinates\":[[0.1,2.0,3.0],[0.5,2.0,3.0],[0.30000000000000004,2.0,3.0]]},\n"));
   CHECK_THAT(
       read_file(folder / "holes.csv"),
-      Contains("\n0,hole,,3,1,0,0,0,0.1,0,0,0,0,,,,,,1,2,3,0,0,1,,,,\n1,outer,,4,1,0,0,0,0.1,,0,0,0,,,,,"
+      Contains("\n0,hole,,3,1,1,0,0,0.1,0,0,0,0,,,,,,1,2,3,0,0,1,,,,\n1,outer,,4,1,1,0,0,0.1,,0,0,0,,,,,"
                ",1,2,3,0,0,1,,,,\n"));
   config.output.no_coordinates = true;
   write_results(detection, scan, config, folder.path());

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// rate_loops: finds how sure it is that each loop of a level is true (method.md, D.3).
+#pragma once
+
+#include "engine/loops/loops.hpp"
+#include "engine/run/job.hpp"
+#include "engine/store/tile_store.hpp"
+
+namespace lacuna {
+
+// Fills in the ratings. `points`: of the level. Cost: `emptiness` of each hole.
+void rate_loops(const TileStore& points, Loops& loops, Job& job);
+
+}  // namespace lacuna
