@@ -157,7 +157,7 @@ TEST_CASE("a loop of two hundred thousand points stays within the memory limit")
   const std::string scan = write_scan(scratch, folded_strip(100, 1000)), out = (scratch / "out").string();
   const test::ProgramResult result =
       test::run_program({"detect", scan, "--out", out, "--quiet", "--threads", "2", "--memory-limit", "64MiB",
-                         "--obj", "--min-confidence", "0"});
+                         "--obj", "--min-confidence", "0", "--every-point"});
   INFO(result.err);
   REQUIRE(result.exit_code == 0);
   CAPTURE(result.peak_memory >> 20);  // MiB
