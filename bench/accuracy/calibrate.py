@@ -180,7 +180,8 @@ def terms(loop):
     """As `log_odds` in engine/loops/confidence.cpp has them."""
     evidence = loop["evidence"]
     return (min(evidence["clearness"], 0.7), evidence["surface"], evidence["roundness"],
-            octaves(min(max(evidence["width"], 0.5), 8)), evidence["sampling_gap"], 1.0)
+            octaves(min(max(evidence["width"], 0.5), 8)), evidence["sampling_gap"],
+            min(evidence["persistence"], 2.0), 1.0)
 
 
 def of_emptiness(loop):
@@ -189,7 +190,7 @@ def of_emptiness(loop):
 
 
 def formula(coefficients):
-    names = ("clearness", "surface", "roundness", "width", "sampling_gap", "1")
+    names = ("clearness", "surface", "roundness", "width", "sampling_gap", "persistence", "1")
     return " ".join(f"{coefficient:+.2f} {name}" for coefficient, name in zip(coefficients, names))
 
 

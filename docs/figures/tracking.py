@@ -214,14 +214,14 @@ def octaves(ratio):
     return power - 1 + 2 * mantissa - 1
 
 
-def log_odds(loop, points):
-    """`points`: of the loop's level."""
+def own_log_odds(loop, points):
+    """Without the persistence. `points`: of the loop's level."""
     centroid, area, length, is_hole = shape_of(loop)
     size = norm(area)
     empty = (emptiness(loop, centroid, area, points) if size > 0 else 0.0) if is_hole else 1.0
     width = 2 * size / length / loop.spacing
-    return (14.6 * min(loop.clearness, 0.7) + 9.5 * loop.surface + 4.2 * math.sqrt(4 * math.pi * size) / length
-            + 1.4 * octaves(min(max(width, 0.5), 8.0)) - 12.7 * loop.gap - 15.8 + 20 * (min(empty, 0.8) - 0.8))
+    return (12.4 * min(loop.clearness, 0.7) + 9.3 * loop.surface + 4.1 * math.sqrt(4 * math.pi * size) / length
+            + octaves(min(max(width, 0.5), 8.0)) - 12.4 * loop.gap - 14.1 + 20 * (min(empty, 0.8) - 0.8))
 
 
 def rated(levels):
@@ -230,8 +230,7 @@ def rated(levels):
     for i, (surface, _) in enumerate(levels):
         of_level = loops_of(surface, i)
         for loop in of_level:
-            loop.odds = log_odds(loop, surface.points)
-            loop.confidence = 1 / (1 + math.exp(-loop.odds))
+            loop.odds = own_log_odds(loop, surface.points)
         loops += of_level
     edges = [edge for _, edge in levels]
     first = median([e.r for e in levels[0][0].evaluations]) / DISTANCE_OVER_SPACING
@@ -244,6 +243,9 @@ def rated(levels):
         firsts[b] = min(firsts[b], firsts[a])
     for i, loop in enumerate(loops):
         loop.first, loop.last = edges[firsts[i]], edges[lasts[i]]
+        persistence = octaves(loop.last / loop.spacing) if loop.last > loop.spacing else 0.0
+        loop.odds += 0.8 * min(persistence, 2)
+        loop.confidence = 1 / (1 + math.exp(-loop.odds))
     return loops, near, [min(x.odds, 4) - 0.8 * (x.level + 0.5 * x.scale) for x in loops]
 
 

@@ -6,6 +6,10 @@
 
 namespace lacuna {
 
+// Returns the logarithm to the base 2, by straight lines between powers of two: within 0.09, and the same on
+// every machine.
+double octaves(double ratio);
+
 // Returns the logarithm of the odds.
 double log_odds(const LoopEvidence& evidence);
 

@@ -47,12 +47,6 @@ struct CurveEvidence {
   }
 };
 
-// How sure it is that a loop is true, and why (engine/loops/rate_loops.hpp).
-struct LoopRating {
-  LoopEvidence evidence;
-  double log_odds = 0;
-};
-
 class Loops {
  public:
   explicit Loops(std::filesystem::path file) : points_(std::move(file)) {}
@@ -67,8 +61,8 @@ class Loops {
   std::uint64_t points() const { return points_.size(); }  // of all loops
   std::uint64_t count(std::size_t loop) const { return index_[loop].count; }
   const CurveEvidence& evidence(std::size_t loop) const { return index_[loop].evidence; }
-  const LoopRating& rating(std::size_t loop) const { return index_[loop].rating; }
-  void rate(std::size_t loop, const LoopRating& rating) { index_[loop].rating = rating; }
+  const LoopEvidence& rating(std::size_t loop) const { return index_[loop].rating; }  // without persistence
+  void rate(std::size_t loop, const LoopEvidence& rating) { index_[loop].rating = rating; }
   // Reads the points of a loop. `to` has the size of the loop.
   void read(std::size_t loop, std::span<StoredLoopPoint> to) const { points_.read(index_[loop].first, to); }
   // Calls visit for the points, in the order of the loop, in blocks.
@@ -83,7 +77,7 @@ class Loops {
     std::uint64_t first, count;  // of its points
     PointId first_id;
     CurveEvidence evidence;
-    LoopRating rating = {};
+    LoopEvidence rating = {};
   };
   static int compare(const Loops& a, const Entry& i, const Loops& b, const Entry& j);
 

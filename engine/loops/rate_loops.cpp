@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/loops/rate_loops.hpp"
 
-#include "engine/loops/confidence.hpp"
 #include "engine/loops/emptiness.hpp"
 #include "engine/loops/measure_loop.hpp"
 
@@ -21,7 +20,7 @@ void rate_loops(const TileStore& points, Loops& loops, Job& job) {
                           .roundness = std::sqrt(4 * std::numbers::pi * shape.area) / shape.perimeter};
     if (shape.kind == LoopKind::kHole)
       evidence.emptiness = emptiness(points, loop, shape, curve.spacing, scratch);
-    loops.rate(i, {evidence, log_odds(evidence)});
+    loops.rate(i, evidence);
   });
 }
 

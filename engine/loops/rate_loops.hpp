@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// rate_loops: finds how sure it is that each loop of a level is true (method.md, D.3).
+// rate_loops: collects the evidence of each loop that its level has (method.md, D.3).
 #pragma once
 
 #include "engine/loops/loops.hpp"
@@ -8,7 +8,8 @@
 
 namespace lacuna {
 
-// Fills in the ratings. `points`: of the level. Cost: `emptiness` of each hole.
+// Fills in the ratings, without the persistence, which tracking finds. `points`: of the level. Cost:
+// `emptiness` of each hole.
 void rate_loops(const TileStore& points, Loops& loops, Job& job);
 
 }  // namespace lacuna

@@ -39,6 +39,7 @@ struct LoopEvidence {
   double width = 0;         // 2 area / perimeter, in spacings of the points along the loop
   double roundness = 0;     // perimeter of the circle of the same area over its own, [0, 1]
   double emptiness = 1;     // of the space over the lid of a hole, [0, 1]; 1 for an outer curve
+  double persistence = 0;   // octaves from the spacing along the loop to the last scale, 0 or more
 };
 
 // How sure a loop is, and the levels at which it is found. Lengths are in units of the scan.

@@ -18,6 +18,8 @@ namespace {
 struct TrackedLoop {
   std::uint32_t level, loop;  // the number within the level
   std::uint32_t first, last;
+  LoopEvidence evidence = {};
+  double log_odds = 0;
 };
 
 // Returns all loops as `near_loops` numbers them, each with a track of its own.
@@ -43,15 +45,25 @@ void follow(std::span<const NearLoops> pairs, std::vector<TrackedLoop>& loops) {
     loops[link.b].first = std::min(loops[link.b].first, loops[link.a].first);
 }
 
+// Adds the persistence to the evidence: 0 where the track ends at all points, or before the spacing.
+void rate(std::span<const LevelLoops> levels, std::vector<TrackedLoop>& loops) {
+  for (TrackedLoop& loop : loops) {
+    const Loops& of_level = levels[loop.level].loops;
+    const double spacing = of_level.evidence(loop.loop).spacing, edge = levels[loop.last].edge;
+    loop.evidence = of_level.rating(loop.loop);
+    if (edge > spacing) loop.evidence.persistence = octaves(edge / spacing);
+    loop.log_odds = log_odds(loop.evidence);
+  }
+}
+
 // By loop: the loops of the highest rank are chosen first.
 std::vector<double> ranks_of(std::span<const LevelLoops> levels, std::span<const TrackedLoop> loops) {
   constexpr double kSure = 4;         // log-odds from which on loops are equally good
   constexpr double kLevelCost = 0.8;  // of a level, in log-odds: fine curves are closer to the hole
   std::vector<double> ranks;
   for (const TrackedLoop& loop : loops) {
-    const Loops& of_level = levels[loop.level].loops;
-    const double steps = loop.level + 0.5 * of_level.evidence(loop.loop).is_coarse;
-    ranks.push_back(std::min(of_level.rating(loop.loop).log_odds, kSure) - kLevelCost * steps);
+    const bool is_coarse = levels[loop.level].loops.evidence(loop.loop).is_coarse;
+    ranks.push_back(std::min(loop.log_odds, kSure) - kLevelCost * (loop.level + 0.5 * is_coarse));
   }
   return ranks;
 }
@@ -120,12 +132,10 @@ TrackedLoops track_loops(std::vector<LevelLoops> levels, Job& job) {
   const std::vector<NearLoops> pairs = near_loops(levels, job);
   std::vector<TrackedLoop> loops = loops_of(levels);
   follow(pairs, loops);
+  rate(levels, loops);
   std::vector<std::uint32_t> chosen = choose(pairs, ranks_of(levels, loops));
   const double min_confidence = job.config.selection.min_confidence;
-  const auto rating = [&](std::uint32_t i) -> const LoopRating& {
-    return levels[loops[i].level].loops.rating(loops[i].loop);
-  };
-  std::erase_if(chosen, [&](std::uint32_t i) { return probability_of(rating(i).log_odds) < min_confidence; });
+  std::erase_if(chosen, [&](std::uint32_t i) { return probability_of(loops[i].log_odds) < min_confidence; });
   // At most one of several loops with the same points is chosen.
   std::sort(chosen.begin(), chosen.end(), [&](std::uint32_t x, std::uint32_t y) {
     return compare_points(levels[loops[x].level].loops, loops[x].loop, levels[loops[y].level].loops,
@@ -136,8 +146,8 @@ TrackedLoops track_loops(std::vector<LevelLoops> levels, Job& job) {
   for (const std::uint32_t i : chosen) {
     const TrackedLoop& loop = loops[i];
     tracked.loops.chosen.push_back({loop.level, loop.loop});
-    tracked.tracks.push_back({.confidence = probability_of(rating(i).log_odds),
-                              .evidence = rating(i).evidence,
+    tracked.tracks.push_back({.confidence = probability_of(loop.log_odds),
+                              .evidence = loop.evidence,
                               .first_scale = levels[loop.first].edge,
                               .last_scale = levels[loop.last].edge});
   }

@@ -119,11 +119,9 @@ void write_list(std::string_view key, OutputFile& out,
 }
 
 Json evidence_json(const LoopEvidence& evidence) {
-  return {{"clearness", evidence.clearness},
-          {"surface", evidence.surface},
-          {"sampling_gap", evidence.sampling_gap},
-          {"width", evidence.width},
-          {"roundness", evidence.roundness}};
+  return {{"clearness", evidence.clearness},       {"surface", evidence.surface},
+          {"sampling_gap", evidence.sampling_gap}, {"width", evidence.width},
+          {"roundness", evidence.roundness},       {"persistence", evidence.persistence}};
 }
 
 // Writes point by point, since a loop may be larger than memory.

@@ -1081,14 +1081,14 @@ double emptiness(const FoundLoop& loop, const Shape& shape, const Positions& poi
   return sum_to_loop > 0 ? sum / sum_to_loop : 1;
 }
 
-// The logarithm of the odds that the loop is true. `points`: of its level.
-double log_odds(const FoundLoop& loop, const Positions& points) {
+// The logarithm of the odds that the loop is true, without its persistence. `points`: of its level.
+double own_log_odds(const FoundLoop& loop, const Positions& points) {
   const Shape shape = shape_of(loop);
   const double area = shape.area.stableNorm(), width = 2 * area / shape.length / loop.spacing;
   const double empty = shape.is_hole ? emptiness(loop, shape, points) : 1;
-  return 14.6 * std::min(loop.clearness, 0.7) + 9.5 * loop.surface +
-         4.2 * std::sqrt(4 * pi * area) / shape.length + 1.4 * octaves(std::clamp(width, 0.5, 8.)) -
-         12.7 * loop.sampling_gap - 15.8 + 20 * (std::min(empty, 0.8) - 0.8);
+  return 12.4 * std::min(loop.clearness, 0.7) + 9.3 * loop.surface +
+         4.1 * std::sqrt(4 * pi * area) / shape.length + octaves(std::clamp(width, 0.5, 8.)) -
+         12.4 * loop.sampling_gap - 14.1 + 20 * (std::min(empty, 0.8) - 0.8);
 }
 
 struct Tracked {
@@ -1096,8 +1096,8 @@ struct Tracked {
   std::vector<double> confidences;
 };
 
-// `cells`: edges of the lattices on which loops are compared, by level.
-Tracked track(const Loops& loops, const std::vector<double>& cells) {
+// `edges`, and the edges of the lattices on which loops are compared: by level.
+Tracked track(const Loops& loops, const std::vector<double>& edges, const std::vector<double>& cells) {
   const std::size_t count = loops.size();
   std::vector<std::vector<float>> near(count,
                                        std::vector<float>(count, 0));  // share of the first, near the second
@@ -1112,10 +1112,17 @@ Tracked track(const Loops& loops, const std::vector<double>& cells) {
     }
   }
   const auto is_same = [&](std::size_t a, std::size_t b) { return near[a][b] >= 0.7f && near[b][a] >= 0.7f; };
-  std::vector<double> ranks(count);
-  for (std::size_t i = 0; i < count; ++i)
-    ranks[i] = std::min(loops[i].log_odds, 4.) -
-               0.8 * (static_cast<double>(loops[i].level) + 0.5 * double(loops[i].scale == 1));
+  std::vector<std::size_t> last(count);
+  std::vector<double> odds(count), ranks(count);
+  for (std::size_t a = count; a-- > 0;) {
+    last[a] = loops[a].level;
+    for (std::size_t b = a + 1; b < count; ++b)
+      if (loops[a].level != loops[b].level && is_same(a, b)) last[a] = std::max(last[a], last[b]);
+    const double ratio = edges[last[a]] / loops[a].spacing;
+    odds[a] = loops[a].log_odds + 0.8 * (ratio > 1 ? std::min(octaves(ratio), 2.) : 0);
+    ranks[a] = std::min(odds[a], 4.) -
+               0.8 * (static_cast<double>(loops[a].level) + 0.5 * double(loops[a].scale == 1));
+  }
 
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -1145,7 +1152,7 @@ Tracked track(const Loops& loops, const std::vector<double>& cells) {
             [&](std::size_t a, std::size_t b) { return order_of(loops[a]) < order_of(loops[b]); });
   for (const std::size_t i : sorted) {
     tracked.loops.push_back(loops[i]);
-    tracked.confidences.push_back(1 / (1 + std::exp(-loops[i].log_odds)));
+    tracked.confidences.push_back(1 / (1 + std::exp(-odds[i])));
   }
   return tracked;
 }
@@ -1173,8 +1180,8 @@ double median_distance(const Detection& result) {
 void find_rims(Level level, const Config& config, Detection& result) {
   const bool has_levels = !config.scale.every_point && config.scale.resolution == 0;
   Loops loops = loops_of(level, 0, config, result);
-  for (FoundLoop& loop : loops) loop.log_odds = log_odds(loop, level.positions);
-  std::vector<double> cells = {median_distance(result) / 1.7};
+  for (FoundLoop& loop : loops) loop.log_odds = own_log_odds(loop, level.positions);
+  std::vector<double> edges = {0}, cells = {median_distance(result) / 1.7};
   if (has_levels) {
     Config one_eps = config;  // a length, alike at all levels
     one_eps.neighbourhood.eps = result.eps;
@@ -1184,12 +1191,13 @@ void find_rims(Level level, const Config& config, Detection& result) {
       level = *std::move(above);
       below = evaluated(level, one_eps);
       Loops of_level = loops_of(level, cells.size(), config, below);
-      for (FoundLoop& loop : of_level) loop.log_odds = log_odds(loop, level.positions);
+      for (FoundLoop& loop : of_level) loop.log_odds = own_log_odds(loop, level.positions);
       loops.insert(loops.end(), of_level.begin(), of_level.end());
+      edges.push_back(level.edge);
       cells.push_back(level.edge);
     }
   }
-  const Tracked tracked = track(loops, cells);
+  const Tracked tracked = track(loops, edges, cells);
   std::set<PointId> on_loop;
   for (std::size_t i = 0; i < tracked.loops.size(); ++i) {
     if (tracked.confidences[i] < config.selection.min_confidence) continue;

@@ -104,12 +104,14 @@ TEST_CASE("log-odds rise with each evidence of a hole, and fall with gaps of the
   CHECK(with([](LoopEvidence& e) { e.emptiness = 0.8; }) > before);
   CHECK(with([](LoopEvidence& e) { e.roundness = 0.9; }) > before);
   CHECK(with([](LoopEvidence& e) { e.width = 5; }) > before);
+  CHECK(with([](LoopEvidence& e) { e.persistence = 1; }) > before);
   CHECK(with([](LoopEvidence& e) { e.sampling_gap = 0.6; }) < before);
   // Beyond these, a number says nothing more.
   CHECK(with([](LoopEvidence& e) { e.clearness = 0.7; }) == with([](LoopEvidence& e) { e.clearness = 1; }));
   CHECK(with([](LoopEvidence& e) { e.emptiness = 0.8; }) == with([](LoopEvidence& e) { e.emptiness = 1; }));
   CHECK(with([](LoopEvidence& e) { e.width = 8; }) == with([](LoopEvidence& e) { e.width = 800; }));
   CHECK(with([](LoopEvidence& e) { e.width = 0.5; }) == with([](LoopEvidence& e) { e.width = 0; }));
+  CHECK(with([](LoopEvidence& e) { e.persistence = 2; }) == with([](LoopEvidence& e) { e.persistence = 9; }));
   CHECK(probability_of(0) == 0.5);
   CHECK(probability_of(2) + probability_of(-2) == Approx(1));
 }

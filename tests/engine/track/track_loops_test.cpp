@@ -22,10 +22,10 @@ namespace {
 struct DrawnLoop {
   Eigen::Vector3d middle;
   double radius;
-  double log_odds = kSure;
+  double surface = kSure;
   bool is_coarse = false;
 
-  static constexpr double kSure = 5, kUnsure = -1;
+  static constexpr double kSure = 0.95, kUnsure = 0.35;  // surface shares
 };
 
 class Drawn {
@@ -38,7 +38,7 @@ class Drawn {
         .edge = edge, .cell_edge = edge > 0 ? edge : 1, .points = 1000, .loops = Loops(job_.file("drawn"))};
     for (const DrawnLoop& loop : loops) {
       const int count = std::max(8, static_cast<int>(2 * std::numbers::pi * loop.radius / level.cell_edge));
-      const CurveEvidence evidence{.is_coarse = loop.is_coarse};
+      const CurveEvidence evidence{.spacing = 1, .is_coarse = loop.is_coarse};
       level.loops.add(static_cast<std::uint64_t>(count), evidence, [&](std::uint64_t i) {
         const double angle = 2 * std::numbers::pi * static_cast<double>(i) / count;
         const Eigen::Vector3d p =
@@ -46,7 +46,9 @@ class Drawn {
         return StoredLoopPoint{{p.x(), p.y(), p.z(), PointId{next_id_ + i}}, {0, 0, 0}, 0.5f};
       });
       next_id_ += static_cast<std::uint64_t>(count);
-      level.loops.rate(level.loops.size() - 1, {.log_odds = loop.log_odds});
+      level.loops.rate(
+          level.loops.size() - 1,
+          {.clearness = 0.7, .surface = loop.surface, .sampling_gap = 0.5, .width = 8, .roundness = 1});
     }
     levels_.push_back(std::move(level));
   }
@@ -101,6 +103,7 @@ TEST_CASE(
   CHECK(tracked.loops.count(0) == 125);  // one apart
   CHECK(tracked.tracks[0].first_scale == 0);
   CHECK(tracked.tracks[0].last_scale == 4);
+  CHECK(tracked.tracks[0].evidence.persistence == 2);
   CHECK(tracked.tracks[0].confidence > 0.9);
 }
 
