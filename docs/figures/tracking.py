@@ -221,7 +221,7 @@ def own_log_odds(loop, points):
     empty = (emptiness(loop, centroid, area, points) if size > 0 else 0.0) if is_hole else 1.0
     width = 2 * size / length / loop.spacing
     return (12.4 * min(loop.clearness, 0.7) + 9.3 * loop.surface + 4.1 * math.sqrt(4 * math.pi * size) / length
-            + octaves(min(max(width, 0.5), 8.0)) - 12.4 * loop.gap - 14.1 + 20 * (min(empty, 0.8) - 0.8))
+            + octaves(min(max(width, 0.5), 8.0)) - 12.4 * loop.gap - 13.7 + 20 * (min(empty, 0.8) - 0.8))
 
 
 def rated(levels):

@@ -1088,7 +1088,7 @@ double own_log_odds(const FoundLoop& loop, const Positions& points) {
   const double empty = shape.is_hole ? emptiness(loop, shape, points) : 1;
   return 12.4 * std::min(loop.clearness, 0.7) + 9.3 * loop.surface +
          4.1 * std::sqrt(4 * pi * area) / shape.length + octaves(std::clamp(width, 0.5, 8.)) -
-         12.4 * loop.sampling_gap - 14.1 + 20 * (std::min(empty, 0.8) - 0.8);
+         12.4 * loop.sampling_gap - 13.7 + 20 * (std::min(empty, 0.8) - 0.8);
 }
 
 struct Tracked {
