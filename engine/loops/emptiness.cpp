@@ -160,7 +160,7 @@ class NearestPoint {
 double emptiness(const TileStore& points, std::span<const StoredLoopPoint> loop, const LoopShape& shape,
                  double spacing, Scratch& scratch) {
   constexpr double kDense = 0.8, kDeep = 4;  // spacings
-  if (!(shape.area > 0)) return 0;
+  if (!(shape.area > 0) || !std::isfinite(shape.area)) return 0;
   const Plane plane(shape);
   const std::vector<Eigen::Vector3d> places =
       lifted(nodes_within(loop, plane, shape.area, scratch), loop, plane, scratch);
