@@ -10,7 +10,6 @@ the evidence of each. Whether a loop is true is known from `lacuna-bench evaluat
 coefficients."""
 
 import argparse
-import csv
 import itertools
 import json
 import math

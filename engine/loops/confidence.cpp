@@ -7,6 +7,7 @@
 #include <cmath>
 
 namespace lacuna {
+
 double octaves(double ratio) {
   const int power = std::ilogb(ratio);
   return power + std::ldexp(ratio, -power) - 1;

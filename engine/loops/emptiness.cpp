@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/loops/emptiness.hpp"
 
+#include "engine/loops/loop_plane.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -17,20 +19,12 @@ namespace {
 
 using Points = std::span<const StoredLoopPoint>;
 
-// The plane of a loop. A lid is a height above it.
-struct Plane {
-  Eigen::Vector3d origin;
-  Eigen::Matrix3d axes;  // rows; the last one is the normal
-
-  explicit Plane(const LoopShape& shape) : origin(shape.centroid) {
-    Eigen::Index least = 0;
-    shape.normal.cwiseAbs().minCoeff(&least);
-    const Eigen::Vector3d across = shape.normal.cross(Eigen::Vector3d::Unit(least)).normalized();
-    axes << across.transpose(), shape.normal.cross(across).transpose(), shape.normal.transpose();
-  }
-  Eigen::Vector3d local(const StoredLoopPoint& p) const { return axes * (p.point.position() - origin); }
-  Eigen::Vector3d global(const Eigen::Vector3d& p) const { return origin + axes.transpose() * p; }
-};
+// A lid is a height above this plane.
+LoopPlane plane_of(const LoopShape& shape) {
+  Eigen::Index least = 0;
+  shape.normal.cwiseAbs().minCoeff(&least);
+  return {shape.centroid, shape.normal, shape.normal.cross(Eigen::Vector3d::Unit(least)).normalized()};
+}
 
 // A grid of nodes in a plane over the box of a loop.
 struct Grid {
@@ -53,17 +47,18 @@ struct Grid {
 };
 
 // Returns the nodes of a grid that lie within the loop: with an odd number of edges to their right.
-std::vector<Eigen::Vector2d> nodes_within(Points loop, const Plane& plane, double area, Scratch& scratch) {
+std::vector<Eigen::Vector2d> nodes_within(Points loop, const LoopPlane& plane, double area,
+                                          Scratch& scratch) {
   constexpr double kPlaces = 64, kMostNodes = 4096;
   Eigen::AlignedBox2d box;
-  scratch.for_each(loop, [&](const StoredLoopPoint& p) { box.extend(plane.local(p).head<2>()); });
+  scratch.for_each(loop, [&](const StoredLoopPoint& p) { box.extend(plane(p.point.position()).head<2>()); });
   const Eigen::Vector2d size = box.sizes();
   const Grid grid(box, std::max(std::sqrt(std::max(area / kPlaces, size.prod() / kMostNodes)),
                                 size.maxCoeff() / kMostNodes));
   std::vector<std::uint8_t> is_within(grid.columns * grid.rows);
-  Eigen::Vector2d a = plane.local(loop.back()).head<2>();
+  Eigen::Vector2d a = plane(loop.back().point.position()).head<2>();
   scratch.for_each(loop, [&](const StoredLoopPoint& p) {
-    const Eigen::Vector2d b = plane.local(p).head<2>();
+    const Eigen::Vector2d b = plane(p.point.position()).head<2>();
     const std::size_t last = grid.first_row_above(std::max(a.y(), b.y()));
     for (std::size_t row = grid.first_row_above(std::min(a.y(), b.y())); row < last; ++row) {
       const double x = a.x() + (grid.y(row) - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
@@ -83,18 +78,18 @@ std::vector<Eigen::Vector2d> nodes_within(Points loop, const Plane& plane, doubl
 
 // Lifts nodes to the lid: to the height of the loop, weighted by the inverse squared distance (Shepard, *A
 // two-dimensional interpolation function*, 1968).
-std::vector<Eigen::Vector3d> lifted(std::span<const Eigen::Vector2d> nodes, Points loop, const Plane& plane,
-                                    Scratch& scratch) {
+std::vector<Eigen::Vector3d> lifted(std::span<const Eigen::Vector2d> nodes, Points loop,
+                                    const LoopPlane& plane, Scratch& scratch) {
   constexpr double kLeast = 1e-300;                                          // a node may lie on a point
   std::vector<Eigen::Vector2d> sums(nodes.size(), Eigen::Vector2d::Zero());  // of weights, and of heights
   scratch.for_each(loop, [&](const StoredLoopPoint& p) {
-    const Eigen::Vector3d at = plane.local(p);
+    const Eigen::Vector3d at = plane(p.point.position());
     for (std::size_t i = 0; i < nodes.size(); ++i)
       sums[i] += Eigen::Vector2d(1, at.z()) / std::max((nodes[i] - at.head<2>()).squaredNorm(), kLeast);
   });
   std::vector<Eigen::Vector3d> places;
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    places.push_back(plane.global({nodes[i].x(), nodes[i].y(), sums[i].y() / sums[i].x()}));
+    places.push_back(plane.point_at({nodes[i].x(), nodes[i].y(), sums[i].y() / sums[i].x()}));
   return places;
 }
 
@@ -161,7 +156,7 @@ double emptiness(const TileStore& points, std::span<const StoredLoopPoint> loop,
                  double spacing, Scratch& scratch) {
   constexpr double kDense = 0.8, kDeep = 4;  // spacings
   if (!(shape.area > 0) || !std::isfinite(shape.area)) return 0;
-  const Plane plane(shape);
+  const LoopPlane plane = plane_of(shape);
   const std::vector<Eigen::Vector3d> places =
       lifted(nodes_within(loop, plane, shape.area, scratch), loop, plane, scratch);
   const std::vector<double> to_loop = squared_distances(places, loop, scratch);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/loops/nest_loops.hpp"
 
+#include "engine/loops/loop_plane.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,20 +40,6 @@ std::span<LoopSample> sample_loops(const MeasuredLoops& loops, Job& job, Scratch
   });
   return samples;
 }
-
-// The plane through a loop's centroid. Its third axis is the loop's normal.
-class LoopPlane {
- public:
-  explicit LoopPlane(const LoopMeasures& loop) : origin_(loop.centroid) {
-    const Eigen::Vector3d right = loop.normal.unitOrthogonal();
-    axes_ << right, loop.normal.cross(right), loop.normal;
-  }
-  Eigen::Vector3d operator()(const Eigen::Vector3d& p) const { return axes_.transpose() * (p - origin_); }
-
- private:
-  Eigen::Vector3d origin_;
-  Eigen::Matrix3d axes_;
-};
 
 // A sample of a loop that may be inside another one, in the other one's plane.
 struct Inside {
@@ -133,7 +121,8 @@ bool may_be_around(const LoopMeasures& loop, const LoopMeasures& other) {
 std::vector<std::size_t> loops_inside(const MeasuredLoops& loops, std::size_t polygon,
                                       std::span<const std::size_t> others,
                                       std::span<const LoopSample> samples) {
-  const LoopPlane plane(loops.measures[polygon]);
+  const auto& [centroid, normal] = std::tie(loops.measures[polygon].centroid, loops.measures[polygon].normal);
+  const LoopPlane plane(centroid, normal, normal.unitOrthogonal());
   std::vector<Inside> inside;
   for (const std::size_t loop : others) {
     for (const LoopSample& sample : samples.subspan(kSamples * loop, sample_count(loops.measures[loop])))

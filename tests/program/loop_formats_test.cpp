@@ -21,7 +21,7 @@ using test::read_file;
 using Point = std::array<double, 3>;
 
 const std::vector<std::string> kMeasures{"points",     "confidence",      "emptiness", "first_scale",
-                                         "last_scale", "perimeter",       "area",        "diameter",
+                                         "last_scale", "perimeter",       "area",      "diameter",
                                          "planarity",  "mean_probability"};
 
 // What holes.json and OBJ say of a loop.

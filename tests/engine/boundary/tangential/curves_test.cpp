@@ -80,7 +80,7 @@ std::vector<std::vector<CurvePoint>> split(const std::vector<CurvePoint>& curve,
 }
 
 CurveEvidence evidence(const std::vector<CurvePoint>& curve, const TangentialConfig& config,
-                      Scale scale = Scale::kFine) {
+                       Scale scale = Scale::kFine) {
   const test::ScratchFolder folder;
   Scratch scratch(folder.path(), 1 << 20);
   return evidence_of(curve, scale, config, scratch);
