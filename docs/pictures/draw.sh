@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Draws the pictures of README.md, choosing.md and examples.md into this folder, and prints what
+# Draws the pictures of README.md, choosing.md, confidence.md and examples.md into this folder, and prints what
 # `lacuna-bench evaluate` says of each synthetic scan.
 #
 #     docs/pictures/draw.sh build/lacuna build/lacuna-bench [FOLDER]
 #
-# FOLDER has the real scans: autzen_trim.laz and dragon_30scans_793k.ply, 30 registered scans of Stanford's
-# dragon. Without it, their pictures stay.
+# FOLDER has the real scans: autzen_trim.laz and its part autzen_river.ply, and dragon_30scans_793k.ply,
+# 30 registered scans of Stanford's dragon. Without it, their pictures stay.
 set -euo pipefail
 
 lacuna=$(realpath "$1")
@@ -72,6 +72,8 @@ fi
 if [[ -n $scans ]]; then
   detect ground "$scans/autzen_trim.laz" --where 'Classification == 2'
   render ground --view top --size 760x420
+  detect river "$scans/autzen_river.ply"
+  render river --view top --size 560x490
   detect dragon "$scans/dragon_30scans_793k.ply"
   render dragon --size 760x520
 fi

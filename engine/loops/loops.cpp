@@ -5,7 +5,7 @@
 
 namespace lacuna {
 
-void Loops::add(std::uint64_t count, const CurveEvidence& evidence,
+void Loops::add(std::uint64_t count, const LoopEvidence& evidence,
                 const std::function<StoredLoopPoint(std::uint64_t)>& point) {
   const std::lock_guard lock(*mutex_);
   index_.push_back({points_.size(), count, point(0).point.id, evidence});

@@ -32,27 +32,12 @@ inline LoopPoint loaded(const StoredLoopPoint& p) {
   return {p.point.id, p.point.position(), {p.surface[0], p.surface[1], p.surface[2]}, p.probability};
 }
 
-// What a method finds of a loop's curve (method.md, C.6). The paper's method does not measure it.
-struct CurveEvidence {
-  double clearness = 1;     // of its wedges, [0, 1]
-  double surface = 1;       // how much the neighbourhoods around it resemble a surface, [0, 1]
-  double spacing = 0;       // of the points along it; a length
-  double sampling_gap = 0;  // sampling radius over the distance to the neighbours, along it
-  bool is_coarse = false;   // found within the coarse bound
-
-  // Returns whether the loop may be reported. Other loops are gaps of the sampling.
-  bool may_be_hole() const {
-    constexpr double kLeastClearness = 0.5, kLeastSurface = 0.3;
-    return clearness >= kLeastClearness && surface >= kLeastSurface;
-  }
-};
-
 class Loops {
  public:
   explicit Loops(std::filesystem::path file) : points_(std::move(file)) {}
 
   // Adds a loop. point(i): point i of `count` points. From any thread.
-  void add(std::uint64_t count, const CurveEvidence& evidence,
+  void add(std::uint64_t count, const LoopEvidence& evidence,
            const std::function<StoredLoopPoint(std::uint64_t)>& point);
   // Numbers the loops in the order of (first id, length, ids), a fine loop before the same coarse one.
   void sort();
@@ -60,9 +45,8 @@ class Loops {
   std::size_t size() const { return index_.size(); }
   std::uint64_t points() const { return points_.size(); }  // of all loops
   std::uint64_t count(std::size_t loop) const { return index_[loop].count; }
-  const CurveEvidence& evidence(std::size_t loop) const { return index_[loop].evidence; }
-  const LoopEvidence& rating(std::size_t loop) const { return index_[loop].rating; }  // without persistence
-  void rate(std::size_t loop, const LoopEvidence& rating) { index_[loop].rating = rating; }
+  const LoopEvidence& evidence(std::size_t loop) const { return index_[loop].evidence; }
+  void set_evidence(std::size_t loop, const LoopEvidence& evidence) { index_[loop].evidence = evidence; }
   // Reads the points of a loop. `to` has the size of the loop.
   void read(std::size_t loop, std::span<StoredLoopPoint> to) const { points_.read(index_[loop].first, to); }
   // Calls visit for the points, in the order of the loop, in blocks.
@@ -76,8 +60,7 @@ class Loops {
   struct Entry {
     std::uint64_t first, count;  // of its points
     PointId first_id;
-    CurveEvidence evidence;
-    LoopEvidence rating = {};
+    LoopEvidence evidence;
   };
   static int compare(const Loops& a, const Entry& i, const Loops& b, const Entry& j);
 

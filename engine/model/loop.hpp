@@ -33,13 +33,24 @@ constexpr const char* name_of(LoopKind kind) {
 
 // What confidence is computed from (method.md, D.3). The method "paper" measures none of it.
 struct LoopEvidence {
+  // The curve (method.md, C.6).
   double clearness = 1;     // how much empty circles along the loop exceed those around it, [0, 1]
   double surface = 1;       // how much the neighbourhoods along it resemble a surface, [0, 1]
+  double spacing = 0;       // of the points along it; a length
   double sampling_gap = 0;  // radius of empty circles of the sampling over the distance to the neighbours
-  double width = 0;         // 2 area / perimeter, in spacings of the points along the loop
-  double roundness = 0;     // perimeter of the circle of the same area over its own, [0, 1]
-  double emptiness = 1;     // of the space over the lid of a hole, [0, 1]; 1 for an outer curve
-  double persistence = 0;   // octaves from the spacing along the loop to the last scale, 0 or more
+  bool is_coarse = false;   // found within the coarse bound
+  // The loop among the points of its level.
+  double width = 0;      // 2 area / perimeter, in spacings
+  double roundness = 0;  // perimeter of the circle of the same area over its own, [0, 1]
+  double emptiness = 1;  // of the space over the lid of a hole, [0, 1]; 1 for an outer curve
+  // The track.
+  double persistence = 0;  // octaves from the spacing to the last scale, 0 or more
+
+  // Returns whether the loop may be reported. Other loops are gaps of the sampling.
+  bool may_be_hole() const {
+    constexpr double kLeastClearness = 0.5, kLeastSurface = 0.3;
+    return clearness >= kLeastClearness && surface >= kLeastSurface;
+  }
 };
 
 // How sure a loop is, and the levels at which it is found. Lengths are in units of the scan.

@@ -48,22 +48,21 @@ void follow(std::span<const NearLoops> pairs, std::vector<TrackedLoop>& loops) {
 // Adds the persistence to the evidence: 0 where the track ends at all points, or before the spacing.
 void rate(std::span<const LevelLoops> levels, std::vector<TrackedLoop>& loops) {
   for (TrackedLoop& loop : loops) {
-    const Loops& of_level = levels[loop.level].loops;
-    const double spacing = of_level.evidence(loop.loop).spacing, edge = levels[loop.last].edge;
-    loop.evidence = of_level.rating(loop.loop);
+    loop.evidence = levels[loop.level].loops.evidence(loop.loop);
+    const double spacing = loop.evidence.spacing, edge = levels[loop.last].edge;
     if (edge > spacing) loop.evidence.persistence = octaves(edge / spacing);
     loop.log_odds = log_odds(loop.evidence);
   }
 }
 
 // By loop: the loops of the highest rank are chosen first.
-std::vector<double> ranks_of(std::span<const LevelLoops> levels, std::span<const TrackedLoop> loops) {
+std::vector<double> ranks_of(std::span<const TrackedLoop> loops) {
   constexpr double kSure = 4;         // log-odds from which on loops are equally good
   constexpr double kLevelCost = 0.8;  // of a level, in log-odds: fine curves are closer to the hole
   std::vector<double> ranks;
   for (const TrackedLoop& loop : loops) {
-    const bool is_coarse = levels[loop.level].loops.evidence(loop.loop).is_coarse;
-    ranks.push_back(std::min(loop.log_odds, kSure) - kLevelCost * (loop.level + 0.5 * is_coarse));
+    const double level = loop.level + 0.5 * loop.evidence.is_coarse;
+    ranks.push_back(std::min(loop.log_odds, kSure) - kLevelCost * level);
   }
   return ranks;
 }
@@ -133,7 +132,7 @@ TrackedLoops track_loops(std::vector<LevelLoops> levels, Job& job) {
   std::vector<TrackedLoop> loops = loops_of(levels);
   follow(pairs, loops);
   rate(levels, loops);
-  std::vector<std::uint32_t> chosen = choose(pairs, ranks_of(levels, loops));
+  std::vector<std::uint32_t> chosen = choose(pairs, ranks_of(loops));
   const double min_confidence = job.config.selection.min_confidence;
   std::erase_if(chosen, [&](std::uint32_t i) { return probability_of(loops[i].log_odds) < min_confidence; });
   // At most one of several loops with the same points is chosen.

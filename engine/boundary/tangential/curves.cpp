@@ -160,8 +160,8 @@ void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
   split_off(0);
 }
 
-CurveEvidence evidence_of(std::span<const CurvePoint> curve, Scale scale, const TangentialConfig& config,
-                          Scratch& scratch) {
+LoopEvidence evidence_of(std::span<const CurvePoint> curve, Scale scale, const TangentialConfig& config,
+                         Scratch& scratch) {
   double clear = 0, length = 0, sampling_radii = 0, distances = 0, surface = 0;
   scratch.for_each(curve, [&](const CurvePoint& p) {
     clear += p.evidence.clearness * p.evidence.length;

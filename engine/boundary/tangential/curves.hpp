@@ -57,7 +57,7 @@ void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
 // circumradius is large at a few points of the curve. So its clearness is the mean clearness of its wedges
 // along its length. Some sampling radii of length without clearness are added: a short curve may be clear by
 // chance. The other values are means over its points. Sums are in the order of the curve.
-CurveEvidence evidence_of(std::span<const CurvePoint> curve, Scale scale, const TangentialConfig& config,
-                          Scratch& scratch);
+LoopEvidence evidence_of(std::span<const CurvePoint> curve, Scale scale, const TangentialConfig& config,
+                         Scratch& scratch);
 
 }  // namespace lacuna::tangential

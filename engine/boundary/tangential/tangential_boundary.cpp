@@ -51,7 +51,7 @@ void TangentialBoundary::add_loops(std::span<const CurvePoint> curve, Scale scal
   if (curve.size() < least) return;
   split_at_pinches(curve, scratch, [&](std::span<const CurvePoint> simple) {
     if (simple.size() < least) return;
-    const CurveEvidence evidence = evidence_of(simple, scale, config_, scratch);
+    const LoopEvidence evidence = evidence_of(simple, scale, config_, scratch);
     if (!evidence.may_be_hole()) return;
     loops_.add(simple.size(), evidence, [&](std::uint64_t i) {
       scratch.trim(sizeof(CurvePoint));

@@ -38,7 +38,13 @@ class Drawn {
         .edge = edge, .cell_edge = edge > 0 ? edge : 1, .points = 1000, .loops = Loops(job_.file("drawn"))};
     for (const DrawnLoop& loop : loops) {
       const int count = std::max(8, static_cast<int>(2 * std::numbers::pi * loop.radius / level.cell_edge));
-      const CurveEvidence evidence{.spacing = 1, .is_coarse = loop.is_coarse};
+      const LoopEvidence evidence{.clearness = 0.7,
+                                  .surface = loop.surface,
+                                  .spacing = 1,
+                                  .sampling_gap = 0.5,
+                                  .is_coarse = loop.is_coarse,
+                                  .width = 8,
+                                  .roundness = 1};
       level.loops.add(static_cast<std::uint64_t>(count), evidence, [&](std::uint64_t i) {
         const double angle = 2 * std::numbers::pi * static_cast<double>(i) / count;
         const Eigen::Vector3d p =
@@ -46,9 +52,6 @@ class Drawn {
         return StoredLoopPoint{{p.x(), p.y(), p.z(), PointId{next_id_ + i}}, {0, 0, 0}, 0.5f};
       });
       next_id_ += static_cast<std::uint64_t>(count);
-      level.loops.rate(
-          level.loops.size() - 1,
-          {.clearness = 0.7, .surface = loop.surface, .sampling_gap = 0.5, .width = 8, .roundness = 1});
     }
     levels_.push_back(std::move(level));
   }

@@ -79,8 +79,8 @@ std::vector<std::vector<CurvePoint>> split(const std::vector<CurvePoint>& curve,
   return curves;
 }
 
-CurveEvidence evidence(const std::vector<CurvePoint>& curve, const TangentialConfig& config,
-                       Scale scale = Scale::kFine) {
+LoopEvidence evidence(const std::vector<CurvePoint>& curve, const TangentialConfig& config,
+                      Scale scale = Scale::kFine) {
   const test::ScratchFolder folder;
   Scratch scratch(folder.path(), 1 << 20);
   return evidence_of(curve, scale, config, scratch);
@@ -226,7 +226,7 @@ TEST_CASE("the clearness of a curve is the mean one along it, with some length m
     curve[i].evidence = {is_clear ? 3. : 1., 2, is_clear ? 3. : 5., is_clear ? 1.f : 0.f,
                          is_clear ? 1.f : 0.5f};
   }
-  const CurveEvidence half = evidence(curve, config, Scale::kCoarse);
+  const LoopEvidence half = evidence(curve, config, Scale::kCoarse);
   CHECK(half.clearness == Approx(30. / (40 + 5 * 2)));
   CHECK(half.surface == Approx(0.75));
   CHECK(half.spacing == Approx(4 / 1.7));
@@ -237,7 +237,7 @@ TEST_CASE("the clearness of a curve is the mean one along it, with some length m
 
 TEST_CASE("a curve of little clearness, or without a surface around it, is no hole") {
   const auto may_be_hole = [](double clearness, double surface) {
-    return CurveEvidence{.clearness = clearness, .surface = surface}.may_be_hole();
+    return LoopEvidence{.clearness = clearness, .surface = surface}.may_be_hole();
   };
   CHECK(may_be_hole(0.5, 0.3));
   CHECK_FALSE(may_be_hole(0.49, 1));
