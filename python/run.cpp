@@ -4,6 +4,7 @@
 #include "engine/pipeline.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
+#include "io/area/check_area.hpp"
 #include "io/stations/find_causes.hpp"
 #include "tools/console/overall_progress.hpp"
 #include "tools/run/scan_warnings.hpp"
@@ -174,10 +175,12 @@ std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig c
         tools::require_lengths(*found->scan);
         found->warnings = tools::input_warnings(*found->scan);
         found->scratch = std::make_unique<ScratchPlace>(*found->scan, config.run);
+        const auto area = io::read_area(*found->scan, config);
         const auto stations = io::watch_stations(*found->scan, config.output, found->scratch->path());
         found->detection.emplace(
             io::ExplainedDetection{*detect(*found->scan, config, found->scratch->path(), watched)});
         if (stations) io::find_causes(*stations, *found->scan, config.run, *found->detection);
+        if (area) found->detection->area = io::check_area(*area, *found->scan, config);
         std::ranges::copy(tools::station_warnings(found->detection->stations),
                           std::back_inserter(found->warnings));
         std::ranges::copy(tools::scan_warnings(*found->scan, found->detection->summary, config),

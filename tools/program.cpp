@@ -13,6 +13,7 @@ int run(int argc, char** argv) {
   const Command program = line.program();
   add_detect_command(program);
   add_info_command(program);
+  add_check_command(program);
   add_report_command(program);
   add_render_command(program);
   add_compare_command(program);

@@ -20,6 +20,8 @@ void register_gdal_drivers() {
     RegisterOGRGeoPackage();
     RegisterOGRGeoJSON();
     GDALRegister_GTiff();
+    RegisterOGRShape();
+    RegisterOGRMEM();
     OSRSetPROJEnableNetwork(FALSE);
     return true;
   }();

@@ -17,7 +17,7 @@ class OGRSpatialReference;
 
 namespace lacuna::io {
 
-// Registers the drivers of the formats that are written, once.
+// Registers the drivers of the formats that are read and written, once.
 void register_gdal_drivers();
 
 // Reads a coordinate reference system, with x to the east, from a code or well-known text. It uses the

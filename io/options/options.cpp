@@ -57,6 +57,14 @@ void check_memory_of_outputs(const OutputConfig& output, std::uint64_t memory_li
               "; allowed: at least " + std::to_string(least) + "MiB");
 }
 
+void check_area_config(const AreaConfig& area) {
+  if (area.area.empty()) return;
+  if (!(area.void_size > 0))
+    throw Error("void_size = 0: --area needs it; allowed: a length above 0, such as 4 nominal pulse spacings");
+  if (area.area_tile > 0 && area.area_tile < area.void_size)
+    throw Error("area_tile is less than void_size; allowed: 0 (off), or a length of void_size or more");
+}
+
 }  // namespace
 
 std::string_view name_of(LengthUnit unit) {
@@ -65,7 +73,9 @@ std::string_view name_of(LengthUnit unit) {
 
 std::vector<Parameter> file_parameters(FilesConfig& config) {
   InputConfig& input = config.input;
+  AreaConfig& area = config.area;
   OutputConfig& output = config.output;
+  const std::string_view no_area = area.area.empty() ? "--area" : "";
   const bool has_points = config.results.points;
   const std::string_view no_points = has_points ? "" : "--points";
   const std::string_view no_points_files = has_points || output.cut_outs > 0 ? "" : "--points or --cut-outs";
@@ -100,6 +110,15 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
        "Folders stand for the scan files in their subfolders, too."},
       {"input", "skip_damaged", &input.skip_damaged, 0, 1, "true or false",
        "Files that cannot be read to their end do not take part; each is read once more to know it."},
+      {"area", "area", &area.area, 0, 0, "a file name, or nothing",
+       "File of polygons, GeoPackage, GeoJSON or Shapefile, that the scan is to cover, seen from above; "
+       "writes voids.json, voids.csv and voids.gpkg."},
+      {"area", "void_size", &area.void_size, 0, 1e100, "a length above 0, such as 4 nominal pulse spacings",
+       "Diameter of the smallest circle without points that is a void of the area.", no_area},
+      {"area", "except", &area.except, 0, 0, "a file name, or nothing",
+       "File of polygons, such as water, in which voids do not count.", no_area},
+      {"area", "area_tile", &area.area_tile, 0, 1e100, "a length of 0 (off) or more than void_size",
+       "Edge of the squares of a table: area, voids, points and density of each.", no_area},
       {"output", "points_format", named(output.points_format, kPointsFormats), 0, 2, "input, ply or csv",
        "One file for the annotated scan, as ply or csv; input: one for each file of the scan, in its format.",
        no_points_files},
@@ -155,6 +174,7 @@ void check_config(const FilesConfig& config) {
   FilesConfig checked = config;
   check_ranges(file_parameters(checked));
   check_boxes(config.input);
+  check_area_config(config.area);
   check_memory_of_outputs(config.output, config.run.memory_limit);
 }
 

@@ -61,8 +61,16 @@ struct OutputConfig {
   bool report = false;                 // write report.html
 };
 
+// Whether the scan covers an area.
+struct AreaConfig {
+  std::string area, except;  // files of polygons; empty: none
+  double void_size = 0;      // diameter of the least void
+  double area_tile = 0;      // edge of the squares of the table; 0: no table
+};
+
 struct FilesConfig : Config {
   InputConfig input;
+  AreaConfig area;
   OutputConfig output;
 };
 

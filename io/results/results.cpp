@@ -13,6 +13,7 @@
 #include "io/results/local_coordinates.hpp"
 #include "io/results/loops_obj.hpp"
 #include "io/results/points.hpp"
+#include "io/results/voids.hpp"
 #include "io/stations/next_stations.hpp"
 
 #include <algorithm>
@@ -43,13 +44,17 @@ bool has_lids(C config) {
   return config.output.lids;
 }
 
+bool has_area(C config) {
+  return !config.area.area.empty();
+}
+
 // The complete lids.obj of the same run.
 std::filesystem::path lids_obj(const OutputFile& out) {
   return out.place().parent_path() / "lids.obj";
 }
 
 bool needs_gis_library(const FilesConfig& config) {
-  return config.output.gpkg || config.output.geojson || config.output.coverage > 0;
+  return config.output.gpkg || config.output.geojson || config.output.coverage > 0 || has_area(config);
 }
 
 // In the order in which they appear: holes.json comes last, and stands for all the others.
@@ -79,6 +84,11 @@ const std::vector<ResultFile>& all_results() {
        has_lids, Writer::kThis, true},
       {"coverage.tif", coverage_mark(), [](D d, S s, C c, OutputFile& out) { write_coverage(d, s, c, out); },
        [](C c) { return c.output.coverage > 0; }, Writer::kLibrary},
+      {"voids.gpkg", voids_gpkg_mark(), [](D d, S s, C, OutputFile& out) { write_voids_gpkg(*d.area, s, out); },
+       has_area, Writer::kLibrary},
+      {"voids.csv", kVoidsHeader, [](D d, S, C, OutputFile& out) { write_voids_table(*d.area, out); }, has_area},
+      {kVoidsFile, kJsonMark,
+       [](D d, S s, C c, OutputFile& out) { write_voids_json(*d.area, s, c.area, out); }, has_area},
       {"report.html", kReportMark,
        [](D, S, C, OutputFile& out) { write_report(read_scene(out.place().parent_path()), out); },
        [](C c) { return c.output.report; }, Writer::kThis, true},

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
+#include "io/area/area_check.hpp"
 
 #include <array>
 #include <cstddef>
@@ -77,6 +78,7 @@ struct ExplainedLoop : LoopMeasures {
 struct ExplainedDetection : Detection {
   std::vector<StationSummary> stations = {};  // that are known
   std::vector<LoopCause> causes = {};         // of each loop; empty where no station is known
+  std::optional<AreaCheck> area = {};         // nothing where no area was given
 
   ExplainedLoop loop(std::size_t i) const { return {loops[i], causes.empty() ? LoopCause() : causes[i]}; }
 };

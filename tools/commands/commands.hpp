@@ -10,6 +10,7 @@ class Command;
 // These start with a scan.
 void add_detect_command(const Command& program);
 void add_info_command(const Command& program);
+void add_check_command(const Command& program);
 
 // These start with the results of a run.
 void add_report_command(const Command& program);

@@ -7,6 +7,7 @@
 #include "engine/store/temporary_folder.hpp"
 #include "engine/workspace/workspace.hpp"
 #include "engine/workspace/workspace_state.hpp"
+#include "io/area/check_area.hpp"
 #include "io/results/results.hpp"
 #include "io/scan/file_scan.hpp"
 #include "io/stations/find_causes.hpp"
@@ -144,6 +145,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   const std::unique_ptr<FileScan> opened = open_inputs(inputs, config);
   FileScan& scan = *opened;
 
+  const std::optional<Area> area = read_area(scan, config);
   const MadeFolder out_folder(arguments.out);
   const fs::path& out = out_folder.path();
   const FolderLock alone(out);
@@ -169,6 +171,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   const std::unique_ptr<StationViews> stations = watch_stations(scan, config.output, scratch.path());
   ExplainedDetection detection{*detect(scan, config, scratch.path(), *progress)};
   if (stations) find_causes(*stations, scan, config.run, detection);
+  if (area) detection.area = check_area(*area, scan, config);
   const Clock::time_point writing = Clock::now();
   progress->begin("write", 0);
   const std::vector<fs::path> written = write_results(detection, scan, with_min_hole(config), out, overwrite);

@@ -3,6 +3,7 @@
 
 #include "engine/run/disk_space.hpp"
 #include "engine/run/machine_memory.hpp"
+#include "tools/console/area_text.hpp"
 #include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
 #include "tools/console/visible_text.hpp"
@@ -216,6 +217,10 @@ std::string print_summary(const ExplainedDetection& detection, const FileScan& s
             " in all\n\n";
   }
   auto facts = findings(summary, scan, unit);
+  if (detection.area) {
+    facts.emplace_back("area", print_verdict(*detection.area, unit));
+    facts.emplace_back("", print_covered(*detection.area, unit));
+  }
   if (!causes.empty()) facts.emplace_back("causes", causes);
   if (summary.surface_area > 0)
     facts.emplace_back("surface", print_surface(summary.surface_area, holes.area, unit));

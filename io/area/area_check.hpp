@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a scan covers an area: the voids within polygons, seen from above.
+#pragma once
+
+#include "io/area/plan_polygon.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna::io {
+
+enum class VoidKind : std::uint8_t {
+  kHole,     // points are all around it
+  kOpen,     // it reaches the border of the area, or the edge of the scan
+  kOutside,  // it lies outside of the convex hull of all points
+};
+inline constexpr std::array<std::string_view, 3> kVoidKinds = {"hole", "open", "outside"};
+constexpr std::string_view name_of(VoidKind kind) {
+  return kVoidKinds[static_cast<std::size_t>(kind)];
+}
+
+// Lengths are in units of the scan, places in its coordinates.
+struct Void {
+  VoidKind kind = VoidKind::kHole;
+  double area = 0;
+  double circle = 0;                // diameter of the largest circle that fits in
+  Eigen::Vector2d middle{0, 0};     // of that circle
+  double spacing = 0;               // of the points around it; NaN where there are none
+  double excepted = 0;              // share that lies in exceptions, [0, 1]
+  bool counts = true;               // not covered by an exception
+  PlanPolygon outline;              // along cells; the outer ring first
+};
+
+// A square of the table of an area.
+struct AreaTile {
+  Eigen::Vector2d corner{0, 0};  // south-west
+  double area = 0;               // of the project, within the tile
+  double voids_area = 0;         // of it, within voids that count or not
+  std::uint64_t points = 0;
+  std::size_t voids = 0;  // that count, whose largest circles have their middles here
+
+  double covered() const { return 1 - voids_area / area; }  // share of its area
+  // Of the part without voids; not finite where there is none.
+  double density() const { return static_cast<double>(points) / (area - voids_area); }
+  double spacing() const { return 1 / std::sqrt(density()); }
+};
+
+struct AreaCheck {
+  double void_size = 0;      // diameter of the least void
+  double area = 0;           // of the project
+  double voids_area = 0;     // of all voids
+  double missing_area = 0;   // of the voids that count
+  std::uint64_t points = 0;  // in the area
+  std::vector<Void> voids;   // those that count first; then by area, the largest first
+  double tile_edge = 0;      // 0: no table
+  std::vector<AreaTile> tiles;  // with a part of the area; from south to north, then from west to east
+
+  std::size_t counting() const {
+    std::size_t count = 0;
+    while (count < voids.size() && voids[count].counts) ++count;
+    return count;
+  }
+  bool is_covered() const { return counting() == 0; }
+};
+
+}  // namespace lacuna::io

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/area/area_polygons.hpp"
+
+#include "engine/run/error.hpp"
+#include "io/crs/gdal_session.hpp"
+
+#include <cmath>
+#include <memory>
+
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+namespace lacuna::io {
+namespace {
+
+struct CloseDataset {
+  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+};
+
+// The polygons of one file.
+class Reader {
+ public:
+  explicit Reader(AreaPolygons& polygons) : to_(polygons) {}
+
+  void read() {
+    const char* const drivers[] = {"GPKG", "GeoJSON", "ESRI Shapefile", nullptr};
+    const std::unique_ptr<GDALDataset, CloseDataset> dataset(
+        GDALDataset::Open(to_.file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers));
+    if (!dataset) fail("cannot be read as GeoPackage, GeoJSON or Shapefile");
+    for (OGRLayer* const layer : dataset->GetLayers()) read(*layer);
+    if (to_.polygons.empty()) fail("has no polygon");
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& reason) const {
+    const std::string& text = failures_.first();
+    throw Error(to_.file + ": " + reason + (text.empty() ? "" : " (GDAL: " + text + ")"));
+  }
+
+  void read(OGRLayer& layer) {
+    const auto conversion = conversion_of(layer);
+    layer.ResetReading();
+    while (const OGRFeatureUniquePtr feature{layer.GetNextFeature()}) {
+      OGRGeometry* const geometry = feature->GetGeometryRef();
+      if (geometry == nullptr || geometry->getDimension() != 2) continue;
+      if (conversion && geometry->transform(conversion.get()) != OGRERR_NONE)
+        fail("cannot be converted to the coordinate reference system of the scan");
+      // Curved polygons become polygons of straight edges.
+      const std::unique_ptr<OGRGeometry> straight(geometry->getLinearGeometry());
+      add(*straight);
+    }
+    if (!failures_.first().empty()) fail("cannot be read");
+  }
+
+  void add(const OGRGeometry& geometry) {
+    const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+    if (type == wkbPolygon) {
+      PlanPolygon polygon;
+      for (const OGRLinearRing* const ring : *geometry.toPolygon()) add_ring(*ring, polygon);
+      if (!polygon.empty()) to_.polygons.push_back(std::move(polygon));
+    } else if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection)) {
+      for (const OGRGeometry* const part : *geometry.toGeometryCollection()) add(*part);
+    }
+  }
+
+  void add_ring(const OGRLinearRing& ring, PlanPolygon& polygon) {
+    Ring2 corners;
+    for (const OGRPoint& corner : ring) corners.emplace_back(corner.getX(), corner.getY());
+    if (!corners.empty() && corners.front() == corners.back()) corners.pop_back();
+    for (const Eigen::Vector2d& corner : corners) {
+      if (!corner.allFinite()) fail("has a corner that is not finite");
+    }
+    if (corners.size() >= 3) polygon.push_back(std::move(corners));
+  }
+
+  // Null where positions are as they are.
+  std::unique_ptr<OGRCoordinateTransformation> conversion_of(OGRLayer& layer) {
+    const OGRSpatialReference* const given = layer.GetSpatialRef();
+    if (given == nullptr || given->IsLocal() != 0) return nullptr;
+    to_.file_crs = given->GetName();
+    OGRSpatialReference from = *given, to;
+    from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    from.StripVertical();
+    if (to_.crs.empty() || !read_crs(to_.crs, to)) {
+      failures_.forget();
+      return nullptr;
+    }
+    to.StripVertical();
+    if (from.IsSame(&to) != 0) return nullptr;
+    std::unique_ptr<OGRCoordinateTransformation> conversion(OGRCreateCoordinateTransformation(&from, &to));
+    if (!conversion) fail("cannot be converted to the coordinate reference system of the scan");
+    to_.is_converted = true;
+    return conversion;
+  }
+
+  AreaPolygons& to_;
+  GdalFailures failures_;
+};
+
+}  // namespace
+
+extern "C" void lacuna_read_area_polygons(AreaPolygons& polygons) {
+  register_gdal_drivers();
+  Reader(polygons).read();
+}
+
+}  // namespace lacuna::io

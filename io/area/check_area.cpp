@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/area/check_area.hpp"
+
+#include "engine/run/error.hpp"
+#include "engine/run/job.hpp"
+#include "io/area/area_polygons.hpp"
+#include "io/area/area_tiles.hpp"
+#include "io/area/convex_hull.hpp"
+#include "io/area/plan_raster.hpp"
+#include "io/area/point_density.hpp"
+#include "io/area/trace_voids.hpp"
+#include "io/crs/gis_module.hpp"
+#include "io/rows/vectors.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <tuple>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+namespace lacuna::io {
+namespace {
+
+constexpr double kRadius = PlanGrid::kCells / 2;  // of the least void, in cells
+constexpr std::size_t kSquare = 10;  // cells along a square in which points are counted
+constexpr const char* kUser = "--area and --except";
+
+// ---- the area
+
+std::vector<PlanPolygon> read_polygons(const std::string& file, const FileScan& scan) {
+  static auto* const read = reinterpret_cast<ReadAreaPolygons*>(load_gis_function(kReadAreaPolygons, kUser));
+  AreaPolygons polygons{.file = file, .crs = scan.common_crs()};
+  read(polygons);
+  if (polygons.is_converted) spdlog::info("{}: is converted from {}", file, polygons.file_crs);
+  if (!polygons.is_converted && polygons.file_crs.empty() != scan.common_crs().empty())
+    spdlog::warn("{}: {} has no coordinate reference system; positions are compared as they are", file,
+                 polygons.file_crs.empty() ? "it" : "the scan");
+  return std::move(polygons.polygons);
+}
+
+// The cells over all polygons.
+PlanGrid grid_over(std::span<const PlanPolygon> polygons, std::size_t rasters, const FilesConfig& config) {
+  Eigen::AlignedBox2d bounds;
+  for (const PlanPolygon& polygon : polygons)
+    for (const Ring2& ring : polygon)
+      for (const Eigen::Vector2d& corner : ring) bounds.extend(corner);
+  PlanGrid grid{.size = config.area.void_size};
+  grid.first = grid.to_cells(bounds.min()).array().floor();
+  const Eigen::Array2d size = grid.to_cells(bounds.max()).array().ceil();
+  const double most = static_cast<double>(Memory::share(config.run.memory_limit).limit / 2 * 8 / rasters);
+  if (!(size.prod() <= most) || !(size.maxCoeff() < std::numeric_limits<int>::max())) {
+    std::ostringstream message;
+    message << "void_size = " << config.area.void_size << ": the area has " << size.x() << " x " << size.y()
+            << " cells of a tenth of it, more than " << most << " within the memory limit; allowed: "
+            << config.area.void_size * std::sqrt(std::max(size.prod() / most, 1.0)) * 1.01 << " or more";
+    throw Error(message.str());
+  }
+  grid.columns = static_cast<std::size_t>(size.x());
+  grid.rows = static_cast<std::size_t>(size.y());
+  return grid;
+}
+
+// ---- the points
+
+// What the points leave empty of the area, and where they are.
+class PointsInPlan : public RowObserver {
+ public:
+  PointsInPlan(const PlanGrid& grid, const PlanRaster& inside, AreaTiles& tiles)
+      : empty(inside), density(kSquare, grid), grid_(grid), inside_(inside), tiles_(tiles) {}
+
+  void take(std::size_t, const ScanReader& reader, const RowBatch& rows, std::span<const Eigen::Vector3d>,
+            std::span<const Eigen::Vector3d> kept) override {
+    const Property* const returns = reader.layout().find_alike("return_number");
+    if (returns != nullptr) load_column(rows, reader.layout().stride, *returns, returns_);
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      if (kept[i].allFinite() && (returns == nullptr || returns_[i] <= 1)) add(kept[i].head<2>());
+    }
+  }
+
+  // Whether no point lies in the bounds of the area.
+  bool is_far() { return hull.corners().empty(); }
+
+  PlanRaster empty;  // middles of cells
+  PointDensity density;
+  ConvexHull hull;  // in cells
+  std::uint64_t points = 0;
+
+ private:
+  void add(const Eigen::Vector2d& place) {
+    const Eigen::Vector2d at = grid_.to_cells(place);
+    clear_disc(at, kRadius, empty);
+    if (!grid_.contains(at)) return;
+    hull.add(at);
+    const auto column = static_cast<std::size_t>(at.x()), row = static_cast<std::size_t>(at.y());
+    if (!inside_.has(column, row)) return;
+    ++points;
+    density.add(column, row);
+    tiles_.add_point(column, row);
+  }
+
+  const PlanGrid& grid_;
+  const PlanRaster& inside_;
+  AreaTiles& tiles_;
+  std::vector<double> returns_;
+};
+
+// ---- the voids
+
+// The plan of an area and its voids.
+class Plan {
+ public:
+  Plan(const PlanGrid& grid, const PlanRaster& inside, const std::optional<PlanRaster>& excepted,
+       PointsInPlan& points)
+      : grid_(grid), inside_(inside), excepted_(excepted), points_(points), hull_(grid.rows) {
+    for_each_run({points.hull.corners()}, grid,
+                 [&](std::size_t row, std::size_t from, std::size_t to) { hull_[row] = {from, to}; });
+  }
+
+  // Writes the kind of void of each cell of a row, before it is known what is around: kHole or kOutside, and
+  // one more; 0: no void.
+  void write_row(std::size_t row, std::span<std::uint8_t> values) const {
+    std::fill(values.begin(), values.end(), 0);
+    const auto put = [&](VoidKind kind) {
+      std::vector<std::uint64_t> voids(inside_.row(row).size());
+      const auto copy = [&](std::size_t of, std::span<std::uint64_t> cells) { copy_empty(of, kind, cells); };
+      grow_row(grid_, copy, row, kRadius, voids);
+      for (std::size_t word = 0; word < voids.size(); ++word) {
+        for (std::uint64_t bits = voids[word] & inside_.row(row)[word]; bits != 0; bits &= bits - 1)
+          values[word * 64 + static_cast<std::size_t>(std::countr_zero(bits))] = value_of(kind);
+      }
+    };
+    put(VoidKind::kOutside);
+    put(VoidKind::kHole);  // wins where the circles around both meet
+  }
+
+  // Throws `Error` where the outlines of the voids do not fit in memory.
+  void refuse_long_outlines(const FilesConfig& config) const {
+    constexpr double kBytesPerEdge = 200;
+    std::vector<std::uint8_t> values(grid_.columns + 1);
+    double edges = 0;
+    for (std::size_t row = 0; row < grid_.rows; ++row) {
+      write_row(row, std::span(values).first(grid_.columns));
+      for (std::size_t column = 0; column < grid_.columns; ++column) edges += values[column] != values[column + 1];
+    }
+    const auto limit = static_cast<double>(Memory::share(config.run.memory_limit).limit);
+    if (edges * kBytesPerEdge <= limit / 4) return;
+    std::ostringstream message;
+    message << "void_size = " << config.area.void_size << ": the points are so far apart that outlines of voids have "
+            << edges << " edges, more than fit in the memory limit; allowed: a larger one";
+    throw Error(message.str());
+  }
+
+  Void measure(TracedVoid&& traced, AreaTiles& tiles) const {
+    Void result;
+    result.kind = kind_of(traced);
+    std::uint64_t cells = 0, excepted = 0;
+    result.counts = !excepted_;
+    for_each_run(traced.outline, grid_, [&](std::size_t row, std::size_t from, std::size_t to) {
+      cells += to - from;
+      tiles.add_void_cells(row, from, to);
+      if (!excepted_) return;
+      excepted += count_bits(excepted_->row(row), from, to);
+      for (std::size_t column = from; column < to && !result.counts; ++column)
+        result.counts = points_.empty.has(column, row) && !excepted_->has(column, row);
+    });
+    if (result.counts)
+      tiles.add_void(static_cast<std::size_t>(traced.middle.x()), static_cast<std::size_t>(traced.middle.y()));
+    result.area = grid_.area(cells);
+    result.excepted = static_cast<double>(excepted) / static_cast<double>(cells);
+    // The outline runs along cells, so the circle within it is up to half a cell too small all around.
+    result.circle = 2 * (traced.radius + 0.5) * grid_.edge();
+    result.middle = grid_.from_cells(traced.middle);
+    result.spacing = points_.density.spacing_around(traced.outline, inside_) * grid_.edge();
+    result.outline = std::move(traced.outline);
+    for (Ring2& ring : result.outline)
+      for (Eigen::Vector2d& corner : ring) corner = grid_.from_cells(corner);
+    return result;
+  }
+
+ private:
+  static std::uint8_t value_of(VoidKind kind) { return static_cast<std::uint8_t>(kind) + 1; }
+
+  // Copies the empty places of a row beyond the convex hull, or the ones within.
+  void copy_empty(std::size_t row, VoidKind kind, std::span<std::uint64_t> cells) const {
+    const std::span<const std::uint64_t> empty = points_.empty.row(row);
+    std::copy(empty.begin(), empty.end(), cells.begin());
+    const auto [from, to] = hull_[row];
+    if (kind == VoidKind::kOutside) {
+      clear_bits(cells, from, to);
+    } else {
+      clear_bits(cells, 0, from);
+      clear_bits(cells, std::max(from, to), grid_.columns);
+    }
+  }
+
+  bool is_in_hull(std::size_t column, std::size_t row) const {
+    return column >= hull_[row].first && column < hull_[row].second;
+  }
+
+  // A hole has points all around it, as the area and the hull go on.
+  VoidKind kind_of(const TracedVoid& traced) const {
+    if (traced.value == value_of(VoidKind::kOutside)) return VoidKind::kOutside;
+    const auto is_beyond = [&](double x, double y) {  // the cell with this middle
+      if (!grid_.contains({x, y})) return true;
+      const auto column = static_cast<std::size_t>(x), row = static_cast<std::size_t>(y);
+      return !inside_.has(column, row) || !is_in_hull(column, row);
+    };
+    for (const Ring2& ring : traced.outline) {
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const Eigen::Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
+        const double length = (b - a).norm();
+        const Eigen::Vector2d along = (b - a) / length, across(-along.y() / 2, along.x() / 2);
+        for (double at = 0.5; at < length; ++at) {
+          const Eigen::Vector2d left = a + along * at + across, right = a + along * at - across;
+          if (is_beyond(left.x(), left.y()) || is_beyond(right.x(), right.y())) return VoidKind::kOpen;
+        }
+      }
+    }
+    return VoidKind::kHole;
+  }
+
+  const PlanGrid& grid_;
+  const PlanRaster& inside_;
+  const std::optional<PlanRaster>& excepted_;
+  const PointsInPlan& points_;
+  std::vector<std::pair<std::size_t, std::size_t>> hull_;  // by row: the cells within the convex hull
+};
+
+std::vector<TracedVoid> trace(const Plan& plan, const PlanGrid& grid) {
+  static auto* const trace = reinterpret_cast<TraceVoids*>(load_gis_function(kTraceVoids, kUser));
+  TraceTask task{.columns = grid.columns,
+                 .rows = grid.rows,
+                 .row = [&](std::size_t row, std::span<std::uint8_t> values) { plan.write_row(row, values); }};
+  trace(task);
+  return std::move(task.voids);
+}
+
+}  // namespace
+
+std::optional<Area> read_area(const FileScan& scan, const FilesConfig& config) {
+  if (config.area.area.empty()) return std::nullopt;
+  Area area;
+  area.polygons = read_polygons(config.area.area, scan);
+  if (!config.area.except.empty()) area.exceptions = read_polygons(config.area.except, scan);
+  area.grid = grid_over(area.polygons, area.exceptions.empty() ? 2 : 3, config);
+  return area;
+}
+
+AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config) {
+  // What is empty: the cells of the area without a point near them.
+  const PlanGrid& grid = area.grid;
+  const PlanRaster inside = rasterise(area.polygons, grid);
+  std::optional<PlanRaster> excepted;
+  if (!area.exceptions.empty()) excepted = rasterise(area.exceptions, grid);
+  AreaTiles tiles(config.area.area_tile, grid);
+  tiles.add_area(inside);
+  PointsInPlan points(grid, inside, tiles);
+  scan.read_all(points);
+  if (points.is_far())
+    throw Error(config.area.area + ": no point of the scan is in or near it; are both in the same coordinate reference system?");
+
+  // The voids: the circles around what is empty.
+  const Plan plan(grid, inside, excepted, points);
+  plan.refuse_long_outlines(config);
+  AreaCheck check{.void_size = config.area.void_size,
+                  .area = grid.area(inside.count()),
+                  .points = points.points};
+  for (TracedVoid& traced : trace(plan, grid)) {
+    const Void& found = check.voids.emplace_back(plan.measure(std::move(traced), tiles));
+    check.voids_area += found.area;
+    if (found.counts) check.missing_area += found.area;
+  }
+  std::sort(check.voids.begin(), check.voids.end(), [](const Void& a, const Void& b) {
+    const auto key = [](const Void& v) { return std::tuple(!v.counts, -v.area, v.middle.x(), v.middle.y()); };
+    return key(a) < key(b);
+  });
+  check.tile_edge = config.area.area_tile;
+  check.tiles = tiles.with_area();
+  return check;
+}
+
+}  // namespace lacuna::io

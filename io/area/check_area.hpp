@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// read_area, check_area: the voids of a scan within an area.
+#pragma once
+
+#include "engine/export.hpp"
+#include "io/area/area_check.hpp"
+#include "io/area/plan_raster.hpp"
+#include "io/options/options.hpp"
+#include "io/scan/file_scan.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace lacuna::io {
+
+// The polygons of an area, and the cells over them.
+struct Area {
+  std::vector<PlanPolygon> polygons, exceptions;  // in coordinates of the scan
+  PlanGrid grid;
+};
+
+// Returns nothing where the config has no area. Throws `Error`: a file that cannot be used, or too many cells
+// for the memory limit.
+LACUNA_API std::optional<Area> read_area(const FileScan& scan, const FilesConfig& config);
+
+// A place is empty if no point lies nearer to it than half of the void size, seen from above. Places are the
+// middles of cells whose edge is a tenth of the void size. Voids are what the circles around empty places
+// cover within the area. Cells that share edges are one void; the convex hull of all points cuts it.
+//
+// A void counts unless all of its empty places lie in exceptions. Where a file of the scan has return
+// numbers, only first returns are points. (Data voids in the Lidar Base Specification of the U.S. Geological
+// Survey: its least void has four nominal pulse spacings.)
+//
+// Reads the scan once. Memory: 2 or 3 bits for each cell in the bounds of the area, and the outlines. Cost:
+// linear in points and in cells. Throws `Error` where outlines do not fit in memory.
+LACUNA_API AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config);
+
+}  // namespace lacuna::io

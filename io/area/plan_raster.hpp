@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// A raster of bits over a plan.
+#pragma once
+
+#include "io/area/plan_polygon.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna::io {
+
+// Square cells, whole multiples of their edge from 0 0. Rows go from south to north, columns from west to
+// east.
+struct PlanGrid {
+  static constexpr double kCells = 10;
+
+  double size = 0;             // of so many cells in a row, in units of the scan
+  Eigen::Array2d first{0, 0};  // the cell in the south-west, in cells from 0 0; whole numbers
+  std::size_t columns = 0, rows = 0;
+
+  double edge() const { return size / kCells; }  // of a cell
+  double area(std::uint64_t cells) const { return static_cast<double>(cells) * size * size / (kCells * kCells); }
+  // Returns a place in cells from the south-west corner. The middle of the first cell is at 0.5 0.5.
+  Eigen::Vector2d to_cells(const Eigen::Vector2d& place) const {
+    return (place.array() * kCells / size - first).matrix();
+  }
+  Eigen::Vector2d from_cells(const Eigen::Vector2d& cells) const {
+    return ((cells.array() + first) * size / kCells).matrix();
+  }
+  bool contains(const Eigen::Vector2d& cells) const {
+    return cells.x() >= 0 && cells.y() >= 0 && cells.x() < static_cast<double>(columns) &&
+           cells.y() < static_cast<double>(rows);
+  }
+};
+
+class PlanRaster {
+ public:
+  explicit PlanRaster(const PlanGrid& grid)
+      : columns_(grid.columns),
+        words_of_row_((grid.columns + 63) / 64),
+        words_(grid.rows * words_of_row_) {}
+
+  static std::uint64_t bytes(const PlanGrid& grid) { return (grid.columns + 63) / 64 * 8 * grid.rows; }
+
+  std::size_t columns() const { return columns_; }
+  std::size_t rows() const { return words_of_row_ == 0 ? 0 : words_.size() / words_of_row_; }
+  std::span<const std::uint64_t> row(std::size_t row) const {
+    return {words_.data() + row * words_of_row_, words_of_row_};
+  }
+  bool has(std::size_t column, std::size_t row) const {
+    return (words_[row * words_of_row_ + column / 64] >> column % 64 & 1) != 0;
+  }
+  // Sets and clears the cells [from, to) of a row, and counts those that are set.
+  void set(std::size_t row, std::size_t from, std::size_t to);
+  void clear(std::size_t row, std::size_t from, std::size_t to);
+  std::uint64_t count() const;
+
+ private:
+  std::size_t columns_, words_of_row_;
+  std::vector<std::uint64_t> words_;
+};
+
+// Counts the set bits [from, to) of a row.
+std::uint64_t count_bits(std::span<const std::uint64_t> row, std::size_t from, std::size_t to);
+
+// Calls visit(row, from, to) for cells [from, to) whose middles lie in the polygon. Its corners are in cells
+// of the grid; cells beyond the grid are left out. Rows ascend, and cells within a row. Memory: 16 bytes for
+// each crossing of an edge with the middle of a row.
+void for_each_run(const PlanPolygon& polygon, const PlanGrid& grid,
+                  const std::function<void(std::size_t row, std::size_t from, std::size_t to)>& visit);
+
+// Sets the cells whose middles lie in one of the polygons, which have coordinates of the scan.
+PlanRaster rasterise(std::span<const PlanPolygon> polygons, const PlanGrid& grid);
+
+// Clears the cells whose middles lie nearer to a place than `radius`. All are in cells.
+void clear_disc(const Eigen::Vector2d& middle, double radius, PlanRaster& raster);
+
+// Adds the cells of a row whose middles lie within `radius` of the middle of a set cell. The radius is in
+// cells, and less than 64. `copy` writes the set cells of any row.
+using CopyRow = std::function<void(std::size_t row, std::span<std::uint64_t> cells)>;
+void grow_row(const PlanGrid& grid, const CopyRow& copy, std::size_t row, double radius,
+              std::span<std::uint64_t> grown);
+
+// Clears the cells [from, to) of a row.
+void clear_bits(std::span<std::uint64_t> row, std::size_t from, std::size_t to);
+
+}  // namespace lacuna::io

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/area/point_density.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lacuna::io {
+namespace {
+
+void sort_unique(std::vector<std::size_t>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+}  // namespace
+
+double PointDensity::spacing_around(const PlanPolygon& outline, const PlanRaster& inside) const {
+  constexpr std::size_t kReach = 2;
+  const std::size_t rows = points_.size() / columns_;
+  std::vector<std::size_t> passed, around;  // squares
+  for (const Ring2& ring : outline) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Eigen::Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
+      const auto steps = static_cast<std::size_t>(std::ceil((b - a).norm() / static_cast<double>(edge_)));
+      for (std::size_t step = 0; step < std::max<std::size_t>(steps, 1); ++step) {
+        const Eigen::Vector2d at = a + (b - a) * static_cast<double>(step) / static_cast<double>(std::max<std::size_t>(steps, 1));
+        passed.push_back(static_cast<std::size_t>(at.y()) / edge_ * columns_ + static_cast<std::size_t>(at.x()) / edge_);
+      }
+    }
+  }
+  sort_unique(passed);
+  for (const std::size_t square : passed) {
+    const std::size_t column = square % columns_, row = square / columns_;
+    for (std::size_t r = row - std::min(row, kReach); r <= std::min(row + kReach, rows - 1); ++r)
+      for (std::size_t c = column - std::min(column, kReach); c <= std::min(column + kReach, columns_ - 1); ++c)
+        if (points_[r * columns_ + c] > 0) around.push_back(r * columns_ + c);
+  }
+  sort_unique(around);
+  std::uint64_t points = 0, cells = 0;
+  for (const std::size_t square : around) {
+    if (std::binary_search(passed.begin(), passed.end(), square)) continue;
+    points += points_[square];
+    const std::size_t from = square % columns_ * edge_, to = std::min(from + edge_, inside.columns());
+    const std::size_t first = square / columns_ * edge_;
+    for (std::size_t row = first; row < std::min(first + edge_, inside.rows()); ++row)
+      cells += count_bits(inside.row(row), from, to);
+  }
+  return points > 0 ? std::sqrt(static_cast<double>(cells) / static_cast<double>(points))
+                    : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace lacuna::io

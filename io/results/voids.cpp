@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/results/voids.hpp"
+
+#include "engine/run/error.hpp"
+#include "io/crs/gis_module.hpp"
+#include "io/files/number.hpp"
+#include "io/loops/json.hpp"
+#include "io/results/results.hpp"
+#include "io/results/voids_gis.hpp"
+
+#include <cmath>
+#include <string>
+#include <system_error>
+
+#include <spdlog/spdlog.h>
+
+namespace lacuna::io {
+namespace {
+
+using namespace std::string_view_literals;
+
+Json void_json(std::size_t id, const Void& each) {
+  Json outline = Json::array();
+  for (const Ring2& ring : each.outline) {
+    Json& corners = outline.emplace_back(Json::array());
+    for (const Eigen::Vector2d& corner : ring) corners.push_back({corner.x(), corner.y()});
+  }
+  return {{"id", id},
+          {"kind", name_of(each.kind)},
+          {"counts", each.counts},
+          {"area", each.area},
+          {"circle", each.circle},
+          {"middle", {each.middle.x(), each.middle.y()}},
+          {"spacing", each.spacing},
+          {"excepted", each.excepted},
+          {"outline", std::move(outline)}};
+}
+
+Json tile_json(const AreaTile& tile) {
+  return {{"corner", {tile.corner.x(), tile.corner.y()}},
+          {"area", tile.area},
+          {"covered", tile.covered()},
+          {"voids", tile.voids},
+          {"points", tile.points},
+          {"density", tile.density()},
+          {"spacing", tile.spacing()}};
+}
+
+// Writes `"key":[...]`, a line for each element.
+template <class List, class Print>
+void write_list(std::string_view key, const List& elements, const Print& print_element, OutputFile& out) {
+  out.write(",\n  \"" + std::string(key) + "\": [");
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    out.write((i == 0 ? "\n    " : ",\n    ") + print(print_element(i), -1));
+  out.write("]");
+}
+
+}  // namespace
+
+void write_voids_json(const AreaCheck& check, const FileScan& scan, const AreaConfig& config, OutputFile& out) {
+  Json head = begin_json(kVoidsSchema);
+  put_crs(scan, head);
+  head["file"] = config.area;
+  head["except"] = config.except.empty() ? Json() : Json(config.except);
+  head["void_size"] = check.void_size;
+  head["is_covered"] = check.is_covered();
+  head["counting"] = check.counting();
+  head["area"] = check.area;
+  head["voids_area"] = check.voids_area;
+  head["missing_area"] = check.missing_area;
+  head["points"] = check.points;
+  head["tile_edge"] = check.tile_edge;
+  std::string text = print(head, 2);
+  text.resize(text.rfind('}'));
+  while (text.back() == '\n') text.pop_back();
+  out.write(text);
+  write_list("voids", check.voids, [&](std::size_t i) { return void_json(i, check.voids[i]); }, out);
+  write_list("tiles", check.tiles, [&](std::size_t i) { return tile_json(check.tiles[i]); }, out);
+  out.write("\n}\n");
+}
+
+void write_voids_table(const AreaCheck& check, OutputFile& out) {
+  out.write(std::string(kVoidsHeader) + "\n");
+  for (std::size_t id = 0; id < check.voids.size(); ++id) {
+    const Void& each = check.voids[id];
+    std::string line = std::to_string(id);
+    line.append(",").append(name_of(each.kind)).append(each.counts ? ",1" : ",0");
+    for (const double value :
+         {each.area, each.circle, each.middle.x(), each.middle.y(), each.spacing, each.excepted}) {
+      line += ',';
+      if (std::isfinite(value)) append_shortest(line, value);
+    }
+    out.write(line + "\n");
+  }
+}
+
+void write_voids_gpkg(const AreaCheck& check, const FileScan& scan, OutputFile& out) {
+  static auto* const write = reinterpret_cast<WriteVoidsGis*>(load_gis_function(kWriteVoidsGis, "--area"));
+  if (!write({.check = check, .crs = scan.common_crs(), .name = out.path(), .place = out.place()}))
+    spdlog::warn("{}: GDAL does not understand the coordinate reference system of the scan; the file has none",
+                 out.path().string());
+}
+
+FileMark voids_gpkg_mark() {
+  return {"SQLite format 3\0"sv, [](std::string_view pages) {
+            return pages.find(kVoidsLayer) != pages.npos && pages.find(kVoidsDescription) != pages.npos;
+          }};
+}
+
+void check_voids_folder(const FileScan& scan, const std::filesystem::path& folder, Overwrite overwrite) {
+  const std::pair<const char*, FileMark> files[] = {
+      {"voids.gpkg", voids_gpkg_mark()}, {"voids.csv", kVoidsHeader}, {kVoidsFile, kJsonMark}};
+  for (const auto& [name, mark] : files) {
+    check_not_input(folder / name, scan);
+    check_output(folder / name, mark, overwrite);
+  }
+}
+
+std::vector<std::filesystem::path> write_voids(const AreaCheck& check, const FileScan& scan,
+                                               const AreaConfig& config, const std::filesystem::path& folder,
+                                               Overwrite overwrite) {
+  check_voids_folder(scan, folder, overwrite);
+  OutputSet set(overwrite);
+  write_voids_gpkg(check, scan, set.add(folder / "voids.gpkg", voids_gpkg_mark(), Writer::kLibrary));
+  write_voids_table(check, set.add(folder / "voids.csv", kVoidsHeader));
+  write_voids_json(check, scan, config, set.add(folder / kVoidsFile, kJsonMark));
+  scan.check_unchanged();
+  return set.commit();
+}
+
+}  // namespace lacuna::io

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/results/voids_gis.hpp"
+
+#include "engine/run/error.hpp"
+#include "io/crs/gdal_session.hpp"
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <cpl_string.h>
+#include <gdal_priv.h>
+#include <ogr_spatialref.h>
+#include <ogrsf_frmts.h>
+
+namespace lacuna::io {
+namespace {
+
+// The date in the head of the GeoPackage: the same in every run.
+constexpr const char* kTime = "1970-01-01T00:00:00.000Z";
+
+struct CloseDataset {
+  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+};
+
+// Writes one file.
+class VoidsWriter {
+ public:
+  explicit VoidsWriter(const VoidsTask& task) : task_(task) {}
+
+  bool write() {
+    bool is_understood = true;
+    if (!task_.crs.empty()) {
+      is_understood = read_crs(task_.crs, crs_);
+      failures_.forget();
+      if (!is_understood) crs_.Clear();
+    }
+    // Without a crs the GeoPackage has the srs_id -1, and not 0, a geographic one.
+    if (crs_.IsEmpty()) crs_.SetLocalCS("Undefined Cartesian SRS");
+    GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GPKG");
+    require(driver != nullptr);
+    dataset_.reset(driver->Create(task_.place.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+    require(dataset_ != nullptr);
+    write_voids(create_layer(kVoidsLayer, {{"id", OFTInteger64}, {"kind", OFTString}, {"counts", OFTInteger},
+                                           {"area", OFTReal}, {"circle", OFTReal}, {"x", OFTReal},
+                                           {"y", OFTReal}, {"spacing", OFTReal}, {"excepted", OFTReal}}));
+    if (!task_.check.tiles.empty())
+      write_tiles(create_layer(kTilesLayer, {{"area", OFTReal}, {"covered", OFTReal}, {"voids", OFTInteger64},
+                                             {"points", OFTInteger64}, {"density", OFTReal},
+                                             {"spacing", OFTReal}}));
+    dataset_.reset();
+    require(true);
+    return is_understood;
+  }
+
+ private:
+  using Fields = std::vector<std::pair<const char*, OGRFieldType>>;
+
+  void require(bool is_well) const {
+    if (is_well && failures_.first().empty()) return;
+    throw Error(task_.name.string() + ": cannot be written: GDAL: " +
+                (failures_.first().empty() ? "no reason given" : failures_.first()));
+  }
+
+  OGRLayer& create_layer(const char* name, const Fields& fields) {
+    CPLStringList options;
+    options.AddString((std::string("DESCRIPTION=") + kVoidsDescription).c_str());
+    OGRLayer* const layer = dataset_->CreateLayer(name, &crs_, wkbPolygon, options.List());
+    require(layer != nullptr);
+    for (const auto& [field_name, type] : fields) {
+      OGRFieldDefn field(field_name, type);
+      require(layer->CreateField(&field) == OGRERR_NONE);
+    }
+    return *layer;
+  }
+
+  static void set(OGRFeature& feature, int field, double value) {
+    std::isfinite(value) ? feature.SetField(field, value) : feature.SetFieldNull(field);
+  }
+
+  static std::unique_ptr<OGRPolygon> polygon_of(const PlanPolygon& outline) {
+    auto polygon = std::make_unique<OGRPolygon>();
+    for (const Ring2& corners : outline) {
+      auto ring = std::make_unique<OGRLinearRing>();
+      for (const Eigen::Vector2d& corner : corners) ring->addPoint(corner.x(), corner.y());
+      ring->closeRings();
+      polygon->addRingDirectly(ring.release());
+    }
+    polygon->flattenTo2D();
+    return polygon;
+  }
+
+  void put(OGRLayer& layer, OGRFeature& feature, const PlanPolygon& outline) const {
+    feature.SetGeometryDirectly(polygon_of(outline).release());
+    require(layer.CreateFeature(&feature) == OGRERR_NONE);
+  }
+
+  void write_voids(OGRLayer& layer) const {
+    require(layer.StartTransaction() == OGRERR_NONE);
+    for (std::size_t id = 0; id < task_.check.voids.size(); ++id) {
+      const Void& each = task_.check.voids[id];
+      OGRFeature feature(layer.GetLayerDefn());
+      feature.SetField(0, static_cast<GIntBig>(id));
+      feature.SetField(1, std::string(name_of(each.kind)).c_str());
+      feature.SetField(2, each.counts ? 1 : 0);
+      int field = 3;
+      for (const double value :
+           {each.area, each.circle, each.middle.x(), each.middle.y(), each.spacing, each.excepted})
+        set(feature, field++, value);
+      put(layer, feature, each.outline);
+    }
+    require(layer.CommitTransaction() == OGRERR_NONE);
+  }
+
+  void write_tiles(OGRLayer& layer) const {
+    require(layer.StartTransaction() == OGRERR_NONE);
+    for (const AreaTile& tile : task_.check.tiles) {
+      OGRFeature feature(layer.GetLayerDefn());
+      set(feature, 0, tile.area);
+      set(feature, 1, tile.covered());
+      feature.SetField(2, static_cast<GIntBig>(tile.voids));
+      feature.SetField(3, static_cast<GIntBig>(tile.points));
+      set(feature, 4, tile.density());
+      set(feature, 5, tile.spacing());
+      const double edge = task_.check.tile_edge, x = tile.corner.x(), y = tile.corner.y();
+      put(layer, feature, {{{x, y}, {x + edge, y}, {x + edge, y + edge}, {x, y + edge}}});
+    }
+    require(layer.CommitTransaction() == OGRERR_NONE);
+  }
+
+  const VoidsTask& task_;
+  GdalFailures failures_;
+  OGRSpatialReference crs_;
+  std::unique_ptr<GDALDataset, CloseDataset> dataset_;
+};
+
+}  // namespace
+
+extern "C" bool lacuna_write_voids_gis(const VoidsTask& task) {
+  register_gdal_drivers();
+  const GdalSetting time("OGR_CURRENT_DATE", kTime),
+      no_sync("OGR_SQLITE_SYNCHRONOUS", "OFF");  // synced in the end
+  return VoidsWriter(task).write();
+}
+
+}  // namespace lacuna::io

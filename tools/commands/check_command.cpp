@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// `lacuna check`: whether a scan covers an area. It reads the scan once and finds no loops.
+#include "engine/run/error.hpp"
+#include "io/area/check_area.hpp"
+#include "io/results/voids.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/commands/detect_command.hpp"
+#include "tools/console/area_text.hpp"
+#include "tools/console/visible_text.hpp"
+#include "tools/run/folders.hpp"
+#include "tools/run/input_files.hpp"
+#include "tools/run/signals.hpp"
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace lacuna::tools {
+using namespace io;
+
+namespace {
+
+struct CheckArguments {
+  explicit CheckArguments(const Command& command) : run(command) {}
+
+  std::vector<std::filesystem::path> scans;
+  ResultArguments run;
+};
+
+// Throws `Error` where the scan does not cover the area, so that scripts see it.
+void run_check(const CheckArguments& arguments) {
+  const FilesConfig config = arguments.run.start();
+  if (config.area.area.empty()) throw WrongOption("--area is required");
+  const std::unique_ptr<FileScan> scan =
+      open_inputs(expand_inputs(arguments.scans, read_options(config), config.input), config);
+  const Area area = *read_area(*scan, config);
+  const Overwrite overwrite = arguments.run.overwrite ? Overwrite::kAny : Overwrite::kOwn;
+  std::optional<MadeFolder> folder;
+  std::optional<FolderLock> alone;
+  if (!arguments.run.out.empty()) {
+    folder.emplace(arguments.run.out);
+    alone.emplace(folder->path());
+    check_voids_folder(*scan, folder->path(), overwrite);
+    watch_results(folder->path(), folder->path() / kVoidsFile);
+  }
+  const AreaCheck check = check_area(area, *scan, config);
+  const std::string_view unit = scan->length_unit();
+  const std::string verdict = print_verdict(check, unit);
+  std::string text = verdict + "\n\n";
+  if (const std::string voids = print_voids(check, unit); !voids.empty()) text += voids + "\n";
+  text += "  area  " + print_covered(check, unit) + "\n\n";
+  if (folder) {
+    for (const auto& file : write_voids(check, *scan, config.area, folder->path(), overwrite))
+      text += "written: " + visible(file.string()) + "\n";
+    note_complete_results();
+  }
+  if (!arguments.run.quiet) std::cout << text;
+  if (!check.is_covered()) throw Error(config.area.area + ": " + verdict);
+}
+
+}  // namespace
+
+void add_check_command(const Command& program) {
+  const Command command =
+      program.add_command("check", "Check whether a scan covers an area, without finding its loops");
+  const auto arguments = std::make_shared<CheckArguments>(command);
+  add_scans(command, arguments->scans).required();
+  command.runs([arguments] { run_check(*arguments); });
+}
+
+}  // namespace lacuna::tools

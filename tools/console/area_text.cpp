@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/console/area_text.hpp"
+
+#include "tools/console/measures_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace lacuna::tools {
+using namespace io;
+
+std::string print_verdict(const AreaCheck& check, std::string_view unit) {
+  const std::size_t counting = check.counting(), excepted = check.voids.size() - counting;
+  std::string text = "covered";
+  if (counting > 0) {
+    std::array<std::size_t, kVoidKinds.size()> kinds{};
+    for (std::size_t i = 0; i < counting; ++i) ++kinds[static_cast<std::size_t>(check.voids[i].kind)];
+    std::string list;
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+      if (kinds[i] > 0)
+        list.append(list.empty() ? "" : ", ").append(print_count(kinds[i])).append(" ").append(kVoidKinds[i]);
+    }
+    text = "not covered: " + print_count(counting) + (counting == 1 ? " void of " : " voids of ") +
+           print_length(check.void_size, unit) + " or more (" + list + ")";
+  }
+  if (excepted > 0) text += ", " + print_count(excepted) + (counting > 0 ? " more" : " void") + " in exceptions";
+  return text;
+}
+
+std::string print_covered(const AreaCheck& check, std::string_view unit) {
+  const double share = check.area > 0 ? 1 - check.missing_area / check.area : 1;
+  return tools::print_area(check.area, unit) + ", " + print_share(share) + " of it covered; " +
+         print_count(check.points) + " points";
+}
+
+std::string print_voids(const AreaCheck& check, std::string_view unit) {
+  constexpr std::size_t kMostRows = 10;
+  if (check.voids.empty()) return "";
+  std::vector<std::vector<std::string>> rows = {
+      {"largest voids", "kind", "area", "largest circle", "at", "spacing around", "in exceptions"}};
+  for (std::size_t id = 0; id < std::min(check.voids.size(), kMostRows); ++id) {
+    const Void& each = check.voids[id];
+    const std::string place = print_place({each.middle.x(), each.middle.y(), 0}, std::sqrt(check.area));
+    rows.push_back({"void " + std::to_string(id), std::string(name_of(each.kind)), tools::print_area(each.area, unit),
+                    print_length(each.circle, unit), place.substr(0, place.rfind(' ')),
+                    std::isfinite(each.spacing) ? print_length(each.spacing, unit) : "",
+                    print_share(each.excepted)});
+  }
+  std::string text = print_table(rows);
+  if (check.voids.size() > kMostRows)
+    text += "  and " + print_count(check.voids.size() - kMostRows) + " more: voids.csv has them all\n";
+  return text;
+}
+
+}  // namespace lacuna::tools

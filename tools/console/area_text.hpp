@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The check of an area as a person reads it.
+#pragma once
+
+#include "io/area/area_check.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace lacuna::tools {
+
+// "covered", or "not covered: 3 voids of 2.8 m or more (1 hole, 2 open), 1 more in exceptions".
+std::string print_verdict(const io::AreaCheck& check, std::string_view unit);
+
+// "12,300 m², 98.7 % of it covered; 45,600 points".
+std::string print_covered(const io::AreaCheck& check, std::string_view unit);
+
+// The ten largest voids as a table; empty without a void.
+std::string print_voids(const io::AreaCheck& check, std::string_view unit);
+
+}  // namespace lacuna::tools
