@@ -53,6 +53,7 @@ struct AreaTile {
 };
 
 struct AreaCheck {
+  std::vector<PlanPolygon> polygons;  // of the project
   double void_size = 0;      // diameter of the least void
   double area = 0;           // of the project
   double voids_area = 0;     // of all voids

@@ -266,7 +266,8 @@ AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config
   // The voids: the circles around what is empty.
   const Plan plan(grid, inside, excepted, points);
   plan.refuse_long_outlines(config);
-  AreaCheck check{.void_size = config.area.void_size,
+  AreaCheck check{.polygons = area.polygons,
+                  .void_size = config.area.void_size,
                   .area = grid.area(inside.count()),
                   .points = points.points};
   for (TracedVoid& traced : trace(plan, grid)) {

@@ -166,6 +166,7 @@ Json report_of(const Scene& scene) {
           {"surface_area", holes.value("surface_area", 0.0)},
           {"stations", holes.value("stations", Json::array())},
           {"next_stations", scene.next_stations},
+          {"area", scene.area},
           {"method", holes.at("parameters").at("loops").at("method")},
           {"parameters", holes.at("parameters")},
           {"changed", changed_parameters(holes.at("parameters"))},

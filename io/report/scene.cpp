@@ -4,6 +4,7 @@
 #include "engine/bucket/z_curve.hpp"
 #include "engine/run/error.hpp"
 #include "io/formats.hpp"
+#include "io/report/area_section.hpp"
 #include "io/report/scene_colours.hpp"
 #include "io/rows/scan_reader.hpp"
 #include "io/rows/vectors.hpp"
@@ -255,6 +256,7 @@ Scene read_scene(const fs::path& folder, const SceneLimits& limits) {
   Scene scene;
   read_holes(folder / "holes.json", scene);
   if (const fs::path run = folder / "run.json"; fs::exists(run)) scene.run = read_json(run);
+  scene.area = read_area_section(folder);
   read_loops(folder / "loops.ply", limits, scene);
   read_points(folder / "sample.ply", limits.positions - scene.loops.vertices.size(), scene);
   scene.points.spacing = typical_spacing(scene);

@@ -25,6 +25,7 @@ struct Scene {
   Json holes;                       // holes.json without its loops
   Json run;                         // run.json; null where the folder has none
   Json next_stations;               // of read_next_stations(); null without
+  Json area;                        // of read_area_section(); null where no area was checked
   Eigen::AlignedBox3d bounds;       // of the scan without its strays; empty without points
   std::uint64_t strays = 0;         // points of the scan that lie outside of them
   Eigen::Vector3d origin{0, 0, 0};  // least corner of the bounds

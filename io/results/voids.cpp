@@ -19,12 +19,16 @@ namespace {
 
 using namespace std::string_view_literals;
 
-Json void_json(std::size_t id, const Void& each) {
-  Json outline = Json::array();
-  for (const Ring2& ring : each.outline) {
-    Json& corners = outline.emplace_back(Json::array());
+Json rings_json(const PlanPolygon& polygon) {
+  Json rings = Json::array();
+  for (const Ring2& ring : polygon) {
+    Json& corners = rings.emplace_back(Json::array());
     for (const Eigen::Vector2d& corner : ring) corners.push_back({corner.x(), corner.y()});
   }
+  return rings;
+}
+
+Json void_json(std::size_t id, const Void& each) {
   return {{"id", id},
           {"kind", name_of(each.kind)},
           {"counts", each.counts},
@@ -33,7 +37,7 @@ Json void_json(std::size_t id, const Void& each) {
           {"middle", {each.middle.x(), each.middle.y()}},
           {"spacing", each.spacing},
           {"excepted", each.excepted},
-          {"outline", std::move(outline)}};
+          {"outline", rings_json(each.outline)}};
 }
 
 Json tile_json(const AreaTile& tile) {
@@ -74,6 +78,7 @@ void write_voids_json(const AreaCheck& check, const FileScan& scan, const AreaCo
   text.resize(text.rfind('}'));
   while (text.back() == '\n') text.pop_back();
   out.write(text);
+  write_list("polygons", check.polygons, [&](std::size_t i) { return rings_json(check.polygons[i]); }, out);
   write_list("voids", check.voids, [&](std::size_t i) { return void_json(i, check.voids[i]); }, out);
   write_list("tiles", check.tiles, [&](std::size_t i) { return tile_json(check.tiles[i]); }, out);
   out.write("\n}\n");

@@ -4,6 +4,7 @@
 
 #include "engine/export.hpp"
 #include "io/area/area_check.hpp"
+#include "io/area/voids_form.hpp"
 #include "io/files/output_set.hpp"
 #include "io/options/options.hpp"
 #include "io/scan/file_scan.hpp"
@@ -14,8 +15,6 @@
 
 namespace lacuna::io {
 
-inline constexpr const char* kVoidsFile = "voids.json";
-inline constexpr std::string_view kVoidsSchema = "voids 1";
 inline constexpr std::string_view kVoidsHeader =
     "id,kind,counts,area,circle,x,y,spacing,excepted";  // of voids.csv
 

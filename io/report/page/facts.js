@@ -5,7 +5,7 @@ const kLeastCertainty = 0.98;  // of a station that counts, as in io/stations/st
 
 function draw_facts(data, units) {
   const {report} = data;
-  const parts = [scan_facts(data, units), result_facts(data, units), cause_facts(data), station_facts(data),
+  const parts = [area_facts(data, units), scan_facts(data, units), result_facts(data, units), cause_facts(data), station_facts(data),
                  next_station_facts(data, units), parameter_facts(report)];
   if (report.run) parts.push(run_facts(report.run));
   if (report.lacuna) parts.push(element("p", {class: "quiet"}, `Written by lacuna ${report.lacuna}.`));

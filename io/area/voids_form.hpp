@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// The name and the form of voids.json, which docs/area.md describes.
+#pragma once
+
+#include <string_view>
+
+namespace lacuna::io {
+
+inline constexpr const char* kVoidsFile = "voids.json";
+inline constexpr std::string_view kVoidsSchema = "voids 1";
+
+}  // namespace lacuna::io
