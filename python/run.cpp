@@ -180,7 +180,7 @@ std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig c
         found->detection.emplace(
             io::ExplainedDetection{*detect(*found->scan, config, found->scratch->path(), watched)});
         if (stations) io::find_causes(*stations, *found->scan, config.run, *found->detection);
-        if (area) found->detection->area = io::check_area(*area, *found->scan, config);
+        if (area) found->detection->area = io::check_area(*area, *found->scan, config, watched);
         std::ranges::copy(tools::station_warnings(found->detection->stations),
                           std::back_inserter(found->warnings));
         std::ranges::copy(tools::scan_warnings(*found->scan, found->detection->summary, config),

@@ -5,15 +5,12 @@
 #include "engine/run/job.hpp"
 #include "io/area/area_polygons.hpp"
 #include "io/area/area_tiles.hpp"
-#include "io/area/convex_hull.hpp"
+#include "io/area/empty_places.hpp"
 #include "io/area/plan_raster.hpp"
-#include "io/area/point_density.hpp"
 #include "io/area/trace_voids.hpp"
 #include "io/crs/gis_module.hpp"
-#include "io/rows/vectors.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -25,8 +22,6 @@
 namespace lacuna::io {
 namespace {
 
-constexpr double kRadius = PlanGrid::kCells / 2;  // of the least void, in cells
-constexpr std::size_t kSquare = 10;  // cells along a square in which points are counted
 constexpr const char* kUser = "--area and --except";
 
 // ---- the area
@@ -55,7 +50,7 @@ PlanGrid grid_over(std::span<const PlanPolygon> polygons, std::size_t rasters, c
   if (!(size.prod() <= most) || !(size.maxCoeff() < std::numeric_limits<int>::max())) {
     std::ostringstream message;
     message << "void_size = " << config.area.void_size << ": the area has " << size.x() << " x " << size.y()
-            << " cells of a tenth of it, more than " << most << " within the memory limit; allowed: "
+            << " cells of an eighth of it, more than " << most << " within the memory limit; allowed: "
             << config.area.void_size * std::sqrt(std::max(size.prod() / most, 1.0)) * 1.01 << " or more";
     throw Error(message.str());
   }
@@ -64,59 +59,15 @@ PlanGrid grid_over(std::span<const PlanPolygon> polygons, std::size_t rasters, c
   return grid;
 }
 
-// ---- the points
-
-// What the points leave empty of the area, and where they are.
-class PointsInPlan : public RowObserver {
- public:
-  PointsInPlan(const PlanGrid& grid, const PlanRaster& inside, AreaTiles& tiles)
-      : empty(inside), density(kSquare, grid), grid_(grid), inside_(inside), tiles_(tiles) {}
-
-  void take(std::size_t, const ScanReader& reader, const RowBatch& rows, std::span<const Eigen::Vector3d>,
-            std::span<const Eigen::Vector3d> kept) override {
-    const Property* const returns = reader.layout().find_alike("return_number");
-    if (returns != nullptr) load_column(rows, reader.layout().stride, *returns, returns_);
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-      if (kept[i].allFinite() && (returns == nullptr || returns_[i] <= 1)) add(kept[i].head<2>());
-    }
-  }
-
-  // Whether no point lies in the bounds of the area.
-  bool is_far() { return hull.corners().empty(); }
-
-  PlanRaster empty;  // middles of cells
-  PointDensity density;
-  ConvexHull hull;  // in cells
-  std::uint64_t points = 0;
-
- private:
-  void add(const Eigen::Vector2d& place) {
-    const Eigen::Vector2d at = grid_.to_cells(place);
-    clear_disc(at, kRadius, empty);
-    if (!grid_.contains(at)) return;
-    hull.add(at);
-    const auto column = static_cast<std::size_t>(at.x()), row = static_cast<std::size_t>(at.y());
-    if (!inside_.has(column, row)) return;
-    ++points;
-    density.add(column, row);
-    tiles_.add_point(column, row);
-  }
-
-  const PlanGrid& grid_;
-  const PlanRaster& inside_;
-  AreaTiles& tiles_;
-  std::vector<double> returns_;
-};
-
 // ---- the voids
 
 // The plan of an area and its voids.
 class Plan {
  public:
   Plan(const PlanGrid& grid, const PlanRaster& inside, const std::optional<PlanRaster>& excepted,
-       PointsInPlan& points)
+       const PlanOfPoints& points)
       : grid_(grid), inside_(inside), excepted_(excepted), points_(points), hull_(grid.rows) {
-    for_each_run({points.hull.corners()}, grid,
+    for_each_run({points.hull}, grid,
                  [&](std::size_t row, std::size_t from, std::size_t to) { hull_[row] = {from, to}; });
   }
 
@@ -127,7 +78,7 @@ class Plan {
     const auto put = [&](VoidKind kind) {
       std::vector<std::uint64_t> voids(inside_.row(row).size());
       const auto copy = [&](std::size_t of, std::span<std::uint64_t> cells) { copy_empty(of, kind, cells); };
-      grow_row(grid_, copy, row, kRadius, voids);
+      grow_row(grid_, copy, row, kEmptyRadius, voids);
       for (std::size_t word = 0; word < voids.size(); ++word) {
         for (std::uint64_t bits = voids[word] & inside_.row(row)[word]; bits != 0; bits &= bits - 1)
           values[word * 64 + static_cast<std::size_t>(std::countr_zero(bits))] = value_of(kind);
@@ -172,7 +123,7 @@ class Plan {
     result.area = grid_.area(cells);
     result.excepted = static_cast<double>(excepted) / static_cast<double>(cells);
     // The outline runs along cells, so the circle within it is up to half a cell too small all around.
-    result.circle = 2 * (traced.radius + 0.5) * grid_.edge();
+    result.circle = std::max(2 * (traced.radius + 0.5) * grid_.edge(), grid_.size);
     result.middle = grid_.from_cells(traced.middle);
     result.spacing = points_.density.spacing_around(traced.outline, inside_) * grid_.edge();
     result.outline = std::move(traced.outline);
@@ -226,7 +177,7 @@ class Plan {
   const PlanGrid& grid_;
   const PlanRaster& inside_;
   const std::optional<PlanRaster>& excepted_;
-  const PointsInPlan& points_;
+  const PlanOfPoints& points_;
   std::vector<std::pair<std::size_t, std::size_t>> hull_;  // by row: the cells within the convex hull
 };
 
@@ -246,11 +197,11 @@ std::optional<Area> read_area(const FileScan& scan, const FilesConfig& config) {
   Area area;
   area.polygons = read_polygons(config.area.area, scan);
   if (!config.area.except.empty()) area.exceptions = read_polygons(config.area.except, scan);
-  area.grid = grid_over(area.polygons, area.exceptions.empty() ? 2 : 3, config);
+  area.grid = grid_over(area.polygons, area.exceptions.empty() ? 3 : 4, config);
   return area;
 }
 
-AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config) {
+AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config, Progress& progress) {
   // What is empty: the cells of the area without a point near them.
   const PlanGrid& grid = area.grid;
   const PlanRaster inside = rasterise(area.polygons, grid);
@@ -258,10 +209,10 @@ AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config
   if (!area.exceptions.empty()) excepted = rasterise(area.exceptions, grid);
   AreaTiles tiles(config.area.area_tile, grid);
   tiles.add_area(inside);
-  PointsInPlan points(grid, inside, tiles);
-  scan.read_all(points);
-  if (points.is_far())
-    throw Error(config.area.area + ": no point of the scan is in or near it; are both in the same coordinate reference system?");
+  const PlanOfPoints points =
+      find_empty_places(grid, inside, Memory::share(config.run.memory_limit).limit / 8, scan, tiles, progress);
+  if (points.hull.empty())
+    throw Error(config.area.area + ": no point of the scan is in its bounds; are both in the same system?");
 
   // The voids: the circles around what is empty.
   const Plan plan(grid, inside, excepted, points);
@@ -279,6 +230,7 @@ AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config
     const auto key = [](const Void& v) { return std::tuple(!v.counts, -v.area, v.middle.x(), v.middle.y()); };
     return key(a) < key(b);
   });
+  progress.end();
   check.tile_edge = config.area.area_tile;
   check.tiles = tiles.with_area();
   return check;

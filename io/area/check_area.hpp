@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/export.hpp"
+#include "engine/run/progress.hpp"
 #include "io/area/area_check.hpp"
 #include "io/area/plan_raster.hpp"
 #include "io/options/options.hpp"
@@ -23,16 +24,18 @@ struct Area {
 // for the memory limit.
 LACUNA_API std::optional<Area> read_area(const FileScan& scan, const FilesConfig& config);
 
-// A place is empty if no point lies nearer to it than half of the void size, seen from above. Places are the
-// middles of cells whose edge is a tenth of the void size. Voids are what the circles around empty places
-// cover within the area. Cells that share edges are one void; the convex hull of all points cuts it.
+// A place is empty if no point lies nearer to it than half of the void size, seen from above. Voids are what
+// the circles around empty places cover within the area. They are made of cells whose edge is an eighth of the
+// void size (io/area/empty_places.hpp): those whose middles are within half of the void size of the middle of an
+// empty cell. Cells that share edges are one void. The convex hull of the points in the bounds of the area
+// cuts voids.
 //
-// A void counts unless all of its empty places lie in exceptions. Where a file of the scan has return
+// A void counts unless all of its empty cells lie in exceptions. Where a file of the scan has return
 // numbers, only first returns are points. (Data voids in the Lidar Base Specification of the U.S. Geological
 // Survey: its least void has four nominal pulse spacings.)
 //
-// Reads the scan once. Memory: 2 or 3 bits for each cell in the bounds of the area, and the outlines. Cost:
+// Reads the scan once or twice. Memory: 3 or 4 bits for each cell in the bounds of the area, and the outlines. Cost:
 // linear in points and in cells. Throws `Error` where outlines do not fit in memory.
-LACUNA_API AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config);
+LACUNA_API AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config, Progress& progress);
 
 }  // namespace lacuna::io

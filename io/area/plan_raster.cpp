@@ -35,6 +35,19 @@ void add_moved(std::span<const std::uint64_t> row, std::size_t columns, std::spa
   }
 }
 
+// Calls visit(row, from, to) for the cells whose middles lie in a disc.
+template <class Visit>
+void for_each_row_of_disc(const Eigen::Vector2d& middle, double radius, const PlanRaster& raster,
+                          const Visit& visit) {
+  const std::size_t end = first_middle_from(middle.y() + radius, raster.rows());
+  for (std::size_t row = first_middle_from(middle.y() - radius, raster.rows()); row < end; ++row) {
+    const double dy = static_cast<double>(row) + 0.5 - middle.y();
+    const double half = std::sqrt(std::max(radius * radius - dy * dy, 0.0));
+    visit(row, first_middle_from(middle.x() - half, raster.columns()),
+          first_middle_from(middle.x() + half, raster.columns()));
+  }
+}
+
 }  // namespace
 
 void PlanRaster::set(std::size_t row, std::size_t from, std::size_t to) {
@@ -93,14 +106,22 @@ PlanRaster rasterise(std::span<const PlanPolygon> polygons, const PlanGrid& grid
   return raster;
 }
 
+void PlanRaster::subtract(const PlanRaster& other) {
+  for (std::size_t i = 0; i < words_.size(); ++i) words_[i] &= ~other.words_[i];
+}
+
 void clear_disc(const Eigen::Vector2d& middle, double radius, PlanRaster& raster) {
-  const std::size_t end = first_middle_from(middle.y() + radius, raster.rows());
-  for (std::size_t row = first_middle_from(middle.y() - radius, raster.rows()); row < end; ++row) {
-    const double dy = static_cast<double>(row) + 0.5 - middle.y();
-    const double half = std::sqrt(std::max(radius * radius - dy * dy, 0.0));
-    raster.clear(row, first_middle_from(middle.x() - half, raster.columns()),
-                 first_middle_from(middle.x() + half, raster.columns()));
-  }
+  for_each_row_of_disc(middle, radius, raster, [&](std::size_t row, std::size_t from, std::size_t to) {
+    raster.clear(row, from, to);
+  });
+}
+
+bool has_in_disc(const Eigen::Vector2d& middle, double radius, const PlanRaster& raster) {
+  bool has_any = false;
+  for_each_row_of_disc(middle, radius, raster, [&](std::size_t row, std::size_t from, std::size_t to) {
+    has_any = has_any || count_bits(raster.row(row), from, to) > 0;
+  });
+  return has_any;
 }
 
 void clear_bits(std::span<std::uint64_t> row, std::size_t from, std::size_t to) {

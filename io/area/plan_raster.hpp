@@ -4,6 +4,7 @@
 
 #include "io/area/plan_polygon.hpp"
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -17,7 +18,7 @@ namespace lacuna::io {
 // Square cells, whole multiples of their edge from 0 0. Rows go from south to north, columns from west to
 // east.
 struct PlanGrid {
-  static constexpr double kCells = 10;
+  static constexpr double kCells = 8;
 
   double size = 0;             // of so many cells in a row, in units of the scan
   Eigen::Array2d first{0, 0};  // the cell in the south-west, in cells from 0 0; whole numbers
@@ -55,10 +56,19 @@ class PlanRaster {
   bool has(std::size_t column, std::size_t row) const {
     return (words_[row * words_of_row_ + column / 64] >> column % 64 & 1) != 0;
   }
-  // Sets and clears the cells [from, to) of a row, and counts those that are set.
+  // Sets and clears the cells [from, to) of a row.
   void set(std::size_t row, std::size_t from, std::size_t to);
   void clear(std::size_t row, std::size_t from, std::size_t to);
   std::uint64_t count() const;
+  void subtract(const PlanRaster& other);  // of the same grid
+  // Calls visit(column) for the set cells of a row, from west to east.
+  template <class Visit>
+  void for_each_in(std::size_t row, const Visit& visit) const {
+    for (std::size_t word = 0; word < words_of_row_; ++word) {
+      for (std::uint64_t bits = words_[row * words_of_row_ + word]; bits != 0; bits &= bits - 1)
+        visit(word * 64 + static_cast<std::size_t>(std::countr_zero(bits)));
+    }
+  }
 
  private:
   std::size_t columns_, words_of_row_;
@@ -79,6 +89,7 @@ PlanRaster rasterise(std::span<const PlanPolygon> polygons, const PlanGrid& grid
 
 // Clears the cells whose middles lie nearer to a place than `radius`. All are in cells.
 void clear_disc(const Eigen::Vector2d& middle, double radius, PlanRaster& raster);
+bool has_in_disc(const Eigen::Vector2d& middle, double radius, const PlanRaster& raster);
 
 // Adds the cells of a row whose middles lie within `radius` of the middle of a set cell. The radius is in
 // cells, and less than 64. `copy` writes the set cells of any row.

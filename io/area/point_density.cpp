@@ -22,10 +22,10 @@ double PointDensity::spacing_around(const PlanPolygon& outline, const PlanRaster
   for (const Ring2& ring : outline) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Eigen::Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
-      const auto steps = static_cast<std::size_t>(std::ceil((b - a).norm() / static_cast<double>(edge_)));
+      const auto steps = static_cast<std::size_t>(std::ceil((b - a).norm() / static_cast<double>(kEdge)));
       for (std::size_t step = 0; step < std::max<std::size_t>(steps, 1); ++step) {
         const Eigen::Vector2d at = a + (b - a) * static_cast<double>(step) / static_cast<double>(std::max<std::size_t>(steps, 1));
-        passed.push_back(static_cast<std::size_t>(at.y()) / edge_ * columns_ + static_cast<std::size_t>(at.x()) / edge_);
+        passed.push_back(static_cast<std::size_t>(at.y()) / kEdge * columns_ + static_cast<std::size_t>(at.x()) / kEdge);
       }
     }
   }
@@ -41,9 +41,9 @@ double PointDensity::spacing_around(const PlanPolygon& outline, const PlanRaster
   for (const std::size_t square : around) {
     if (std::binary_search(passed.begin(), passed.end(), square)) continue;
     points += points_[square];
-    const std::size_t from = square % columns_ * edge_, to = std::min(from + edge_, inside.columns());
-    const std::size_t first = square / columns_ * edge_;
-    for (std::size_t row = first; row < std::min(first + edge_, inside.rows()); ++row)
+    const std::size_t from = square % columns_ * kEdge, to = std::min(from + kEdge, inside.columns());
+    const std::size_t first = square / columns_ * kEdge;
+    for (std::size_t row = first; row < std::min(first + kEdge, inside.rows()); ++row)
       cells += count_bits(inside.row(row), from, to);
   }
   return points > 0 ? std::sqrt(static_cast<double>(cells) / static_cast<double>(points))

@@ -10,17 +10,15 @@
 
 namespace lacuna::io {
 
-// Counts points in squares of `edge` x `edge` cells.
+// Counts points in squares of kEdge x kEdge cells.
 class PointDensity {
  public:
-  PointDensity(std::size_t edge, const PlanGrid& grid)
-      : edge_(edge), columns_(grid.columns / edge + 1), points_(columns_ * (grid.rows / edge + 1)) {}
+  static constexpr std::size_t kEdge = 8;
 
-  static std::uint64_t bytes(std::size_t edge, const PlanGrid& grid) {
-    return (grid.columns / edge + 1) * (grid.rows / edge + 1) * sizeof(std::uint32_t);
-  }
+  explicit PointDensity(const PlanGrid& grid)
+      : columns_(grid.columns / kEdge + 1), points_(columns_ * (grid.rows / kEdge + 1)) {}
 
-  void add(std::size_t column, std::size_t row) { ++points_[row / edge_ * columns_ + column / edge_]; }
+  void add(std::size_t column, std::size_t row) { ++points_[row / kEdge * columns_ + column / kEdge]; }
 
   // Returns the spacing of the points around an outline: of the squares with points, at most two squares away
   // from it, that it does not pass. NaN without such squares. It is in cells, as is the outline; `inside` is
@@ -28,7 +26,7 @@ class PointDensity {
   double spacing_around(const PlanPolygon& outline, const PlanRaster& inside) const;
 
  private:
-  std::size_t edge_, columns_;
+  std::size_t columns_;
   std::vector<std::uint32_t> points_;
 };
 

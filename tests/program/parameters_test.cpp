@@ -60,6 +60,9 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"crs", "EPSG:25832"},
     {"unit", "m"},
     {"unit_z", "ft"},
+    {"void_size", "4"},
+    {"except", "water.gpkg"},
+    {"area_tile", "50"},
     {"points_format", "ply"},
     {"sample_points", "200"},
     {"coverage", "3"},
@@ -171,9 +174,9 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
       io::FilesConfig changed = config;
       Parameter parameter = parameters(changed)[i];
       // This scan has neither lines nor normals. The others say which files are read, and the unit of z needs
-      // the unit of x and y.
-      const std::string_view passed[] = {
-          "method", "every_point", "estimate_normals", "recursive", "skip_damaged", "unit_z", "trust"};
+      // the unit of x and y. An area needs a void size; area_test.sh has it.
+      const std::string_view passed[] = {"method",       "every_point", "estimate_normals", "recursive",
+                                         "skip_damaged", "unit_z",      "trust",            "area"};
       if (std::find(std::begin(passed), std::end(passed), parameter.key) != std::end(passed)) continue;
       set_other(parameter, runs.workspace());
       parameter = parameters(changed)[i];
@@ -208,6 +211,7 @@ TEST_CASE("each option without effect has its warning, each other none") {
                                parameter.key == "columns" || parameter.key == "eps" ||
                                parameter.key == "max_perimeter" || parameter.key == "max_area" ||
                                parameter.key == "polygons" || parameter.key == "unit_z" ||
+                               parameter.key == "area" ||
                                parameter.key == "points_format";  // the files that they change are wanted
       if (is_left_out) continue;
       options.push_back(parameter.option());

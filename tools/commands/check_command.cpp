@@ -45,7 +45,9 @@ void run_check(const CheckArguments& arguments) {
     check_voids_folder(*scan, folder->path(), overwrite);
     watch_results(folder->path(), folder->path() / kVoidsFile);
   }
-  const AreaCheck check = check_area(area, *scan, config);
+  const std::unique_ptr<Progress> progress =
+      make_progress(arguments.run.quiet ? ProgressStyle::kNone : arguments.run.progress, {{"area", 1}});
+  const AreaCheck check = check_area(area, *scan, config, *progress);
   const std::string_view unit = scan->length_unit();
   const std::string verdict = print_verdict(check, unit);
   std::string text = verdict + "\n\n";

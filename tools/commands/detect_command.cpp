@@ -171,7 +171,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   const std::unique_ptr<StationViews> stations = watch_stations(scan, config.output, scratch.path());
   ExplainedDetection detection{*detect(scan, config, scratch.path(), *progress)};
   if (stations) find_causes(*stations, scan, config.run, detection);
-  if (area) detection.area = check_area(*area, scan, config);
+  if (area) detection.area = check_area(*area, scan, config, *progress);
   const Clock::time_point writing = Clock::now();
   progress->begin("write", 0);
   const std::vector<fs::path> written = write_results(detection, scan, with_min_hole(config), out, overwrite);

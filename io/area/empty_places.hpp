@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// find_empty_places: the cells of an area with a place that no point is near.
+#pragma once
+
+#include "engine/run/progress.hpp"
+#include "io/area/area_tiles.hpp"
+#include "io/area/convex_hull.hpp"
+#include "io/area/plan_raster.hpp"
+#include "io/area/point_density.hpp"
+#include "io/scan/file_scan.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace lacuna::io {
+
+// A place is empty if no point is nearer than this. In cells: half of the void size.
+inline constexpr double kEmptyRadius = PlanGrid::kCells / 2;
+
+// The points of a scan, seen from above.
+struct PlanOfPoints {
+  // Cells of the area whose middles are empty, and cells with another empty place beside no such cell.
+  PlanRaster empty;
+  PointDensity density;
+  Ring2 hull;  // convex, of the points in the bounds of the area; in cells
+  std::uint64_t points = 0;  // in the area
+};
+
+// Reads the scan. The first pass decides all cells but those whose middle is nearly empty. Where such cells are,
+// a second pass collects the points near them. A cell is divided until its parts are decided, or 64 times
+// smaller. So the size of a circle is exact to a five hundredth, whatever the grid. Adds the points to `tiles`. Throws
+// `Error` where the points near undecided cells need more than `memory` bytes.
+PlanOfPoints find_empty_places(const PlanGrid& grid, const PlanRaster& inside, std::uint64_t memory,
+                               FileScan& scan, AreaTiles& tiles, Progress& progress);
+
+}  // namespace lacuna::io

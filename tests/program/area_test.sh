@@ -1,0 +1,165 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The check of an area against area_reference.py, which follows its definition cell by cell; what does not change it;
+# polygons in other systems and formats; what is refused.
+set -euo pipefail
+program=${LACUNA_PROGRAM:?}
+here=$PWD
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+# ---- the definition
+for name in swaths holes crossed islands larger hull river random returns; do
+  python3 "$here/area_reference.py" "$name" "$name.xyz" "$name.geojson" "$name.except.geojson" >"$name.expected"
+  read -r size columns < <(head -n 1 "$name.expected")
+  options=(--area "$name.geojson" --except "$name.except.geojson" --void-size "$size" --area-tile 20)
+  code=0
+  "$program" check "$name.xyz" --columns "$columns" "${options[@]}" --out "$name" --quiet 2>"$name.err" || code=$?
+  python3 "$here/area_reference.py" --compare "$name.expected" "$name" "$code"
+done
+
+# ---- what does not change it
+python3 - <<'END'
+import random
+rows = open("holes.xyz").read().splitlines()
+random.Random(1).shuffle(rows)
+open("mixed.xyz", "w").write("\n".join(rows[:1000]) + "\n")
+open("mixed2.xyz", "w").write("\n".join(rows[1000:]) + "\n")
+END
+options=(--area holes.geojson --except holes.except.geojson --void-size 4 --area-tile 20 --quiet)
+for other in "--threads 1" "--threads 3 --memory-limit 64MiB"; do
+  # shellcheck disable=SC2086
+  "$program" check mixed.xyz mixed2.xyz --columns "x y z" "${options[@]}" $other --out other 2>other.err || true
+  for file in voids.csv voids.json voids.gpkg; do cmp "holes/$file" "other/$file"; done
+done
+"$program" detect holes.xyz --columns "x y z" "${options[@]}" --tile-points 500 --coverage 2 --report --out detected 2>detected.err
+for file in voids.csv voids.json voids.gpkg; do cmp "holes/$file" "detected/$file"; done
+grep -q '"area":{"lacuna"' detected/report.html
+
+# coverage.tif has no points where all of a cell is void.
+gdal_translate -q -of XYZ -b 1 detected/coverage.tif points.xyz
+python3 - <<'END'
+import json
+from pathlib import Path
+voids = json.load(open("detected/voids.json"))["voids"]
+
+
+def is_inside(rings, x, y):
+    inside = False
+    for ring in rings:
+        for (ax, ay), (bx, by) in zip(ring, ring[1:] + ring[:1]):
+            if (ay <= y) != (by <= y) and ax + (y - ay) / (by - ay) * (bx - ax) > x:
+                inside = not inside
+    return inside
+
+
+checked = 0
+for line in Path("points.xyz").read_text().split("\n")[:-1]:
+    x, y, points = map(float, line.split())
+    steps = (-1.5, -.7, 0, .7, 1.5)  # one cell of the check beyond the cell of the raster
+    corners = [(x + dx, y + dy) for dx in steps for dy in steps]
+    for void in voids:
+        if all(is_inside(void["outline"], *corner) for corner in corners):
+            assert points == 0, (x, y, points)
+            checked += 1
+assert checked > 10, checked
+END
+
+# ---- the files
+ogrinfo -q -al -so holes/voids.gpkg >layers.txt
+grep -q lacuna_voids layers.txt
+grep -q lacuna_area_tiles layers.txt
+python3 - <<'END'
+import csv, json, subprocess
+voids = json.load(open("holes/voids.json"))["voids"]
+rows = list(csv.DictReader(open("holes/voids.csv")))
+subprocess.run(["ogr2ogr", "-f", "GeoJSON", "read.geojson", "holes/voids.gpkg", "lacuna_voids"], check=True)
+features = json.load(open("read.geojson"))["features"]
+assert len(voids) == len(rows) == len(features) > 2
+for void, row, feature in zip(voids, rows, features):
+    values = feature["properties"]
+    assert values["kind"] == row["kind"] == void["kind"]
+    assert float(row["area"]) == void["area"] == values["area"]
+    assert float(row["circle"]) == void["circle"] == values["circle"]
+    rings = [[tuple(corner) for corner in ring[:-1]] for ring in feature["geometry"]["coordinates"]]
+    outline = [[tuple(corner) for corner in ring] for ring in void["outline"]]
+    assert sorted(map(sorted, rings)) == sorted(map(sorted, outline))
+END
+
+# ---- polygons in other systems and formats
+python3 - <<'END'
+rows = [list(map(float, line.split())) for line in open("holes.xyz")]
+with open("utm.xyz", "w") as out:
+    for x, y, z in rows:
+        print(f"{500_000 + x:.3f} {5_400_000 + y:.3f} {z:.3f}", file=out)
+import json
+for name in ("holes", "holes.except"):
+    area = json.load(open(name + ".geojson"))
+    for feature in area["features"]:
+        feature["geometry"]["coordinates"] = [[[500_000 + x, 5_400_000 + y] for x, y in ring]
+                                              for ring in feature["geometry"]["coordinates"]]
+    json.dump(area, open("utm." + name + ".json", "w"))
+END
+ogr2ogr -f GPKG -a_srs EPSG:25832 utm.gpkg utm.holes.json
+ogr2ogr -f GeoJSON -s_srs EPSG:25832 -t_srs EPSG:4326 degrees.geojson utm.gpkg
+ogr2ogr -f "ESRI Shapefile" -t_srs EPSG:3857 mercator.shp utm.gpkg
+ogr2ogr -f GPKG -a_srs EPSG:25832 water.gpkg utm.holes.except.json
+for area in utm.gpkg degrees.geojson mercator.shp; do
+  "$program" check utm.xyz --columns "x y z" --crs EPSG:25832 --area "$area" --except water.gpkg --void-size 4 --out "in_$area" \
+    --quiet 2>area.err || true
+  python3 - "in_$area" <<'END'
+import csv, sys
+found = list(csv.DictReader(open(sys.argv[1] + "/voids.csv")))
+expected = list(csv.DictReader(open("holes/voids.csv")))
+assert len(found) == len(expected), (len(found), len(expected))
+for a, b in zip(found, expected):
+    assert a["kind"] == b["kind"] and a["counts"] == b["counts"], (a, b)
+    assert abs(float(a["area"]) - float(b["area"])) < .05 * float(b["area"]) + 1, (a, b)
+END
+done
+"$program" check utm.xyz --columns "x y z" --crs EPSG:25832 --area degrees.geojson --void-size 4 >converted.txt 2>converted.err || true
+grep -q "degrees.geojson: is converted from WGS 84" converted.err
+
+# ---- the verdict
+"$program" check holes.xyz --columns "x y z" --area holes.geojson --void-size 30 >covered.txt
+head -n 1 covered.txt | grep -qx covered
+
+# ---- what is refused
+refuse() {
+  local expected=$1
+  shift
+  local code=0
+  "$program" "$@" >refused.txt 2>refused.err || code=$?
+  [[ $code == 1 || $code == 2 ]] || { echo "exit code $code of: $*"; exit 1; }
+  grep -q -- "$expected" refused.err || { echo "not '$expected' but:"; cat refused.err; exit 1; }
+  [[ $(wc -l <refused.err) -le 3 ]]
+}
+some=(holes.xyz --columns "x y z" --out refused)
+for command in check detect; do
+  refuse "void_size = 0: --area needs it" "$command" "${some[@]}" --area holes.geojson
+  refuse "nothing.gpkg: cannot be read as GeoPackage" "$command" "${some[@]}" --area nothing.gpkg --void-size 4
+  refuse "holes.xyz: cannot be read as GeoPackage" "$command" "${some[@]}" --area holes.xyz --void-size 4
+  refuse "void_size = 1e-06: the area has .* cells of an eighth of it, more than .* allowed: .* or more" "$command" "${some[@]}" \
+    --area holes.geojson --void-size 1e-6
+  refuse "area_tile is less than void_size" "$command" "${some[@]}" --area holes.geojson --void-size 4 --area-tile 3
+done
+echo '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":{"type":"Point","coordinates":[1,2]}}]}' >point.geojson
+refuse "point.geojson: has no polygon" check "${some[@]}" --area point.geojson --void-size 4
+refuse "no point of the scan is in its bounds" check utm.xyz --columns "x y z" --area holes.geojson --void-size 4
+python3 - <<'END'
+import random
+draw = random.Random(1)
+with open("wide.xyz", "w") as out:
+    for i in range(40_000):
+        print(draw.uniform(0, 200), draw.uniform(0, 200), 0, file=out)
+END
+echo '{"type":"Polygon","coordinates":[[[0,0],[199,0],[199,199],[0,199],[0,0]]]}' >wide.geojson
+refuse "points are so far apart that outlines of voids have .* edges" check wide.xyz --columns "x y z" --area wide.geojson \
+  --void-size 1.5 --memory-limit 64MiB
+refuse "--area is required" check "${some[@]}"
+mkdir -p refused
+echo mine >refused/voids.csv
+refuse "refused/voids.csv: " check "${some[@]}" --area holes.geojson --void-size 4
+refuse "refused/voids.csv: " detect "${some[@]}" --area holes.geojson --void-size 4
+[[ $(cat refused/voids.csv) == mine ]]
