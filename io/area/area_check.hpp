@@ -30,12 +30,12 @@ constexpr std::string_view name_of(VoidKind kind) {
 struct Void {
   VoidKind kind = VoidKind::kHole;
   double area = 0;
-  double circle = 0;                // diameter of the largest circle that fits in
-  Eigen::Vector2d middle{0, 0};     // of that circle
-  double spacing = 0;               // of the points around it; NaN where there are none
-  double excepted = 0;              // share that lies in exceptions, [0, 1]
-  bool counts = true;               // not covered by an exception
-  PlanPolygon outline;              // along cells; the outer ring first
+  double circle = 0;             // diameter of the largest circle that fits in
+  Eigen::Vector2d middle{0, 0};  // of that circle
+  double spacing = 0;            // of the points around it; NaN where there are none
+  double excepted = 0;           // share that lies in exceptions, [0, 1]
+  bool counts = true;            // not covered by an exception
+  PlanPolygon outline;           // along cells; the outer ring first
 };
 
 // A square of the table of an area.
@@ -47,21 +47,21 @@ struct AreaTile {
   std::size_t voids = 0;  // that count, whose largest circles have their middles here
 
   double covered() const { return 1 - voids_area / area; }  // share of its area
-  // Of the part without voids; not finite where there is none.
+  // The part without voids counts. They are not finite where there is none.
   double density() const { return static_cast<double>(points) / (area - voids_area); }
   double spacing() const { return 1 / std::sqrt(density()); }
 };
 
 struct AreaCheck {
   std::vector<PlanPolygon> polygons;  // of the project
-  double void_size = 0;      // diameter of the least void
-  double area = 0;           // of the project
-  double voids_area = 0;     // of all voids
-  double missing_area = 0;   // of the voids that count
-  std::uint64_t points = 0;  // in the area
-  std::vector<Void> voids;   // those that count first; then by area, the largest first
-  double tile_edge = 0;      // 0: no table
-  std::vector<AreaTile> tiles;  // with a part of the area; from south to north, then from west to east
+  double void_size = 0;               // diameter of the least void
+  double area = 0;                    // of the project
+  double voids_area = 0;              // of all voids
+  double missing_area = 0;            // of the voids that count
+  std::uint64_t points = 0;           // in the area
+  std::vector<Void> voids;            // those that count first; then by area, the largest first
+  double tile_edge = 0;               // 0: no table
+  std::vector<AreaTile> tiles;        // with a part of the area; from south to north, then from west to east
 
   std::size_t counting() const {
     std::size_t count = 0;

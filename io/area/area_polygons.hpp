@@ -11,8 +11,8 @@
 namespace lacuna::io {
 
 struct AreaPolygons {
-  std::string file;  // GeoPackage, GeoJSON or Shapefile
-  std::string crs;   // of the scan, as FileScan::common_crs; empty if not known
+  std::string file;                   // GeoPackage, GeoJSON or Shapefile
+  std::string crs;                    // of the scan, as FileScan::common_crs; empty if not known
   std::vector<PlanPolygon> polygons;  // in coordinates of the scan
   std::string file_crs;               // name of the file's system; empty if it has none
   bool is_converted = false;          // from that system

@@ -19,7 +19,7 @@ AreaTiles::AreaTiles(double edge, const PlanGrid& grid) : grid_(grid) {
   tiles_.resize(columns_ * (of_row_.back() + 1));
   for (std::size_t i = 0; i < tiles_.size(); ++i)
     tiles_[i].tile.corner = {(first.x() + static_cast<double>(i % columns_)) * edge,
-                        (first.y() + static_cast<double>(i / columns_)) * edge};
+                             (first.y() + static_cast<double>(i / columns_)) * edge};
 }
 
 void AreaTiles::add_area(const PlanRaster& inside) {

@@ -67,12 +67,13 @@ class Plan {
   Plan(const PlanGrid& grid, const PlanRaster& inside, const std::optional<PlanRaster>& excepted,
        const PlanOfPoints& points)
       : grid_(grid), inside_(inside), excepted_(excepted), points_(points), hull_(grid.rows) {
-    for_each_run({points.hull}, grid,
-                 [&](std::size_t row, std::size_t from, std::size_t to) { hull_[row] = {from, to}; });
+    for_each_run({points.hull}, grid, [&](std::size_t row, std::size_t from, std::size_t to) {
+      hull_[row] = {from, to};
+    });
   }
 
-  // Writes the kind of void of each cell of a row, before it is known what is around: kHole or kOutside, and
-  // one more; 0: no void.
+  // Writes one more than the kind of void of each cell of a row, kHole or kOutside; 0: no void. What is
+  // around is not known yet.
   void write_row(std::size_t row, std::span<std::uint8_t> values) const {
     std::fill(values.begin(), values.end(), 0);
     const auto put = [&](VoidKind kind) {
@@ -85,7 +86,7 @@ class Plan {
       }
     };
     put(VoidKind::kOutside);
-    put(VoidKind::kHole);  // wins where the circles around both meet
+    put(VoidKind::kHole);  // wins where circles overlap
   }
 
   // Throws `Error` where the outlines of the voids do not fit in memory.
@@ -95,13 +96,15 @@ class Plan {
     double edges = 0;
     for (std::size_t row = 0; row < grid_.rows; ++row) {
       write_row(row, std::span(values).first(grid_.columns));
-      for (std::size_t column = 0; column < grid_.columns; ++column) edges += values[column] != values[column + 1];
+      for (std::size_t column = 0; column < grid_.columns; ++column)
+        edges += values[column] != values[column + 1];
     }
     const auto limit = static_cast<double>(Memory::share(config.run.memory_limit).limit);
     if (edges * kBytesPerEdge <= limit / 4) return;
     std::ostringstream message;
-    message << "void_size = " << config.area.void_size << ": the points are so far apart that outlines of voids have "
-            << edges << " edges, more than fit in the memory limit; allowed: a larger one";
+    message << "void_size = " << config.area.void_size
+            << ": the points are so far apart that outlines of voids have " << edges
+            << " edges, more than fit in the memory limit; allowed: a larger one";
     throw Error(message.str());
   }
 
@@ -119,7 +122,8 @@ class Plan {
         result.counts = points_.empty.has(column, row) && !excepted_->has(column, row);
     });
     if (result.counts)
-      tiles.add_void(static_cast<std::size_t>(traced.middle.x()), static_cast<std::size_t>(traced.middle.y()));
+      tiles.add_void(static_cast<std::size_t>(traced.middle.x()),
+                     static_cast<std::size_t>(traced.middle.y()));
     result.area = grid_.area(cells);
     result.excepted = static_cast<double>(excepted) / static_cast<double>(cells);
     // The outline runs along cells, so the circle within it is up to half a cell too small all around.
@@ -183,9 +187,10 @@ class Plan {
 
 std::vector<TracedVoid> trace(const Plan& plan, const PlanGrid& grid) {
   static auto* const trace = reinterpret_cast<TraceVoids*>(load_gis_function(kTraceVoids, kUser));
-  TraceTask task{.columns = grid.columns,
-                 .rows = grid.rows,
-                 .row = [&](std::size_t row, std::span<std::uint8_t> values) { plan.write_row(row, values); }};
+  TraceTask task{
+      .columns = grid.columns,
+      .rows = grid.rows,
+      .row = [&](std::size_t row, std::span<std::uint8_t> values) { plan.write_row(row, values); }};
   trace(task);
   return std::move(task.voids);
 }
@@ -209,8 +214,8 @@ AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config
   if (!area.exceptions.empty()) excepted = rasterise(area.exceptions, grid);
   AreaTiles tiles(config.area.area_tile, grid);
   tiles.add_area(inside);
-  const PlanOfPoints points =
-      find_empty_places(grid, inside, Memory::share(config.run.memory_limit).limit / 8, scan, tiles, progress);
+  const PlanOfPoints points = find_empty_places(
+      grid, inside, Memory::share(config.run.memory_limit).limit / 8, scan, tiles, progress);
   if (points.hull.empty())
     throw Error(config.area.area + ": no point of the scan is in its bounds; are both in the same system?");
 

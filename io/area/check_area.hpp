@@ -25,17 +25,20 @@ struct Area {
 LACUNA_API std::optional<Area> read_area(const FileScan& scan, const FilesConfig& config);
 
 // A place is empty if no point lies nearer to it than half of the void size, seen from above. Voids are what
-// the circles around empty places cover within the area. They are made of cells whose edge is an eighth of the
-// void size (io/area/empty_places.hpp): those whose middles are within half of the void size of the middle of an
-// empty cell. Cells that share edges are one void. The convex hull of the points in the bounds of the area
-// cuts voids.
+// the circles around empty places cover within the area.
+//
+// The area has cells, whose edge is an eighth of the void size, and some are empty
+// (io/area/empty_places.hpp). Voids are made of the cells near them: the middles of both are at most half of
+// the void size apart. Cells that share edges are one void. The convex hull of the points in the bounds of
+// the area cuts voids.
 //
 // A void counts unless all of its empty cells lie in exceptions. Where a file of the scan has return
 // numbers, only first returns are points. (Data voids in the Lidar Base Specification of the U.S. Geological
 // Survey: its least void has four nominal pulse spacings.)
 //
-// Reads the scan once or twice. Memory: 3 or 4 bits for each cell in the bounds of the area, and the outlines. Cost:
-// linear in points and in cells. Throws `Error` where outlines do not fit in memory.
-LACUNA_API AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config, Progress& progress);
+// Reads the scan once or twice. Memory: 3 or 4 bits for each cell in the bounds of the area, and the
+// outlines. Cost: linear in points and in cells. Throws `Error` where outlines do not fit in memory.
+LACUNA_API AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config,
+                                Progress& progress);
 
 }  // namespace lacuna::io

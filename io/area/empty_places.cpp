@@ -126,7 +126,8 @@ class NearPoints {
     for (double row = std::floor(place.y() - kEmptyRadius); row <= place.y() + kEmptyRadius; ++row) {
       auto point = std::lower_bound(points_.begin(), points_.end(),
                                     Eigen::Vector2d(place.x() - kEmptyRadius, row), is_before);
-      for (; point != points_.end() && std::floor(point->y()) == row && point->x() <= place.x() + kEmptyRadius;
+      for (;
+           point != points_.end() && std::floor(point->y()) == row && point->x() <= place.x() + kEmptyRadius;
            ++point)
         square = std::min(square, (*point - place).squaredNorm());
     }

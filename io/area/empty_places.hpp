@@ -19,17 +19,17 @@ inline constexpr double kEmptyRadius = PlanGrid::kCells / 2;
 
 // The points of a scan, seen from above.
 struct PlanOfPoints {
-  // Cells of the area whose middles are empty, and cells with another empty place beside no such cell.
+  // Cells of the area whose middles are empty, and cells with another empty place without such a neighbour.
   PlanRaster empty;
   PointDensity density;
-  Ring2 hull;  // convex, of the points in the bounds of the area; in cells
+  Ring2 hull;                // convex, of the points in the bounds of the area; in cells
   std::uint64_t points = 0;  // in the area
 };
 
-// Reads the scan. The first pass decides all cells but those whose middle is nearly empty. Where such cells are,
-// a second pass collects the points near them. A cell is divided until its parts are decided, or 64 times
-// smaller. So the size of a circle is exact to a five hundredth, whatever the grid. Adds the points to `tiles`. Throws
-// `Error` where the points near undecided cells need more than `memory` bytes.
+// Reads the scan. The first pass decides all cells but those whose middle is nearly empty. Where such cells
+// are, a second pass collects the points near them. A cell is divided until its parts are decided, or 64
+// times smaller. So the size of a circle is exact to a five hundredth, whatever the grid. Adds the points to
+// `tiles`. Throws `Error` where the points near undecided cells need more than `memory` bytes.
 PlanOfPoints find_empty_places(const PlanGrid& grid, const PlanRaster& inside, std::uint64_t memory,
                                FileScan& scan, AreaTiles& tiles, Progress& progress);
 

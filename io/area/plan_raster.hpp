@@ -25,7 +25,9 @@ struct PlanGrid {
   std::size_t columns = 0, rows = 0;
 
   double edge() const { return size / kCells; }  // of a cell
-  double area(std::uint64_t cells) const { return static_cast<double>(cells) * size * size / (kCells * kCells); }
+  double area(std::uint64_t cells) const {
+    return static_cast<double>(cells) * size * size / (kCells * kCells);
+  }
   // Returns a place in cells from the south-west corner. The middle of the first cell is at 0.5 0.5.
   Eigen::Vector2d to_cells(const Eigen::Vector2d& place) const {
     return (place.array() * kCells / size - first).matrix();
@@ -42,9 +44,7 @@ struct PlanGrid {
 class PlanRaster {
  public:
   explicit PlanRaster(const PlanGrid& grid)
-      : columns_(grid.columns),
-        words_of_row_((grid.columns + 63) / 64),
-        words_(grid.rows * words_of_row_) {}
+      : columns_(grid.columns), words_of_row_((grid.columns + 63) / 64), words_(grid.rows * words_of_row_) {}
 
   static std::uint64_t bytes(const PlanGrid& grid) { return (grid.columns + 63) / 64 * 8 * grid.rows; }
 

@@ -24,8 +24,10 @@ double PointDensity::spacing_around(const PlanPolygon& outline, const PlanRaster
       const Eigen::Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
       const auto steps = static_cast<std::size_t>(std::ceil((b - a).norm() / static_cast<double>(kEdge)));
       for (std::size_t step = 0; step < std::max<std::size_t>(steps, 1); ++step) {
-        const Eigen::Vector2d at = a + (b - a) * static_cast<double>(step) / static_cast<double>(std::max<std::size_t>(steps, 1));
-        passed.push_back(static_cast<std::size_t>(at.y()) / kEdge * columns_ + static_cast<std::size_t>(at.x()) / kEdge);
+        const Eigen::Vector2d at =
+            a + (b - a) * static_cast<double>(step) / static_cast<double>(std::max<std::size_t>(steps, 1));
+        passed.push_back(static_cast<std::size_t>(at.y()) / kEdge * columns_ +
+                         static_cast<std::size_t>(at.x()) / kEdge);
       }
     }
   }
@@ -33,7 +35,8 @@ double PointDensity::spacing_around(const PlanPolygon& outline, const PlanRaster
   for (const std::size_t square : passed) {
     const std::size_t column = square % columns_, row = square / columns_;
     for (std::size_t r = row - std::min(row, kReach); r <= std::min(row + kReach, rows - 1); ++r)
-      for (std::size_t c = column - std::min(column, kReach); c <= std::min(column + kReach, columns_ - 1); ++c)
+      for (std::size_t c = column - std::min(column, kReach); c <= std::min(column + kReach, columns_ - 1);
+           ++c)
         if (points_[r * columns_ + c] > 0) around.push_back(r * columns_ + c);
   }
   sort_unique(around);

@@ -20,9 +20,9 @@ class PointDensity {
 
   void add(std::size_t column, std::size_t row) { ++points_[row / kEdge * columns_ + column / kEdge]; }
 
-  // Returns the spacing of the points around an outline: of the squares with points, at most two squares away
-  // from it, that it does not pass. NaN without such squares. It is in cells, as is the outline; `inside` is
-  // the area.
+  // Returns the spacing of the points around an outline. Squares with points count that are at most two
+  // squares away from it, and that it does not pass. NaN without such squares. It is in cells, as is the
+  // outline; `inside` is the area.
   double spacing_around(const PlanPolygon& outline, const PlanRaster& inside) const;
 
  private:

@@ -106,8 +106,7 @@ extern "C" void lacuna_trace_voids(TraceTask& task) {
   RowsDataset rows(task);
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("Memory");
   require(driver != nullptr);
-  const std::unique_ptr<GDALDataset, CloseDataset> memory(
-      driver->Create("", 0, 0, 0, GDT_Unknown, nullptr));
+  const std::unique_ptr<GDALDataset, CloseDataset> memory(driver->Create("", 0, 0, 0, GDT_Unknown, nullptr));
   require(memory != nullptr);
   OGRLayer* const layer = memory->CreateLayer("voids", nullptr, wkbPolygon, nullptr);
   require(layer != nullptr);

@@ -18,7 +18,7 @@ namespace lacuna::io {
 // A part of the raster whose cells have the same value. Places are in cells.
 struct TracedVoid {
   std::uint8_t value;
-  PlanPolygon outline;  // along the edges of cells; the outer ring first
+  PlanPolygon outline;           // along the edges of cells; the outer ring first
   Eigen::Vector2d middle{0, 0};  // of the largest circle that fits in
   double radius = 0;             // of that circle
 };

@@ -60,7 +60,8 @@ void check_memory_of_outputs(const OutputConfig& output, std::uint64_t memory_li
 void check_area_config(const AreaConfig& area) {
   if (area.area.empty()) return;
   if (!(area.void_size > 0))
-    throw Error("void_size = 0: --area needs it; allowed: a length above 0, such as 4 nominal pulse spacings");
+    throw Error(
+        "void_size = 0: --area needs it; allowed: a length above 0, such as 4 nominal pulse spacings");
   if (area.area_tile > 0 && area.area_tile < area.void_size)
     throw Error("area_tile is less than void_size; allowed: 0 (off), or a length of void_size or more");
 }

@@ -61,7 +61,8 @@ void write_list(std::string_view key, const List& elements, const Print& print_e
 
 }  // namespace
 
-void write_voids_json(const AreaCheck& check, const FileScan& scan, const AreaConfig& config, OutputFile& out) {
+void write_voids_json(const AreaCheck& check, const FileScan& scan, const AreaConfig& config,
+                      OutputFile& out) {
   Json head = begin_json(kVoidsSchema);
   put_crs(scan, head);
   head["file"] = config.area;
@@ -78,9 +79,12 @@ void write_voids_json(const AreaCheck& check, const FileScan& scan, const AreaCo
   text.resize(text.rfind('}'));
   while (text.back() == '\n') text.pop_back();
   out.write(text);
-  write_list("polygons", check.polygons, [&](std::size_t i) { return rings_json(check.polygons[i]); }, out);
-  write_list("voids", check.voids, [&](std::size_t i) { return void_json(i, check.voids[i]); }, out);
-  write_list("tiles", check.tiles, [&](std::size_t i) { return tile_json(check.tiles[i]); }, out);
+  write_list(
+      "polygons", check.polygons, [&](std::size_t i) { return rings_json(check.polygons[i]); }, out);
+  write_list(
+      "voids", check.voids, [&](std::size_t i) { return void_json(i, check.voids[i]); }, out);
+  write_list(
+      "tiles", check.tiles, [&](std::size_t i) { return tile_json(check.tiles[i]); }, out);
   out.write("\n}\n");
 }
 
@@ -102,8 +106,9 @@ void write_voids_table(const AreaCheck& check, OutputFile& out) {
 void write_voids_gpkg(const AreaCheck& check, const FileScan& scan, OutputFile& out) {
   static auto* const write = reinterpret_cast<WriteVoidsGis*>(load_gis_function(kWriteVoidsGis, "--area"));
   if (!write({.check = check, .crs = scan.common_crs(), .name = out.path(), .place = out.place()}))
-    spdlog::warn("{}: GDAL does not understand the coordinate reference system of the scan; the file has none",
-                 out.path().string());
+    spdlog::warn(
+        "{}: GDAL does not understand the coordinate reference system of the scan; the file has none",
+        out.path().string());
 }
 
 FileMark voids_gpkg_mark() {

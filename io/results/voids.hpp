@@ -19,7 +19,8 @@ inline constexpr std::string_view kVoidsHeader =
     "id,kind,counts,area,circle,x,y,spacing,excepted";  // of voids.csv
 
 // The sums, the voids with their outlines, and the table. Memory: one void. What is not finite is null.
-void write_voids_json(const AreaCheck& check, const FileScan& scan, const AreaConfig& config, OutputFile& out);
+void write_voids_json(const AreaCheck& check, const FileScan& scan, const AreaConfig& config,
+                      OutputFile& out);
 
 // One line for each void. What is not finite is empty.
 void write_voids_table(const AreaCheck& check, OutputFile& out);

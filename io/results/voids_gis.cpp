@@ -42,12 +42,21 @@ class VoidsWriter {
     require(driver != nullptr);
     dataset_.reset(driver->Create(task_.place.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
     require(dataset_ != nullptr);
-    write_voids(create_layer(kVoidsLayer, {{"id", OFTInteger64}, {"kind", OFTString}, {"counts", OFTInteger},
-                                           {"area", OFTReal}, {"circle", OFTReal}, {"x", OFTReal},
-                                           {"y", OFTReal}, {"spacing", OFTReal}, {"excepted", OFTReal}}));
+    write_voids(create_layer(kVoidsLayer, {{"id", OFTInteger64},
+                                           {"kind", OFTString},
+                                           {"counts", OFTInteger},
+                                           {"area", OFTReal},
+                                           {"circle", OFTReal},
+                                           {"x", OFTReal},
+                                           {"y", OFTReal},
+                                           {"spacing", OFTReal},
+                                           {"excepted", OFTReal}}));
     if (!task_.check.tiles.empty())
-      write_tiles(create_layer(kTilesLayer, {{"area", OFTReal}, {"covered", OFTReal}, {"voids", OFTInteger64},
-                                             {"points", OFTInteger64}, {"density", OFTReal},
+      write_tiles(create_layer(kTilesLayer, {{"area", OFTReal},
+                                             {"covered", OFTReal},
+                                             {"voids", OFTInteger64},
+                                             {"points", OFTInteger64},
+                                             {"density", OFTReal},
                                              {"spacing", OFTReal}}));
     dataset_.reset();
     require(true);

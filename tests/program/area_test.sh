@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The check of an area against area_reference.py, which follows its definition cell by cell; what does not change it;
-# polygons in other systems and formats; what is refused.
+# The check of an area against area_reference.py, which follows its definition cell by cell. Other cases: what does not
+# change it, polygons in other systems and formats, and what is refused.
 set -euo pipefail
 program=${LACUNA_PROGRAM:?}
 here=$PWD
@@ -121,7 +121,7 @@ done
 "$program" check utm.xyz --columns "x y z" --crs EPSG:25832 --area degrees.geojson --void-size 4 >converted.txt 2>converted.err || true
 grep -q "degrees.geojson: is converted from WGS 84" converted.err
 
-# ---- the verdict
+# ---- an area that is covered
 "$program" check holes.xyz --columns "x y z" --area holes.geojson --void-size 30 >covered.txt
 head -n 1 covered.txt | grep -qx covered
 

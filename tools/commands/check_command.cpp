@@ -49,8 +49,8 @@ void run_check(const CheckArguments& arguments) {
       make_progress(arguments.run.quiet ? ProgressStyle::kNone : arguments.run.progress, {{"area", 1}});
   const AreaCheck check = check_area(area, *scan, config, *progress);
   const std::string_view unit = scan->length_unit();
-  const std::string verdict = print_verdict(check, unit);
-  std::string text = verdict + "\n\n";
+  const std::string answer = print_is_covered(check, unit);
+  std::string text = answer + "\n\n";
   if (const std::string voids = print_voids(check, unit); !voids.empty()) text += voids + "\n";
   text += "  area  " + print_covered(check, unit) + "\n\n";
   if (folder) {
@@ -59,7 +59,7 @@ void run_check(const CheckArguments& arguments) {
     note_complete_results();
   }
   if (!arguments.run.quiet) std::cout << text;
-  if (!check.is_covered()) throw Error(config.area.area + ": " + verdict);
+  if (!check.is_covered()) throw Error(config.area.area + ": " + answer);
 }
 
 }  // namespace

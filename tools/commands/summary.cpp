@@ -218,7 +218,7 @@ std::string print_summary(const ExplainedDetection& detection, const FileScan& s
   }
   auto facts = findings(summary, scan, unit);
   if (detection.area) {
-    facts.emplace_back("area", print_verdict(*detection.area, unit));
+    facts.emplace_back("area", print_is_covered(*detection.area, unit));
     facts.emplace_back("", print_covered(*detection.area, unit));
   }
   if (!causes.empty()) facts.emplace_back("causes", causes);

@@ -12,7 +12,7 @@
 namespace lacuna::tools {
 using namespace io;
 
-std::string print_verdict(const AreaCheck& check, std::string_view unit) {
+std::string print_is_covered(const AreaCheck& check, std::string_view unit) {
   const std::size_t counting = check.counting(), excepted = check.voids.size() - counting;
   std::string text = "covered";
   if (counting > 0) {
@@ -26,7 +26,8 @@ std::string print_verdict(const AreaCheck& check, std::string_view unit) {
     text = "not covered: " + print_count(counting) + (counting == 1 ? " void of " : " voids of ") +
            print_length(check.void_size, unit) + " or more (" + list + ")";
   }
-  if (excepted > 0) text += ", " + print_count(excepted) + (counting > 0 ? " more" : " void") + " in exceptions";
+  if (excepted > 0)
+    text += ", " + print_count(excepted) + (counting > 0 ? " more" : " void") + " in exceptions";
   return text;
 }
 
@@ -44,10 +45,10 @@ std::string print_voids(const AreaCheck& check, std::string_view unit) {
   for (std::size_t id = 0; id < std::min(check.voids.size(), kMostRows); ++id) {
     const Void& each = check.voids[id];
     const std::string place = print_place({each.middle.x(), each.middle.y(), 0}, std::sqrt(check.area));
-    rows.push_back({"void " + std::to_string(id), std::string(name_of(each.kind)), tools::print_area(each.area, unit),
-                    print_length(each.circle, unit), place.substr(0, place.rfind(' ')),
-                    std::isfinite(each.spacing) ? print_length(each.spacing, unit) : "",
-                    print_share(each.excepted)});
+    rows.push_back(
+        {"void " + std::to_string(id), std::string(name_of(each.kind)), tools::print_area(each.area, unit),
+         print_length(each.circle, unit), place.substr(0, place.rfind(' ')),
+         std::isfinite(each.spacing) ? print_length(each.spacing, unit) : "", print_share(each.excepted)});
   }
   std::string text = print_table(rows);
   if (check.voids.size() > kMostRows)

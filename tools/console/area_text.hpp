@@ -10,7 +10,7 @@
 namespace lacuna::tools {
 
 // "covered", or "not covered: 3 voids of 2.8 m or more (1 hole, 2 open), 1 more in exceptions".
-std::string print_verdict(const io::AreaCheck& check, std::string_view unit);
+std::string print_is_covered(const io::AreaCheck& check, std::string_view unit);
 
 // "12,300 m², 98.7 % of it covered; 45,600 points".
 std::string print_covered(const io::AreaCheck& check, std::string_view unit);

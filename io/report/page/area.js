@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The check of an area: the verdict, a map of its voids, and the largest of them.
+// The check of an area: whether it is covered, a map of its voids, and the largest of them.
 
 const kMapWidth = 300;  // pixels; the style stretches it
 const kVoidRows = 10;
@@ -29,7 +29,7 @@ function area_facts({report}, units) {
   if (!area) return null;
   const excepted = area.all - area.counting;
   const share = (part) => `${(100 * part / area.area).toPrecision(3)} %`;
-  const rows = [["Verdict", area.is_covered ? "covered" : "not covered", "changed"],
+  const rows = [["The area is", area.is_covered ? "covered" : "not covered", "changed"],
                 ["Area", units.area(area.area, 4)],
                 ["Covered", share(area.area - area.missing_area)],
                 [`Voids of ${units.length(area.void_size)} or more`, format_count(area.counting)],

@@ -75,7 +75,8 @@ TEST_CASE("the cells of a polygon are those whose middles are inside, and severa
       }
     }
     CHECK(raster.count() == count);
-    CHECK(count_bits(raster.row(3), 0, 150) == count_bits(raster.row(3), 0, 77) + count_bits(raster.row(3), 77, 150));
+    CHECK(count_bits(raster.row(3), 0, 150) ==
+          count_bits(raster.row(3), 0, 77) + count_bits(raster.row(3), 77, 150));
   }
 }
 
