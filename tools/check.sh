@@ -60,7 +60,9 @@ build_tbb() {
   local folder=$PWD/build-threads/tbb
   [[ ! -e $folder/lib/libtbb.so ]] || return 0
   mkdir -p "$folder/lists/partial"
-  echo "deb-src http://deb.debian.org/debian bookworm main" >"$folder/sources.list"
+  # Sources from where the machine has its packages.
+  apt-get indextargets --format "deb-src \$(REPO_URI) \$(RELEASE) \$(COMPONENT)" "Created-By: Packages" |
+    sort -u >"$folder/sources.list"
   local apt=(apt-get -q -o "Dir::Etc::SourceList=$folder/sources.list" -o Dir::Etc::SourceParts=/dev/null
     -o "Dir::State::Lists=$folder/lists" -o APT::Sandbox::User=root)
   "${apt[@]}" update

@@ -21,7 +21,8 @@ constexpr double kFarther = 1.02;  // of the farthest point: beyond the range
 constexpr double kThrough = 0.05;  // share of longer ranges, of places without points
 constexpr double kShadow =
     0.2;  // hidden area over the area of floors without return, from which on both are hidden
-constexpr double kLevel = 0.7;  // cosine between the normal of a floor and the axis
+constexpr double kLevel = 0.7;              // cosine between the normal of a floor and the axis
+constexpr std::uint64_t kPagesAround = 16;  // that the system maps where one of an image is read
 
 enum class Finding { kSurface, kLeftOut, kFarther, kNothing, kNearer, kOutOfView };
 constexpr std::size_t kFindings = 6;
@@ -195,11 +196,14 @@ class Findings {
 }  // namespace
 
 LoopCause cause_of(std::span<const InsidePlace> places, std::span<const StationView> views,
-                   const PathView* path, double tolerance) {
+                   const PathView* path, double tolerance, const std::function<void()>& after_place) {
   Eigen::AlignedBox3d hole;
   for (const InsidePlace& place : places) hole.extend(place.position);
   Findings findings(views, path, hole);
-  for (const InsidePlace& place : places) findings.add(place, tolerance);
+  for (const InsidePlace& place : places) {
+    findings.add(place, tolerance);
+    if (after_place) after_place();
+  }
   return findings.cause();
 }
 
@@ -219,9 +223,10 @@ void find_causes(StationViews& stations, FileScan& scan, const RunConfig& run,
     if (loop.kind != LoopKind::kHole || detection.stations.empty()) return;
     const std::vector<InsidePlace> places = inside_places(detection, i);
     LoopCause& cause = detection.causes[i];
-    cause = cause_of(places, views, path, tolerance_of(loop));
-    stations.note_touched(2 * places.size() * detection.stations.size());
-    if (!cause.main()) cause = cause_of(places, views, path, 0);  // a coarse loop near all of the surface
+    const auto note = [&] { stations.note_touched(kPagesAround * detection.stations.size()); };
+    cause = cause_of(places, views, path, tolerance_of(loop), note);
+    if (!cause.main())
+      cause = cause_of(places, views, path, 0, note);  // a coarse loop near all of the surface
   });
 }
 

@@ -12,6 +12,7 @@
 #include "io/stations/inside_places.hpp"
 #include "io/stations/station_views.hpp"
 
+#include <functional>
 #include <span>
 
 namespace lacuna::io {
@@ -36,10 +37,11 @@ inline constexpr double kLeastIncidence = 0.0523;
 // Holes keep unknown causes where there are no stations, or all places have points. Stations of little
 // certainty do not count. Cost: some 0.3 ms for each hole and station.
 // `tolerance`: ranges that differ by less are the same; the angle between rays adds to it.
+// `after_place` is called after each place.
 // `path` belongs to a moving scanner, and is null without one. Each section of it counts as a station, in the
 // directions in which the scanner sweeps.
 LoopCause cause_of(std::span<const InsidePlace> places, std::span<const StationView> views,
-                   const PathView* path, double tolerance);
+                   const PathView* path, double tolerance, const std::function<void()>& after_place = {});
 double tolerance_of(const LoopMeasures& loop);  // two mean edges of it
 
 // Sets the cause of each hole, and the stations. Throws `Error` where the scan is read, as

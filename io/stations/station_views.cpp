@@ -75,7 +75,7 @@ StationViews::StationViews(const FileScan& scan, const std::filesystem::path& st
                            std::filesystem::path folder)
     : folder_(std::move(folder)), memory_(scan.memory()), files_(scan.files()), are_stated_(!stated.empty()) {
   if (!are_stated_) return;
-  if (std::optional<Trajectory> path = read_trajectory(stated)) {
+  if (std::optional<Trajectory> path = read_trajectory(stated, memory_)) {
     for (std::size_t i = 0; i < files_.size(); ++i) {
       if (!time_of(scan.layouts()[i]))
         throw Error(files_[i].string() + ": has no column gps_time or time, which a trajectory needs");

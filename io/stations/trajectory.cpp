@@ -13,8 +13,9 @@
 namespace lacuna::io {
 namespace {
 
-constexpr std::size_t kSweptEdge = 64;  // cells of 1.8 degrees
-constexpr double kPause = 10;           // median intervals
+constexpr std::size_t kSweptEdge = 64;        // cells of 1.8 degrees
+constexpr double kPause = 10;                 // median intervals
+constexpr std::uint64_t kBytesPerLine = 100;  // while a file is read
 constexpr double kLeastShare = 0.02;  // of the largest count of a cell: others are of turns and rough ground
 
 // Returns how many of the keys, in order, are `key` or less.
@@ -65,7 +66,7 @@ bool is_time(std::string_view column) {
   return column == "time" || column == "gps_time";
 }
 
-std::optional<Trajectory> read_trajectory(const std::filesystem::path& file) {
+std::optional<Trajectory> read_trajectory(const std::filesystem::path& file, std::uint64_t memory) {
   ListLines lines(file, "numbers are needed in the columns time, x, y and z");
   std::optional<Fields> fields = lines.next();
   const std::vector<std::string>& header = lines.header();
@@ -87,6 +88,11 @@ std::optional<Trajectory> read_trajectory(const std::filesystem::path& file) {
       if (columns[i] >= fields->size()) lines.fail("has " + std::to_string(fields->size()) + " columns");
       values[i] = lines.parse((*fields)[columns[i]]);
     }
+    if (records.size() >= memory / kBytesPerLine)
+      lines.in().fail(
+          "has more than the " + std::to_string(records.size()) +
+          " lines that the memory limit has space for; allowed: fewer lines, such as 100 for each "
+          "second, or a larger --memory-limit");
     records.emplace_back(values[0], Eigen::Vector3d(values[1], values[2], values[3]));
   }
   const auto is_earlier = [](const auto& a, const auto& b) { return a.first < b.first; };

@@ -38,8 +38,8 @@ class Trajectory {
 
 // Reads a file whose first line names its columns: `time` or `gps_time`, x, y and z, and others between them.
 // The rules of lines, which are in any order, are in io/stations/list_lines.hpp. Returns nothing if the file
-// names no time: then it lists stations. Throws `Error`.
-std::optional<Trajectory> read_trajectory(const std::filesystem::path& file);
+// names no time: then it lists stations. Throws `Error`, also for more lines than `memory` has space for.
+std::optional<Trajectory> read_trajectory(const std::filesystem::path& file, std::uint64_t memory);
 bool is_time(std::string_view column);
 
 // The directions from a moving scanner in which it measures, in the axes of its path. A scanner with a

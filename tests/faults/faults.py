@@ -277,9 +277,6 @@ class Count:
         if total["part"]:
             lines.append("\nResults of which some had their names, without holes.json, after SIGKILL: %d."
                          % total["part"])
-        if total["done_before"]:
-            lines.append("\nUpdates that were complete before their end, so that the same command is refused: "
-                         "%d." % total["done_before"])
         return "\n".join(lines)
 
 
@@ -293,7 +290,6 @@ def check_results_folder(slot, case, row, count, note, is_kill):
 
 def run_again(slot, case, row, count, note, may_fail=False):
     """Runs the same command undisturbed."""
-    was_complete = case.is_update() and slot.problem(case.result) is None
     run = slot.setting.run(case.arguments)
     if run.code == 0 and case.then_finish:
         run = slot.setting.run(slot.finish())
@@ -311,10 +307,6 @@ def run_again(slot, case, row, count, note, may_fail=False):
                 return count.wrong(row, "%s: again: changes.json is another: %r" % (
                     note, re.findall(rb'"counts".*?}', changes.replace(b"\n", b" "))))
         return count.add(row, again=1)
-    if was_complete and run.is_clear_failure() and re.search("is an input of the run already|is no input|is left out already", run.err):
-        if not os.path.exists(os.path.join(slot.out, "changes.json")):
-            return count.wrong(row, "%s: again: complete before, but without changes.json" % note)
-        return count.add(row, done_before=1, again_line=1)
     if may_fail and run.is_clear_failure():
         return count.add(row, again_line=1)
     return count.wrong(row, "%s: again: %s" % (note, run))

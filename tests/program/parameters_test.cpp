@@ -175,8 +175,9 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
       Parameter parameter = parameters(changed)[i];
       // This scan has neither lines nor normals. The others say which files are read, and the unit of z needs
       // the unit of x and y. An area needs a void size; area_test.sh has it.
-      const std::string_view passed[] = {"method",       "every_point", "estimate_normals", "recursive",
-                                         "skip_damaged", "unit_z",      "trust",            "area"};
+      const std::string_view passed[] = {"method",    "every_point",  "estimate_normals",
+                                         "recursive", "skip_damaged", "unit_z",
+                                         "trust",     "area"};
       if (std::find(std::begin(passed), std::end(passed), parameter.key) != std::end(passed)) continue;
       set_other(parameter, runs.workspace());
       parameter = parameters(changed)[i];
@@ -206,13 +207,12 @@ TEST_CASE("each option without effect has its warning, each other none") {
     std::string expected;
     for (const Parameter& parameter : parameters(config)) {
       const bool is_flag = std::holds_alternative<bool*>(parameter.value);
-      const bool is_left_out = parameter.is_constant || parameter.section == "run" ||
-                               parameter.key == "method" || parameter.key == "points" ||
-                               parameter.key == "columns" || parameter.key == "eps" ||
-                               parameter.key == "max_perimeter" || parameter.key == "max_area" ||
-                               parameter.key == "polygons" || parameter.key == "unit_z" ||
-                               parameter.key == "area" ||
-                               parameter.key == "points_format";  // the files that they change are wanted
+      const bool is_left_out =
+          parameter.is_constant || parameter.section == "run" || parameter.key == "method" ||
+          parameter.key == "points" || parameter.key == "columns" || parameter.key == "eps" ||
+          parameter.key == "max_perimeter" || parameter.key == "max_area" || parameter.key == "polygons" ||
+          parameter.key == "unit_z" || parameter.key == "area" ||
+          parameter.key == "points_format";  // the files that they change are wanted
       if (is_left_out) continue;
       options.push_back(parameter.option());
       if (!is_flag) options.emplace_back(kOtherValues.at(parameter.key));

@@ -152,6 +152,8 @@ TEST_CASE("a mistyped option or command is reported with the one that may be mea
   check_failure(run_program({"help", "surfac"}), 2, "unknown command \"surfac\"; allowed: detect");
   const ProgramResult mistyped = run_program({"detect", "a.ply", "--min-hol", "3", "--out", "d"});
   check_failure(mistyped, 2, "unknown option --min-hol (did you mean \"--min-hole\"?)");
+  const auto begun = test::run_program({"detect", "scan.ply", "--mem", "1GiB"});
+  check_failure(begun, 2, "unknown option --mem (did you mean \"--memory-limit\"?)");
   CHECK_THAT(mistyped.err, Contains("see lacuna detect --help"));
   check_failure(run_program({"detect", "a.ply", "--out", "d", "--colour=3"}), 2,
                 "unknown option --colour (see");

@@ -129,9 +129,8 @@ TEST_CASE("an update that was stopped knows what it compares with, also once the
 
 TEST_CASE("what cannot be updated is said in a line") {
   const Updated scan;
-  check_failure(run_program(scan.update({"--add", scan.first})), 1, "is an input of the run already");
   check_failure(run_program(scan.update({"--replace", scan.first})), 2, "--replace: allowed: OLD=NEW");
-  check_failure(run_program(scan.update({"--replace", scan.patch + "=" + scan.first})), 1,
+  check_failure(run_program(scan.update({"--replace", scan.patch + "=missing.txt"})), 1,
                 "is no input of the run");
   check_failure(run_program(scan.update({"--leave-out", "1,2,3"})), 2, "6 for each box");
   check_failure(run_program(scan.update({"--leave-out", "1,2,3,0,5,6"})), 2,
@@ -143,8 +142,24 @@ TEST_CASE("what cannot be updated is said in a line") {
   check_failure(run_program(scan.update({"--add", scan.patch})), 1,
                 "does not name the folder of its results");
   fs::rename(scan.folder / "results", fs::path(scan.workspace) / "results");
-  REQUIRE(scan.run(scan.update({"--leave-out", "20,20,-1,30,30,1"})).exit_code == 0);
-  check_failure(run_program(scan.update({"--leave-out", "20,20,-1,30,30,1"})), 1, "is left out already");
+}
+
+TEST_CASE("an update that was made does nothing again, and keeps what has changed") {
+  const Updated scan;
+  const std::string box = "20,20,-1,30,30,1";
+  for (const std::vector<std::string>& change :
+       {std::vector<std::string>{"--add", scan.patch}, {"--leave-out", box}}) {
+    REQUIRE(scan.run(scan.update(change)).exit_code == 0);
+    const std::string changes = test::read_file(fs::path(scan.out) / "changes.json");
+    const auto again = run_program(scan.update(change));
+    CHECK(again.exit_code == 0);
+    CHECK_THAT(again.out, Catch::Matchers::Contains("nothing is left to do"));
+    CHECK(test::read_file(fs::path(scan.out) / "changes.json") == changes);
+  }
+  scan.is_as({scan.first, scan.patch, "--leave-out", box});
+  fs::remove(fs::path(scan.out) / "holes.json");  // then the results are made again
+  REQUIRE(run_program(scan.update({"--add", scan.patch})).exit_code == 0);
+  scan.is_as({scan.first, scan.patch, "--leave-out", box});
 }
 
 TEST_CASE("an update that is refused leaves the workspace as it was") {

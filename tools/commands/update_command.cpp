@@ -7,6 +7,7 @@
 #include "tools/commands/compare_command.hpp"
 #include "tools/commands/detect_command.hpp"
 #include "tools/console/command_line.hpp"
+#include "tools/console/visible_text.hpp"
 #include "tools/run/input_files.hpp"
 
 #include <algorithm>
@@ -42,29 +43,29 @@ struct UpdateArguments {
   ResultArguments run;
 };
 
-// The new file has the place of the old one, and its pose.
-void replace_input(const std::string& given, std::vector<ScanInput>& inputs) {
+// A run with the changes of an update. Each change that was made before is left as it is.
+struct ChangedRun {
+  std::vector<ScanInput> inputs;
+  FilesConfig config;
+  bool was_made = false;  // changes are given, and all were made before
+
+  ScanInput* find(const fs::path& file) {
+    const auto found = std::ranges::find(inputs, full_name(file),
+                                         [](const ScanInput& input) { return full_name(input.file); });
+    return found == inputs.end() ? nullptr : &*found;
+  }
+};
+
+// The new file has the place of the old one, and its pose. Returns whether it was there before.
+bool replace_input(const std::string& given, ChangedRun& run) {
   const std::size_t at = given.find('=');
   if (at == given.npos) throw WrongOption("--replace", "allowed: OLD=NEW, two names of files");
-  const fs::path old = full_name(given.substr(0, at));
-  const auto found = std::find_if(inputs.begin(), inputs.end(),
-                                  [&](const ScanInput& input) { return full_name(input.file) == old; });
-  if (found == inputs.end()) throw Error(old.string() + ": is no input of the run; lacuna status names them");
-  found->file = given.substr(at + 1);
-}
-
-std::vector<ScanInput> changed_inputs(const UpdateArguments& arguments, const StoredRun& run,
-                                      const FilesConfig& config) {
-  std::vector<ScanInput> inputs = inputs_of(run.names);
-  for (const std::string& given : arguments.replaced) replace_input(given, inputs);
-  for (ScanInput& input : expand_inputs(arguments.added, read_options(config), config.input)) {
-    const bool is_known = std::any_of(inputs.begin(), inputs.end(), [&](const ScanInput& other) {
-      return full_name(other.file) == full_name(input.file);
-    });
-    if (is_known) throw Error(input.file.string() + ": is an input of the run already");
-    inputs.push_back(std::move(input));
-  }
-  return inputs;
+  const fs::path old = given.substr(0, at), replacing = given.substr(at + 1);
+  ScanInput* const found = run.find(old);
+  if (found == nullptr && run.find(replacing) == nullptr)
+    throw Error(full_name(old).string() + ": is no input of the run; lacuna status names them");
+  if (found != nullptr) found->file = replacing;
+  return found == nullptr;
 }
 
 bool is_left_out(std::span<const double> box, std::span<const double> boxes) {
@@ -74,20 +75,30 @@ bool is_left_out(std::span<const double> box, std::span<const double> boxes) {
   return false;
 }
 
-// Returns the parameters of the run before, then the parameters of the command line. Boxes add up.
-FilesConfig changed_config(const RunArguments& arguments, const StoredRun& run, const fs::path& workspace) {
-  FilesConfig base = config_of(run, workspace);
-  const std::vector<double> before = std::exchange(base.input.leave_out, {});
-  FilesConfig config = arguments.start(std::move(base));
-  const std::vector<double> boxes = std::exchange(config.input.leave_out, before);
+// Returns the parameters of the run before, then the parameters of the command line. Boxes and inputs add up.
+ChangedRun changed_run(const UpdateArguments& arguments, const StoredRun& before) {
+  const fs::path& workspace = arguments.workspace;
+  FilesConfig base = config_of(before, workspace);
+  std::vector<double> left_out = std::exchange(base.input.leave_out, {});
+  ChangedRun run{.inputs = inputs_of(before.names), .config = arguments.run.start(std::move(base))};
+  std::size_t given = 0, made = 0;
+  const auto count = [&](bool was_made) {
+    ++given;
+    made += was_made;
+    return was_made;
+  };
+  const std::vector<double> boxes = std::exchange(run.config.input.leave_out, std::move(left_out));
   for (std::size_t at = 0; at < boxes.size(); at += 6) {
     const auto box = std::span(boxes).subspan(at, 6);
-    if (is_left_out(box, before))
-      throw Error(workspace.string() + ": a box of --leave-out is left out already");
-    config.input.leave_out.insert(config.input.leave_out.end(), box.begin(), box.end());
+    std::vector<double>& all = run.config.input.leave_out;
+    if (!count(is_left_out(box, all))) all.insert(all.end(), box.begin(), box.end());
   }
-  config.run.workspace = workspace.string();
-  return config;
+  for (const std::string& replaced : arguments.replaced) count(replace_input(replaced, run));
+  for (ScanInput& input : expand_inputs(arguments.added, read_options(run.config), run.config.input))
+    if (!count(run.find(input.file) != nullptr)) run.inputs.push_back(std::move(input));
+  run.config.run.workspace = workspace.string();
+  run.was_made = given > 0 && made == given;
+  return run;
 }
 
 // Returns the folder that has the results of the run before; empty if none is known.
@@ -126,12 +137,16 @@ void run_update(const UpdateArguments& arguments) {
   const fs::path source = is_workspace(earlier_parts(folder)) ? earlier_parts(folder) : folder;
   const StoredRun run = read_run(source);
   const auto made_from = made_from_of(source);
-  const FilesConfig config = changed_config(arguments.run, run, folder);
-  const std::vector<ScanInput> inputs = changed_inputs(arguments, run, config);
+  const ChangedRun changed = changed_run(arguments, run);
   ResultArguments to = arguments.run;
   if (to.out.empty()) to.out = results_of(folder);
   if (to.out.empty())
     throw Error(folder.string() + ": does not name the folder of its results; allowed: --out DIR");
+  if (changed.was_made && fs::exists(to.out / "holes.json")) {  // a scheduler repeats a command
+    if (!to.quiet)
+      std::cout << "nothing is left to do: " << visible(folder.string()) << " has these changes\n";
+    return;
+  }
 
   const fs::path kept = earlier_results(folder);
   const WorkspaceSteps steps{
@@ -152,7 +167,7 @@ void run_update(const UpdateArguments& arguments) {
             }
             return text;
           }};
-  const std::string summary = detect_to(inputs, config, to, steps);
+  const std::string summary = detect_to(changed.inputs, changed.config, to, steps);
   if (!to.quiet) std::cout << summary;
 }
 

@@ -13,9 +13,9 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-std::optional<Trajectory> read(const std::string& text) {
+std::optional<Trajectory> read(const std::string& text, std::uint64_t memory = 1 << 20) {
   const test::ScratchFolder folder;
-  return read_trajectory(folder.write("path.txt", text));
+  return read_trajectory(folder.write("path.txt", text), memory);
 }
 
 }  // namespace
@@ -53,6 +53,14 @@ TEST_CASE("an error in a trajectory names the line or the column") {
   fails("time x y z\n1 2 3 inf\n", "is not a number");
   fails("time x y z\n1 2 3 4\n1 5 6 7\n", "fewer than two times");
   fails("time x y z\n", "fewer than two times");
+}
+
+TEST_CASE("a trajectory of more lines than memory has space for is refused") {
+  const std::string text = "time x y z\n0 0 0 0\n1 1 0 0\n2 2 0 0\n";
+  CHECK(read(text, 300).has_value());
+  CHECK_THROWS_WITH(
+      read(text, 299),
+      Contains("has more than the 2 lines that the memory limit has space for; allowed: fewer lines"));
 }
 
 TEST_CASE("a pause divides a path: there is no place in it, and axes are those of each part") {
