@@ -86,7 +86,7 @@ TEST_CASE("range images of stations stay within the memory limit, with the same 
   const test::ScratchFolder scratch;
   const std::string scan = (scratch / "room.ply").string(),
                     stations = (scratch / "room.stations.txt").string();
-  REQUIRE(test::run_bench({"synth", "scan", scan, "--points", "150000", "--stations", "48"}).exit_code == 0);
+  REQUIRE(test::run_bench({"synth", "scan", scan, "--points", "50000", "--stations", "32"}).exit_code == 0);
   const auto detect = [&](const std::string& out, std::vector<std::string> more) {
     std::vector<std::string> words = {"detect",  scan,         "--out",  (scratch / out).string(),
                                       "--quiet", "--stations", stations, "--threads",
