@@ -57,7 +57,7 @@ struct AreaCheck {
   double void_size = 0;               // diameter of the least void
   double area = 0;                    // of the project
   double voids_area = 0;              // of all voids
-  double missing_area = 0;            // of the voids that count
+  double missing_area = 0;            // of the voids that count, without what lies in exceptions
   std::uint64_t points = 0;           // in the area
   std::vector<Void> voids;            // those that count first; then by area, the largest first
   double tile_edge = 0;               // 0: no table

@@ -13,10 +13,6 @@
 namespace lacuna::io {
 namespace {
 
-struct CloseDataset {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-
 // The polygons of one file.
 class Reader {
  public:
@@ -24,8 +20,7 @@ class Reader {
 
   void read() {
     const char* const drivers[] = {"GPKG", "GeoJSON", "ESRI Shapefile", nullptr};
-    const std::unique_ptr<GDALDataset, CloseDataset> dataset(
-        GDALDataset::Open(to_.file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers));
+    const Dataset dataset(GDALDataset::Open(to_.file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers));
     if (!dataset) fail("cannot be read as GeoPackage, GeoJSON or Shapefile");
     for (OGRLayer* const layer : dataset->GetLayers()) read(*layer);
     if (to_.polygons.empty()) fail("has no polygon");

@@ -229,7 +229,7 @@ AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config
   for (TracedVoid& traced : trace(plan, grid)) {
     const Void& found = check.voids.emplace_back(plan.measure(std::move(traced), tiles));
     check.voids_area += found.area;
-    if (found.counts) check.missing_area += found.area;
+    if (found.counts) check.missing_area += found.area * (1 - found.excepted);
   }
   std::sort(check.voids.begin(), check.voids.end(), [](const Void& a, const Void& b) {
     const auto key = [](const Void& v) { return std::tuple(!v.counts, -v.area, v.middle.x(), v.middle.y()); };

@@ -16,10 +16,6 @@
 namespace lacuna::io {
 namespace {
 
-struct CloseDataset {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-
 // GDAL reads the rows of a task from this band. They do not go through GDAL's cache of blocks, whose size is
 // the process's.
 class RowsBand : public GDALRasterBand {
@@ -106,7 +102,7 @@ extern "C" void lacuna_trace_voids(TraceTask& task) {
   RowsDataset rows(task);
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("Memory");
   require(driver != nullptr);
-  const std::unique_ptr<GDALDataset, CloseDataset> memory(driver->Create("", 0, 0, 0, GDT_Unknown, nullptr));
+  const Dataset memory(driver->Create("", 0, 0, 0, GDT_Unknown, nullptr));
   require(memory != nullptr);
   OGRLayer* const layer = memory->CreateLayer("voids", nullptr, wkbPolygon, nullptr);
   require(layer != nullptr);

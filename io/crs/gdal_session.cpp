@@ -9,10 +9,15 @@
 #include <cpl_error.h>
 #include <cpl_vsi.h>
 #include <gdal_frmts.h>
+#include <gdal_priv.h>
 #include <ogr_spatialref.h>
 #include <ogrsf_frmts.h>
 
 namespace lacuna::io {
+
+void CloseDataset::operator()(GDALDataset* dataset) const {
+  GDALClose(dataset);
+}
 
 void register_gdal_drivers() {
   static const bool done = [] {

@@ -12,10 +12,20 @@
 
 #include <Eigen/Core>
 
+class GDALDataset;
 class OGRCoordinateTransformation;
 class OGRSpatialReference;
 
 namespace lacuna::io {
+
+// The date in the head of a GeoPackage: the same in every run.
+inline constexpr const char* kSameTime = "1970-01-01T00:00:00.000Z";
+
+// Closes a file when it is done with.
+struct CloseDataset {
+  void operator()(GDALDataset* dataset) const;
+};
+using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
 
 // Registers the drivers of the formats that are read and written, once.
 void register_gdal_drivers();

@@ -16,10 +16,6 @@
 namespace lacuna::io {
 namespace {
 
-struct CloseDataset {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-
 std::vector<float> spacings(const CoverageGrid& grid) {
   std::vector<float> spacings(grid.size(), std::numeric_limits<float>::quiet_NaN());
   for (std::size_t i = 0; i < grid.size(); ++i) {
@@ -46,8 +42,7 @@ extern "C" bool lacuna_write_coverage(const CoverageTask& task) {
   CPLStringList options;
   for (const char* option : {"COMPRESS=DEFLATE", "PREDICTOR=3", "TILED=YES", "BIGTIFF=IF_SAFER"})
     options.AddString(option);
-  std::unique_ptr<GDALDataset, CloseDataset> dataset(
-      driver->Create(task.place.c_str(), columns, rows, 3, GDT_Float32, options.List()));
+  Dataset dataset(driver->Create(task.place.c_str(), columns, rows, 3, GDT_Float32, options.List()));
   require(dataset != nullptr);
   dataset->SetMetadataItem("TIFFTAG_SOFTWARE", std::string(kCoverageSoftware).c_str());
   double to_map[6] = {grid.corner.x(), grid.edge, 0, grid.corner.y(), 0, -grid.edge};

@@ -18,14 +18,6 @@
 namespace lacuna::io {
 namespace {
 
-// The date in the head of the GeoPackage: the same in every run.
-constexpr const char* kTime = "1970-01-01T00:00:00.000Z";
-
-struct CloseDataset {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
-
 struct Format {
   const char* driver;
   std::vector<std::string> options;  // of its layer
@@ -210,7 +202,7 @@ class LoopsWriter {
 
 extern "C" GisCrs lacuna_write_loops_gis(const GisTask& task) {
   register_gdal_drivers();
-  const GdalSetting time("OGR_CURRENT_DATE", kTime),
+  const GdalSetting time("OGR_CURRENT_DATE", kSameTime),
       no_sync("OGR_SQLITE_SYNCHRONOUS", "OFF");  // synced in the end
   if (task.format != GisFormat::kGeoJson) return LoopsWriter(task).write();
   const GdalTextSink sink(task.take);

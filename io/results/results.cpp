@@ -138,6 +138,8 @@ std::vector<std::filesystem::path> write_results(const ExplainedDetection& detec
                                                  const FilesConfig& config,
                                                  const std::filesystem::path& folder, Overwrite overwrite) {
   check_output_folder(scan, config, folder, overwrite);
+  if (has_area(config) && !detection.area)
+    throw Error(config.area.area + ": the area was not checked; io::check_area does it");
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw Error(folder.string() + ": the folder cannot be created: " + error.message());

@@ -17,13 +17,6 @@
 namespace lacuna::io {
 namespace {
 
-// The date in the head of the GeoPackage: the same in every run.
-constexpr const char* kTime = "1970-01-01T00:00:00.000Z";
-
-struct CloseDataset {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-
 // Writes one file.
 class VoidsWriter {
  public:
@@ -141,14 +134,14 @@ class VoidsWriter {
   const VoidsTask& task_;
   GdalFailures failures_;
   OGRSpatialReference crs_;
-  std::unique_ptr<GDALDataset, CloseDataset> dataset_;
+  Dataset dataset_;
 };
 
 }  // namespace
 
 extern "C" bool lacuna_write_voids_gis(const VoidsTask& task) {
   register_gdal_drivers();
-  const GdalSetting time("OGR_CURRENT_DATE", kTime),
+  const GdalSetting time("OGR_CURRENT_DATE", kSameTime),
       no_sync("OGR_SQLITE_SYNCHRONOUS", "OFF");  // synced in the end
   return VoidsWriter(task).write();
 }

@@ -104,6 +104,20 @@ TEST_CASE("range images of stations stay within the memory limit, with the same 
   CHECK(same);
 }
 
+TEST_CASE("the check of an area stays within the memory limit") {
+  const test::ScratchFolder scratch;
+  const std::string scan = (scratch / "plane.ply").string(),
+                    area = scratch.write(
+                        "area.geojson", R"({"type": "Polygon", "coordinates": )"
+                                        R"([[[0.1, 0.1], [9.9, 0.1], [9.9, 9.9], [0.1, 9.9], [0.1, 0.1]]]})");
+  REQUIRE(test::run_bench({"synth", "surface", scan, "--points", "1000000"}).exit_code == 0);
+  const test::ProgramResult result =
+      test::run_program({"check", scan, "--area", area, "--void-size", "0.04", "--memory-limit", "64MiB"});
+  CHECK_THAT(result.out, Catch::Matchers::Contains("not covered: 8 voids"));
+  CAPTURE(result.peak_memory >> 20);  // MiB
+  CHECK(result.peak_memory <= 64 << 20);
+}
+
 TEST_CASE("large cut-outs of many holes stay within the memory limit") {
   Cloud cloud = plane(600);
   for (int x = 60; x < 600; x += 80) {
