@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <sstream>
 #include <tuple>
 #include <utility>
@@ -185,6 +186,23 @@ class Plan {
   std::vector<std::pair<std::size_t, std::size_t>> hull_;  // by row: the cells within the convex hull
 };
 
+// In cells; the first ring is the outer one.
+double area_of(const PlanPolygon& polygon) {
+  double area = 0;
+  for (std::size_t ring = 0; ring < polygon.size(); ++ring) {
+    const Ring2& corners = polygon[ring];
+    double twice = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Eigen::Vector2d &a = corners[i], &b = corners[(i + 1) % corners.size()];
+      twice += a.x() * b.y() - a.y() * b.x();
+    }
+    area += (ring == 0 ? 0.5 : -0.5) * std::fabs(twice);
+  }
+  return area;
+}
+
+// Traces the voids. The convex hull may cut off slivers. They are left out: a quarter of a circle at least is
+// in the area, of each other void.
 std::vector<TracedVoid> trace(const Plan& plan, const PlanGrid& grid) {
   static auto* const trace = reinterpret_cast<TraceVoids*>(load_gis_function(kTraceVoids, kUser));
   TraceTask task{
@@ -192,6 +210,8 @@ std::vector<TracedVoid> trace(const Plan& plan, const PlanGrid& grid) {
       .rows = grid.rows,
       .row = [&](std::size_t row, std::span<std::uint8_t> values) { plan.write_row(row, values); }};
   trace(task);
+  constexpr double kLeastArea = std::numbers::pi * kEmptyRadius * kEmptyRadius / 4;
+  std::erase_if(task.voids, [](const TracedVoid& each) { return area_of(each.outline) < kLeastArea; });
   return std::move(task.voids);
 }
 

@@ -151,6 +151,8 @@ def voids_of(size, points, area, exceptions):
                 if values.get(cell) == values[first] and cell not in seen:
                     seen.add(cell)
                     part.append(cell)
+        if len(part) < math.pi * reach * reach / 4:  # a sliver that the hull cuts off
+            continue
         border = [(i + di, j + dj) for i, j in part for di, dj in sides] + part
         kind = values[first]
         if kind == "inside":
