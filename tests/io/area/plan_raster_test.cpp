@@ -61,7 +61,7 @@ bool is_inside(const PlanPolygon& polygon, const Eigen::Vector2d& place) {
 
 TEST_CASE("the cells of a polygon are those whose middles are inside, and several polygons add up") {
   Random random(1);
-  for (int drawn = 0; drawn < draws(20); ++drawn) {
+  for (std::uint64_t drawn = 0; drawn < draws(20); ++drawn) {
     const PlanGrid grid = grid_of(150, 70);
     const std::vector<PlanPolygon> polygons{star(random, 80), star(random, 80)};
     const PlanRaster raster = rasterise(polygons, grid);
@@ -83,7 +83,7 @@ TEST_CASE("the cells of a polygon are those whose middles are inside, and severa
 TEST_CASE("a point clears the middles that are nearer than the radius, and no other") {
   Random random(2);
   const PlanGrid grid = grid_of(131, 40);
-  for (int drawn = 0; drawn < draws(50); ++drawn) {
+  for (std::uint64_t drawn = 0; drawn < draws(50); ++drawn) {
     PlanRaster raster(grid);
     for (std::size_t row = 0; row < grid.rows; ++row) raster.set(row, 0, grid.columns);
     const Eigen::Vector2d point(draw(random, -8, 139), draw(random, -8, 48));
