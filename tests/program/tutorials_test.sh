@@ -7,7 +7,8 @@ source_folder=$PWD
 build_folder=$(dirname "${LACUNA_PROGRAM:?}")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-export HOME=$work/home PATH=$build_folder:$(dirname "${LACUNA_BENCH_PROGRAM:?}"):$PATH PYTHONPATH=$build_folder/python
+# The package is built for the interpreter of the system.
+export HOME=$work/home PATH=$build_folder:$(dirname "${LACUNA_BENCH_PROGRAM:?}"):/usr/bin:$PATH PYTHONPATH=$build_folder/python
 failed=0
 
 # What runs where; what is missing is said.
