@@ -36,27 +36,22 @@ namespace lacuna {
 namespace {
 
 // Brings all points of the scan into tiles on disk.
-Level bucket_points(PointSource& scan, StoreFiles files, const Workspace& workspace, Job& job) {
+Level bucket_points(PointSource& scan, StoreFiles files, Job& job) {
   if (scan.reads_slowly()) {
     KeptScan kept(scan, job.file("input"));
-    return bucket_points(kept, std::move(files), workspace, job);
+    return bucket_points(kept, std::move(files), job);
   }
-  std::optional<TileGuide> guide = find_guide(workspace, job);
-  SurveyedScan survey = survey_scan(scan, job, guide ? &guide->grid : nullptr);
-  TilePlan plan = plan_tiles(survey, std::move(guide), job);
-  TileGuide cuts{survey.grid, plan.cuts, plan.tile_points, plan.cell_points};
+  SurveyedScan survey = survey_scan(scan, job);
+  TilePlan plan = plan_tiles(survey, job);
+  const std::uint64_t tile_points = plan.tile_points;
   TileStore store =
       bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), std::move(files), job);
   const double extent = extent_of(survey.bounds);
   return {.survey = std::move(survey),
           .extent = extent,
-          .guide = std::move(cuts),
+          .tile_points = tile_points,
           .store = std::move(store),
           .represented = {}};
-}
-
-LevelPlace place_of(std::size_t number, const Workspace& workspace, const Job& job) {
-  return {level_files(number, workspace, job), find_join(number, workspace)};
 }
 
 // Returns the tiles of a level whose outputs a process makes: tiles without outputs whose middle point is in
@@ -125,9 +120,8 @@ Level first_level(PointSource& scan, const Workspace& workspace, Job& job) {
     return *std::move(kept);
   }
   const bool is_thinned = first_edge(job.config.scale) > 0;
-  Level all =
-      bucket_points(scan, is_thinned ? temporary_files(job) : level_files(0, workspace, job), workspace, job);
-  Level level = is_thinned ? thin_to_first(all, place_of(0, workspace, job), job) : std::move(all);
+  Level all = bucket_points(scan, is_thinned ? temporary_files(job) : level_files(0, workspace, job), job);
+  Level level = is_thinned ? thin_to_first(all, level_files(0, workspace, job), job) : std::move(all);
   level.input = scan.pass_counts();
   seal_level(level, workspace.made_from, workspace, job);
   return level;
@@ -138,7 +132,7 @@ std::optional<Level> level_above(const Level& below, const Totals& totals, const
   const std::size_t number = below.number + 1;
   if (std::optional<Level> kept = open_level(number, below.evaluation, workspace, job)) return kept;
   std::optional<Level> level = thin_above(
-      below, totals.distances, [&] { return place_of(number, workspace, job); }, job);
+      below, totals.distances, [&] { return level_files(number, workspace, job); }, job);
   if (level) seal_level(*level, below.evaluation, workspace, job);
   return level;
 }

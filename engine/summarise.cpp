@@ -33,7 +33,7 @@ Summary summarise(const Level& level, const Job& job) {
   summary.strays = find_strays(store);
   if (summary.strays.points == 0) summary.strays.rest = summary.bounds;
   summary.tiles = store.tiling().tiles.size();
-  summary.tile_points = level.tile_points();
+  summary.tile_points = level.tile_points;
   summary.threads = job.arena.threads();
   summary.memory_limit = job.memory.limit;
   return summary;

@@ -16,12 +16,6 @@ struct StoredCandidate {
   StoredPoint point;
   float probability;
 };
-template <class Visit>
-void for_each_row(StoredCandidate& record, Visit&& visit) {
-  visit(record.candidate.row);
-  visit(record.candidate.gap_near);
-  visit(record.candidate.gap_far);
-}
 
 // A tile's candidates that have gap neighbours, in ascending row.
 inline constexpr RecordStream<StoredCandidate> kCandidates{"candidates"};

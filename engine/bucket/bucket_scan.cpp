@@ -158,13 +158,10 @@ std::uint64_t least_store_bytes(const TilePlan& plan, Precision precision) {
 
 }  // namespace
 
-TilePlan plan_tiles(SurveyedScan& survey, std::optional<TileGuide> guide, const Job& job) {
-  if (guide && survey.grid.shift != guide->grid.shift) guide.reset();
+TilePlan plan_tiles(SurveyedScan& survey, const Job& job) {
   const std::uint64_t points = survey.points - survey.dropped;
-  const std::uint64_t tile_points = guide ? guide->tile_points : job.tile_points(points);
-  TilePlan plan =
-      split_tiles(std::move(survey.cells), survey.grid, points, tile_points, guide ? &*guide : nullptr);
-  plan.cell_points = guide ? guide->cell_points : job.cell_points(points);
+  TilePlan plan = split_tiles(std::move(survey.cells), survey.grid, points, job.tile_points(points));
+  plan.cell_points = job.cell_points(points);
   require_space(job.workspace, least_store_bytes(plan, survey.precision()));
   return plan;
 }

@@ -8,14 +8,11 @@
 #include "engine/store/tile_store.hpp"
 #include "engine/survey/survey.hpp"
 
-#include <optional>
-
 namespace lacuna {
 
 // Plans the tiles of a surveyed scan, as large as the memory limit allows. Consumes the survey's cells.
-// `guide`: how an earlier scan was cut; it is used if it has the same cells. Throws `Error` where the points
-// do not fit on the disk.
-TilePlan plan_tiles(SurveyedScan& survey, std::optional<TileGuide> guide, const Job& job);
+// Throws `Error` where the points do not fit on the disk.
+TilePlan plan_tiles(SurveyedScan& survey, const Job& job);
 
 // Streams the scan and stores every distinct finite point in its tile, in cell order. `bounds`: of all
 // points. `files`: empty ones for the store.

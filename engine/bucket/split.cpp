@@ -7,7 +7,6 @@
 #include <bit>
 #include <cassert>
 #include <numeric>
-#include <span>
 
 namespace lacuna {
 namespace {
@@ -17,26 +16,16 @@ constexpr std::uint32_t kFewCells = 4;
 
 class Splitter {
  public:
-  Splitter(TilePlan& plan, std::span<const Cut> guide) : plan_(plan), guide_(guide) {}
+  explicit Splitter(TilePlan& plan) : plan_(plan) {}
 
-  void split() { split(0, static_cast<std::uint32_t>(plan_.cells.size()), false, !guide_.empty()); }
+  void split() { split(0, static_cast<std::uint32_t>(plan_.cells.size()), false); }
 
  private:
-  // `in_tile`: a tile holds these cells already. `is_guided`: the next cut of the guide belongs to these
-  // cells.
-  void split(std::uint32_t first, std::uint32_t last, bool in_tile, bool is_guided) {
-    const Cut cut = is_guided ? guide_[next_cut_++] : Cut{};
-    if (cut.axis >= 0) {
-      plan_.cuts.push_back(cut);
-      const std::uint32_t middle = halve_at(cut, first, last);
-      split(first, middle, false, true);
-      split(middle, last, false, true);
-      return;
-    }
+  // `in_tile`: a tile holds these cells already.
+  void split(std::uint32_t first, std::uint32_t last, bool in_tile) {
     const Part part = bound(first, last);
-    if (!in_tile && part.points <= plan_.tile_points * (is_guided ? 2 : 1)) {
+    if (!in_tile && part.points <= plan_.tile_points) {
       plan_.tiles.push_back({.first_cell = first, .last_cell = last, .raw = part.points});
-      plan_.cuts.push_back({});
       in_tile = true;
     }
     if (in_tile && last - first <= kFewCells) {
@@ -44,15 +33,9 @@ class Splitter {
                 [](const CountedCell& a, const CountedCell& b) { return a.coord < b.coord; });
       return;
     }
-    const std::size_t axis = longest_axis(part);
-    const std::uint32_t middle = halve(part, axis);
-    if (!in_tile) {
-      const auto begin = plan_.cells.begin();
-      plan_.cuts.push_back({static_cast<std::int32_t>(axis),
-                            std::max_element(begin + first, begin + middle, Across{axis})->coord});
-    }
-    split(first, middle, in_tile, false);
-    split(middle, last, in_tile, false);
+    const std::uint32_t middle = halve(part, longest_axis(part));
+    split(first, middle, in_tile);
+    split(middle, last, in_tile);
   }
 
   struct Across {
@@ -62,14 +45,6 @@ class Splitter {
       return a[axis] != b[axis] ? a[axis] < b[axis] : a < b;
     }
   };
-
-  std::uint32_t halve_at(const Cut& cut, std::uint32_t first, std::uint32_t last) {
-    const Across across{static_cast<std::size_t>(cut.axis)};
-    const auto begin = plan_.cells.begin();
-    const auto middle = std::partition(
-        begin + first, begin + last, [&](const CountedCell& cell) { return !across(cut.last, cell.coord); });
-    return static_cast<std::uint32_t>(middle - begin);
-  }
 
   struct Part {
     CellCoord low{}, high{};  // tight bounds of its cells
@@ -142,8 +117,6 @@ class Splitter {
   }
 
   TilePlan& plan_;
-  std::span<const Cut> guide_;
-  std::size_t next_cut_ = 0;
   std::vector<std::uint64_t> slabs_;  // points of each
 };
 
@@ -167,7 +140,7 @@ std::uint64_t TilePlan::most_tiles() const {
 }
 
 TilePlan split_tiles(std::vector<CountedCell> cells, const CellGrid& grid, std::uint64_t points,
-                     std::uint64_t tile_points, const TileGuide* guide) {
+                     std::uint64_t tile_points) {
   TilePlan plan{.grid = grid, .cells = std::move(cells), .points = points, .tile_points = tile_points};
   const auto begin = plan.cells.begin(), end = plan.cells.end();
   const auto far = std::partition(begin, end, [](const CountedCell& cell) { return !cell.is_far; });
@@ -176,8 +149,7 @@ TilePlan split_tiles(std::vector<CountedCell> cells, const CellGrid& grid, std::
   plan.heavy = static_cast<std::size_t>(far - heavy);
   plan.aside.assign(heavy, end);
   plan.cells.erase(heavy, end);
-  if (!plan.cells.empty())
-    Splitter(plan, guide != nullptr ? std::span<const Cut>(guide->cuts) : std::span<const Cut>()).split();
+  if (!plan.cells.empty()) Splitter(plan).split();
   std::uint64_t row = 0;
   for (Tile& tile : plan.tiles) {
     tile.first_row = Row{row};

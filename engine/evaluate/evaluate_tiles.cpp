@@ -10,7 +10,6 @@
 #include "engine/simd/vectorised.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -101,24 +100,6 @@ TilePoints gather(const TileStore& store, TileIndex index, std::vector<HaloEdge>
   return points;
 }
 
-// Returns the fingerprint of all that the output of a tile depends on, save for the config: its points and
-// the points around it. Rows are in their sealed form, which does not depend on other tiles.
-Digest content_of(const TilePoints& points, std::span<const Eigen::Vector3d> normals, const Tiling& tiling,
-                  double eps, double unit) {
-  std::vector<Row> foreign(points.rows.begin() + points.owned, points.rows.end());
-  for (Row& row : foreign) row = to_stored_row(row, tiling);
-  const std::array<double, 2> lengths = {eps, unit};
-  Hash hash;
-  hash.add(std::as_bytes(std::span(points.positions)));
-  hash.add(std::as_bytes(std::span(points.ids)));
-  hash.add(std::as_bytes(std::span(foreign)));
-  hash.add(std::as_bytes(std::span(points.linked.offsets)));
-  hash.add(std::as_bytes(std::span(points.linked.indices)));
-  hash.add(std::as_bytes(normals));
-  hash.add(std::as_bytes(std::span(lengths)));
-  return hash.digest();
-}
-
 LACUNA_VECTORISED
 LocalIndex largest_of(const LocalIndex* first, const LocalIndex* last) {
   LocalIndex largest = 0;
@@ -174,11 +155,6 @@ void evaluate_tiles(const Level& level, std::span<const TileIndex> tiles, Append
     std::vector<HaloEdge>().swap(inbox);
     const std::vector<Eigen::Vector3d> normals =
         job.config.normals.estimate ? std::vector<Eigen::Vector3d>() : store.normals(index);
-    Digest content{};
-    if (outputs.is_kept()) {
-      content = content_of(points, normals, tiling, eps, Totals(level.extent).length_unit);
-      if (outputs.add_earlier(index, content)) return phase.advance(tile.points);
-    }
     const Neighbourhoods neighbourhoods =
         find_neighbourhoods(points, static_cast<std::size_t>(job.config.neighbourhood.k), eps);
     std::vector<double> values(job.config.results.points ? points.owned * criteria().size() : 0);
@@ -200,7 +176,7 @@ void evaluate_tiles(const Level& level, std::span<const TileIndex> tiles, Append
     TileOutput output;
     emit_totals(sums, output);
     for (const TileConsumer& emit : consumers) emit(evaluated, output);
-    outputs.add(index, std::move(output), content);
+    outputs.add(index, output);
     phase.advance(tile.points);
   });
   outputs.finish();

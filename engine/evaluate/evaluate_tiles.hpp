@@ -13,8 +13,7 @@
 
 namespace lacuna {
 
-// Evaluates `tiles`, and adds what their consumers put out to `outputs`. Consumes the halo. A tile that is as
-// it was before an update keeps its earlier output.
+// Evaluates `tiles`, and adds what their consumers put out to `outputs`. Consumes the halo.
 void evaluate_tiles(const Level& level, std::span<const TileIndex> tiles, AppendLists<HaloEdge> halo,
                     std::span<const TileConsumer> consumers, TileOutputs& outputs, Job& job);
 

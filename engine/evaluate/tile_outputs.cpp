@@ -9,25 +9,6 @@
 #include <utility>
 
 namespace lacuna {
-namespace {
-
-constexpr int kTileShift = 32;  // bits of a sealed row that are the place in the tile
-
-}  // namespace
-
-Row to_stored_row(Row row, const Tiling& tiling) {
-  const TileIndex tile = tiling.tile_of_row(row);
-  return Row{std::uint64_t{tile} << kTileShift | tiling.tiles[tile].local(row)};
-}
-
-Row from_stored_row(Row stored, const Tiling& tiling) {
-  const std::uint64_t tile = value(stored) >> kTileShift;
-  const auto local = static_cast<LocalIndex>(value(stored));
-  if (tile >= tiling.tiles.size() || local >= tiling.tiles[tile].points)
-    fail_inconsistent("an output of a tile has a row that no tile has");
-  return tiling.tiles[tile].row(local);
-}
-
 TileOutputs::TileOutputs(const Tiling& tiling, std::optional<KeptOutputs> kept, const Job& job)
     : tiling_(&tiling),
       kept_(std::move(kept)),
@@ -40,18 +21,15 @@ std::vector<TileIndex> TileOutputs::missing() const {
   return all;
 }
 
-void TileOutputs::add(TileIndex tile, TileOutput output, const Digest& content) {
+void TileOutputs::add(TileIndex tile, const TileOutput& output) {
   if (!kept_) {
     for (const TileOutput::Stream& stream : output.streams_)
       lists_->append(make_list(stream.name, tile), stream.bytes);
     return;
   }
-  std::vector<KeptOutputs::Stream> stored;
-  for (TileOutput::Stream& stream : output.streams_) {
-    if (stream.store_rows != nullptr) stream.store_rows(stream.bytes, *tiling_);
-    stored.push_back({stream.name, stream.bytes});
-  }
-  kept_->add(tile, content, stored);
+  std::vector<KeptOutputs::Stream> streams;
+  for (const TileOutput::Stream& stream : output.streams_) streams.push_back({stream.name, stream.bytes});
+  kept_->add(tile, streams);
 }
 
 void TileOutputs::finish() {

@@ -13,7 +13,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -32,23 +31,6 @@ struct RecordStream {
   std::string_view name;
 };
 
-// for_each_row(record, visit) calls visit(row) for each row of a record, by reference. Sealed records have
-// the number of a tile and a place in it instead of a row. So an output stays right where other tiles get
-// more or fewer points.
-template <class Visit>
-void for_each_row(Row& row, Visit&& visit) {
-  visit(row);
-}
-template <class Record>
-concept HasRows = requires(Record& record) {
-  for_each_row(record, [](Row&) {});
-};
-
-// Return the sealed form of a row, and the row of a sealed form. The latter throws `Error` where the tile has
-// no such row.
-Row to_stored_row(Row row, const Tiling& tiling);
-Row from_stored_row(Row stored, const Tiling& tiling);
-
 // The output of one tile, while its consumers put their records into it.
 class TileOutput {
  public:
@@ -57,28 +39,16 @@ class TileOutput {
   void add(const RecordStream<Record>& stream, std::vector<Record> records) {
     if (records.empty()) return;
     const auto kept = std::make_shared<std::vector<Record>>(std::move(records));
-    streams_.push_back({stream.name, std::as_writable_bytes(std::span(*kept)), kept, nullptr});
-    if constexpr (HasRows<Record>) streams_.back().store_rows = store_rows_of<Record>;
+    streams_.push_back({stream.name, std::as_bytes(std::span(*kept)), kept});
   }
 
  private:
   friend class TileOutputs;
   struct Stream {
     std::string_view name;
-    std::span<std::byte> bytes;
-    std::shared_ptr<void> records;                                           // that have these bytes
-    void (*store_rows)(std::span<std::byte> records, const Tiling& tiling);  // null: the records have no rows
+    std::span<const std::byte> bytes;
+    std::shared_ptr<void> records;  // that have these bytes
   };
-
-  template <class Record>
-  static void store_rows_of(std::span<std::byte> records, const Tiling& tiling) {
-    for (; records.size() >= sizeof(Record); records = records.subspan(sizeof(Record))) {
-      Record record;
-      std::memcpy(&record, records.data(), sizeof record);
-      for_each_row(record, [&](Row& row) { row = to_stored_row(row, tiling); });
-      std::memcpy(records.data(), &record, sizeof record);
-    }
-  }
 
   std::vector<Stream> streams_;
 };
@@ -91,14 +61,7 @@ class TileOutputs {
 
   // Returns the tiles whose outputs are not there yet, ascending.
   std::vector<TileIndex> missing() const;
-  bool is_kept() const { return kept_.has_value(); }
-  // Adds the output that the run before an update has sealed for a tile. `content`: the fingerprint of all
-  // that the tile's output depends on. Returns false if there is no such output.
-  bool add_earlier(TileIndex tile, const Digest& content) {
-    return kept_ && kept_->add_earlier(tile, content);
-  }
-  // `content`: as above, where the outputs are kept.
-  void add(TileIndex tile, TileOutput output, const Digest& content);
+  void add(TileIndex tile, const TileOutput& output);
   void finish();
 
   // Returns records in the order in which they were added. Throws `Error` where a sealed stream is broken.
@@ -106,11 +69,6 @@ class TileOutputs {
   std::vector<Record> read(const RecordStream<Record>& stream, TileIndex tile) const {
     std::vector<Record> records(count(stream, tile));
     read_bytes(stream.name, tile, std::as_writable_bytes(std::span(records)));
-    if constexpr (HasRows<Record>) {
-      if (!kept_) return records;
-      for (Record& record : records)
-        for_each_row(record, [&](Row& row) { row = from_stored_row(row, *tiling_); });
-    }
     return records;
   }
   template <class Record>

@@ -20,10 +20,5 @@ struct OrientationEdge {
     return x.low_id != y.low_id ? x.low_id < y.low_id : x.high_id < y.high_id;
   }
 };
-template <class Visit>
-void for_each_row(OrientationEdge& record, Visit&& visit) {
-  visit(record.low);
-  visit(record.high);
-}
 
 }  // namespace lacuna

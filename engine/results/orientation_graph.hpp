@@ -16,10 +16,6 @@ struct OrientationCrossing {
   Row foreign;
   PointId foreign_id;
 };
-template <class Visit>
-void for_each_row(OrientationCrossing& record, Visit&& visit) {
-  visit(record.foreign);
-}
 
 // An edge that is the heaviest on a cycle inside one tile is in no minimum spanning tree. So a tile puts out
 // only its own spanning forest of its inner edges, with the normals and the edges between tiles.

@@ -127,10 +127,9 @@ CellCounts count_cells(const PointBatch& batch, const CellGrid& grid) {
   return counts;
 }
 
-Survey::Survey(std::uint64_t memory, std::uint64_t expected_points, const CellGrid* grid)
+Survey::Survey(std::uint64_t memory, std::uint64_t expected_points)
     : memory_(std::min(
           memory, kFewBytes + kBytesPerPoint * (expected_points > 0 ? expected_points : kUnknownPoints))),
-      grid_(grid),
       is_expected_(expected_points > 0),
       expected_points_(is_expected_ ? expected_points : kUnknownPoints) {}
 
@@ -142,11 +141,6 @@ void Survey::choose_cell_size(const PointBatch& batch) {
   const double points = static_cast<double>(expected_points_);
   const Whereabouts place = whereabouts_of(batch);
   scan_.middle = place.middle;
-  if (grid_ != nullptr) {
-    scan_.grid = *grid_;
-    sized_ = true;
-    return;
-  }
   const double farthest = place.middle.cwiseAbs().maxCoeff();
   double extent = place.extent;
   if (extent == 0) extent = place.farthest > 0 ? place.farthest : 1;  // most points at one place
@@ -222,7 +216,7 @@ bool Survey::needs_too_much() const {
 }
 
 bool Survey::is_too_fine() const {
-  if (grid_ != nullptr || counts_.leaves() <= 2 * apart_) return false;
+  if (counts_.leaves() <= 2 * apart_) return false;
   // Even if all points to come lie in the same cells, the cells hold too few in the end. A scan of an unknown
   // number of points may have more than its cells were made for.
   const std::uint64_t points = std::max(scan_.points, is_expected_ ? expected_points_ : 4 * expected_points_);
@@ -235,8 +229,8 @@ bool Survey::is_too_fine() const {
 
 SurveyedScan Survey::finish() {
   const std::uint64_t finite_points = scan_.points - scan_.dropped;
-  while (grid_ == nullptr && finite_points < kPointsPerCell * counts_.cells() && counts_.cells() > 1 &&
-         can_merge() && merge_unless_apart([](const CellTree& counts) { return counts.cells(); })) {
+  while (finite_points < kPointsPerCell * counts_.cells() && counts_.cells() > 1 && can_merge() &&
+         merge_unless_apart([](const CellTree& counts) { return counts.cells(); })) {
   }
   const std::uint64_t few = few_points(finite_points);
   while (counts_.standard_bytes(few) + counts_.cells() * kBytesPerCell > memory_ && can_merge())

@@ -48,9 +48,8 @@ CellCounts count_cells(const PointBatch& batch, const CellGrid& grid);
 // other points. Cost: one access of the tree for each run of points in the same cell.
 class Survey {
  public:
-  // `expected_points`: 0 where not known. `grid`: the grid of the cells; null: chosen as above. Cells of a
-  // given grid merge only where memory does not suffice.
-  Survey(std::uint64_t memory, std::uint64_t expected_points, const CellGrid* grid = nullptr);
+  // `expected_points`: 0 where not known.
+  Survey(std::uint64_t memory, std::uint64_t expected_points);
 
   void add(const PointBatch& batch);
   // Adding may take two steps: `add(count_cells(batch, finest()))`. The inner one may run in other threads. A
@@ -72,7 +71,6 @@ class Survey {
   bool merge_unless_apart(Count&& count);
 
   std::uint64_t memory_;
-  const CellGrid* grid_;
   bool is_expected_;  // whether the number of points is known
   std::uint64_t expected_points_;
   SurveyedScan scan_;

@@ -33,10 +33,10 @@ void count_points(Survey& survey, PointSource& scan, std::uint64_t expected, Job
 
 }  // namespace
 
-SurveyedScan survey_scan(PointSource& scan, Job& job, const CellGrid* grid) {
+SurveyedScan survey_scan(PointSource& scan, Job& job) {
   const std::uint64_t expected = scan.expected_points().value_or(0);
   const MemoryLedger::Lease reading = job.ledger.take(job.memory.reading);
-  Survey survey(job.memory.cells, expected, grid);
+  Survey survey(job.memory.cells, expected);
   count_points(survey, scan, expected, job);
   return survey.finish();
 }

@@ -8,8 +8,7 @@
 
 namespace lacuna {
 
-// Streams the scan once and counts its points per cell. `grid`: the grid of the cells; null: chosen. Throws
-// `Error`.
-SurveyedScan survey_scan(PointSource& scan, Job& job, const CellGrid* grid = nullptr);
+// Streams the scan once and counts its points per cell. Throws `Error`.
+SurveyedScan survey_scan(PointSource& scan, Job& job);
 
 }  // namespace lacuna

@@ -5,12 +5,10 @@
 // place is evaluated evenly at some level, from its own spacing upward.
 #pragma once
 
-#include "engine/bucket/split.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/tile_store.hpp"
 #include "engine/survey/survey.hpp"
 #include "engine/thin/choose_points.hpp"
-#include "engine/thin/store_chosen.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -25,15 +23,12 @@ struct Level {
   double edge = 0;                   // of its lattice; 0: the level has every point
   SurveyedScan survey;               // of the whole scan
   double extent = 0;                 // the largest distance between points of the scan
-  TileGuide guide;                   // how the points of the scan are cut into tiles
-  TileJoin join;                     // how those tiles, or the tiles of the level below, are put together
+  std::uint64_t tile_points = 0;     // the most in a tile
   TileStore store;                   // distinct points
   std::string evaluation;            // what its tiles are evaluated from; empty: no workspace is kept
   std::vector<std::uint64_t> input;  // of the first level: `PointSource::pass_counts`
   // Which point represents which. Only for a first level on a lattice, with results.points.
   std::optional<AppendLists<Represented>> represented;
-
-  std::uint64_t tile_points() const { return edge > 0 ? join.tile_points : guide.tile_points; }
 };
 
 // A run has at most this many levels: a level of 2^64 points has few left after them.

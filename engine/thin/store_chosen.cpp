@@ -140,17 +140,6 @@ TileJoin join_tiles(const Tiling& below, const ChosenPoints& chosen, std::uint64
   return {Joiner(below, chosen, tile_points, cell_points).first_tiles(), tile_points, cell_points};
 }
 
-bool suits(const TileJoin& join, const Tiling& below, const ChosenPoints& chosen) {
-  const std::size_t tiles = join.first.size();
-  if (tiles == 0 || join.first[0] != 0 || join.first.back() >= below.tiles.size()) return false;
-  if (!std::is_sorted(join.first.begin(), join.first.end(), std::less_equal<>())) return false;
-  for (std::size_t t = 0; t < tiles; ++t) {
-    if (count_tiles(below, chosen, join.first[t], end_of(join, t, below)) > 2 * join.tile_points)
-      return false;
-  }
-  return true;
-}
-
 TileStore store_chosen(const TileStore& below, const ChosenPoints& chosen, const TileJoin& join,
                        StoreFiles files, Job& job) {
   constexpr std::uint64_t kBytesPerPoint = 128;  // while it is put

@@ -14,7 +14,7 @@ namespace lacuna {
 // The way in which tiles of the store below are put together.
 struct TileJoin {
   std::vector<TileIndex> first;   // of each tile, its first tile below; it has all up to the next one's first
-  std::uint64_t tile_points = 0;  // the most in a tile, where none below has more; twice as many in an update
+  std::uint64_t tile_points = 0;  // the most in a tile, where none below has more
   std::uint64_t cell_points = 0;  // the most in a cell, where none below has more
 };
 
@@ -22,9 +22,6 @@ struct TileJoin {
 // chosen points.
 TileJoin join_tiles(const Tiling& below, const ChosenPoints& chosen, std::uint64_t tile_points,
                     std::uint64_t cell_points);
-// Returns whether the join of an earlier run may be used again, so that tiles keep their numbers. It must
-// have the tiles of `below`, and no tile may become twice as large as was wanted.
-bool suits(const TileJoin& join, const Tiling& below, const ChosenPoints& chosen);
 
 // Stores the chosen points in the order that they have below, so that nothing is sorted. `files`: empty ones
 // for the store. Cost: reads all points below once.

@@ -2,6 +2,7 @@
 #include "engine/thin/thin.hpp"
 
 #include "engine/run/error.hpp"
+#include "engine/thin/store_chosen.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,26 +13,17 @@
 namespace lacuna {
 namespace {
 
-// Puts tiles together as before an update, if that suits these points.
-TileJoin join_for(std::optional<TileJoin> earlier, const Tiling& below, const ChosenPoints& chosen,
-                  const Job& job) {
-  if (earlier && job.tile_bytes(2 * earlier->tile_points) <= job.memory.tiles &&
-      suits(*earlier, below, chosen))
-    return *std::move(earlier);
-  return join_tiles(below, chosen, job.tile_points(chosen.count), job.cell_points(chosen.count));
-}
-
 // Makes a level of the chosen points.
-Level level_of(ChosenPoints chosen, const Level& below, std::size_t number, double edge, LevelPlace place,
+Level level_of(ChosenPoints chosen, const Level& below, std::size_t number, double edge, StoreFiles files,
                Job& job) {
-  TileJoin join = join_for(std::move(place.join), below.store.tiling(), chosen, job);
+  const TileJoin join =
+      join_tiles(below.store.tiling(), chosen, job.tile_points(chosen.count), job.cell_points(chosen.count));
   return {.number = number,
           .edge = edge,
           .survey = below.survey,
           .extent = below.extent,
-          .guide = below.guide,
-          .join = join,
-          .store = store_chosen(below.store, chosen, join, std::move(place.files), job),
+          .tile_points = join.tile_points,
+          .store = store_chosen(below.store, chosen, join, std::move(files), job),
           .represented = std::move(chosen.represented)};
 }
 
@@ -85,16 +77,16 @@ double edge_above(const LengthBins& distances, double length) {
 
 }  // namespace
 
-Level thin_to_first(const Level& all, LevelPlace place, Job& job) {
+Level thin_to_first(const Level& all, StoreFiles files, Job& job) {
   Phase phase(job, "thin", all.store.tiling().points());
   const double edge = first_edge(job.config.scale);
   ChosenPoints chosen = choose_points(all.store, edge, job.config.results.points ? all.survey.ids : 0, job);
   refuse_too_coarse(chosen.count, all.survey, job.config);
-  return level_of(std::move(chosen), all, 0, edge, std::move(place), job);
+  return level_of(std::move(chosen), all, 0, edge, std::move(files), job);
 }
 
 std::optional<Level> thin_above(const Level& below, const LengthBins& distances,
-                                const std::function<LevelPlace()>& place, Job& job) {
+                                const std::function<StoreFiles()>& files, Job& job) {
   constexpr std::uint64_t kFewest = 200;  // points: fewer leave no interior around a hole
   const std::uint64_t points = below.store.tiling().points();
   // Edges are rounded powers.
@@ -103,7 +95,7 @@ std::optional<Level> thin_above(const Level& below, const LengthBins& distances,
     ChosenPoints chosen = choose_points(below.store, edge, 0, job);
     if (chosen.count < kFewest) break;
     if (static_cast<double>(chosen.count) <= kMostLeft * static_cast<double>(points))
-      return level_of(std::move(chosen), below, below.number + 1, edge, place(), job);
+      return level_of(std::move(chosen), below, below.number + 1, edge, files(), job);
   }
   return std::nullopt;
 }

@@ -32,18 +32,15 @@ class KeptOutputs {
     std::span<const std::byte> bytes;
   };
 
-  // Finds the sealed outputs of a level that are whole and made from `made_from`. `earlier`: what the outputs
-  // of the run before an update were made from; empty: there are none. `check`: the table suffices where no
-  // output is read.
-  KeptOutputs(std::size_t level, std::size_t tiles, const std::string& made_from, const std::string& earlier,
-              PartReader::Check check, const Workspace& workspace);
+  // Finds the sealed outputs of a level that are whole and made from `made_from`. `check`: the table suffices
+  // where no output is read.
+  KeptOutputs(std::size_t level, std::size_t tiles, const std::string& made_from, PartReader::Check check,
+              const Workspace& workspace);
 
   std::vector<TileIndex> missing() const;  // tiles without a sealed output, ascending
 
-  // Adds the output of a tile. From any thread. `content`: the fingerprint of all that the output depends on.
-  void add(TileIndex tile, const Digest& content, std::span<const Stream> streams);
-  // Adds the output of the run before, if it has one with this content. Returns whether it has one.
-  bool add_earlier(TileIndex tile, const Digest& content);
+  // Adds the output of a tile. From any thread.
+  void add(TileIndex tile, std::span<const Stream> streams);
   // Seals the last outputs. After that, outputs are read, from any thread.
   void finish();
 
@@ -56,17 +53,14 @@ class KeptOutputs {
   // By tile: the part that has its output; null: there is no output.
   using PartOfTile = std::vector<std::shared_ptr<const PartReader>>;
 
-  std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder) const;
   void find_parts(bool is_unit);
-  void find_earlier_parts(const Digest& made_from);
-  void write(TileIndex tile, std::span<const Stream> streams);
   void seal();
 
   std::size_t level_;
-  std::filesystem::path folder_, earlier_folder_;
+  std::filesystem::path folder_;
   Digest made_from_;
   PartReader::Check check_;
-  PartOfTile part_of_, earlier_part_of_;
+  PartOfTile part_of_;
   std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();  // of the open part
   std::filesystem::path open_path_;                                     // of the open part
   std::optional<PartWriter> open_;

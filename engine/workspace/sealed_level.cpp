@@ -41,7 +41,7 @@ struct StoredLevel {
   std::int64_t grid_finest, grid_shift;
   std::uint64_t points, dropped, ids, is_single;
   double extent, edge;
-  std::uint64_t tile_points, cell_points, joined_tile_points, joined_cell_points, has_normals;
+  std::uint64_t tile_points, has_normals;
   std::uint64_t represented;  // lists; 0: no lists
   std::uint64_t points_bytes, normals_bytes;
   Digest points_digest, normals_digest;
@@ -58,10 +58,7 @@ StoredLevel stored(const Level& level) {
                      .is_single = survey.is_single,
                      .extent = level.extent,
                      .edge = level.edge,
-                     .tile_points = level.guide.tile_points,
-                     .cell_points = level.guide.cell_points,
-                     .joined_tile_points = level.join.tile_points,
-                     .joined_cell_points = level.join.cell_points,
+                     .tile_points = level.tile_points,
                      .has_normals = level.store.has_normals(),
                      .represented = level.represented ? level.represented->lists() : 0};
   for (int axis = 0; axis < 3; ++axis) {
@@ -82,19 +79,6 @@ SurveyedScan survey_of(const StoredLevel& stored) {
           .dropped = stored.dropped,
           .ids = stored.ids,
           .is_single = stored.is_single != 0};
-}
-
-TileGuide guide_of(const StoredLevel& stored, const PartReader& part) {
-  return {.grid = survey_of(stored).grid,
-          .cuts = part.records<Cut>("cuts", 0),
-          .tile_points = stored.tile_points,
-          .cell_points = stored.cell_points};
-}
-
-TileJoin join_of(const StoredLevel& stored, const PartReader& part) {
-  return {.first = part.records<TileIndex>("joined", 0),
-          .tile_points = stored.joined_tile_points,
-          .cell_points = stored.joined_cell_points};
 }
 
 Tiling tiling_of(const PartReader& part) {
@@ -138,12 +122,6 @@ std::optional<StoreFile> open_file(const fs::path& path, std::uint64_t bytes, co
   std::optional<StoreFile> file = StoreFile::open_sealed(path);
   if (file && (file->size() != bytes || digest_of(*file) != digest)) return std::nullopt;
   return file;
-}
-
-// Opens the level of the run before an update.
-std::optional<PartReader> open_earlier(std::size_t number, const Workspace& workspace) {
-  if (workspace.earlier.empty()) return std::nullopt;
-  return PartReader::open(level_path(workspace.earlier, number), std::nullopt);
 }
 
 std::optional<StoredLevel> record_of(const PartReader& part) {
@@ -218,8 +196,6 @@ void seal_level(Level& level, const std::string& made_from, const Workspace& wor
   for (const Cell& cell : tiling.cells)
     cells.push_back({StoredBox(cell.box), value(cell.first_row), cell.points});
   part.add("cells", 0, std::span<const StoredCell>(cells));
-  part.add("cuts", 0, std::span<const Cut>(level.guide.cuts));
-  part.add("joined", 0, std::span<const TileIndex>(level.join.first));
   for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
     add_in_blocks<Duplicate>(part, "duplicates", t,
                              [&](auto&& visit) { level.store.for_each_duplicate(t, visit); });
@@ -258,8 +234,7 @@ std::optional<Level> open_level(std::size_t number, const std::string& made_from
                .edge = record.edge,
                .survey = survey_of(record),
                .extent = record.extent,
-               .guide = guide_of(record, *part),
-               .join = join_of(record, *part),
+               .tile_points = record.tile_points,
                .store = std::move(store),
                .evaluation = evaluation_of(part->checksum(), job.config),
                .input = part->records<std::uint64_t>("input", 0),
@@ -277,32 +252,13 @@ std::optional<Level> find_level(std::size_t number, const Workspace& workspace, 
   return open_level(number, made_from, workspace, job);
 }
 
-std::optional<TileGuide> find_guide(const Workspace& workspace, const Job& job) {
-  const std::optional<PartReader> part = open_earlier(0, workspace);
-  if (!part) return std::nullopt;
-  const std::optional<StoredLevel> record = record_of(*part);
-  if (!record || job.tile_bytes(2 * record->tile_points) > job.memory.tiles) return std::nullopt;
-  return guide_of(*record, *part);
-}
-
-std::optional<TileJoin> find_join(std::size_t number, const Workspace& workspace) {
-  const std::optional<PartReader> part = open_earlier(number, workspace);
-  if (!part) return std::nullopt;
-  const std::optional<StoredLevel> record = record_of(*part);
-  if (!record) return std::nullopt;
-  return join_of(*record, *part);
-}
-
 std::optional<KeptOutputs> find_outputs(const Level& level, PartReader::Check check,
                                         const Workspace& workspace, const Config& config) {
   if (!workspace.is_kept()) return std::nullopt;
   // Levels above the first one have only the outputs of their loops.
   const std::string wanted = level.number == 0 ? output_parameters(config) : "";
-  std::string earlier;
-  if (const std::optional<PartReader> part = open_earlier(level.number, workspace))
-    earlier = evaluation_of(part->checksum(), config) + wanted;
   return std::optional<KeptOutputs>(std::in_place, level.number, level.store.tiling().tiles.size(),
-                                    level.evaluation + wanted, earlier, check, workspace);
+                                    level.evaluation + wanted, check, workspace);
 }
 
 }  // namespace lacuna

@@ -30,14 +30,7 @@ std::optional<Level> open_level(std::size_t number, const std::string& made_from
 // Opens the level of a workspace, whatever the levels below it were made from. Otherwise as `open_level`.
 std::optional<Level> find_level(std::size_t number, const Workspace& workspace, const Job& job);
 
-// Returns how the run before an update has cut the scan into tiles. Returns nothing without an update, or
-// where such tiles do not fit in memory.
-std::optional<TileGuide> find_guide(const Workspace& workspace, const Job& job);
-// Returns how the run before an update has put tiles together for a level.
-std::optional<TileJoin> find_join(std::size_t number, const Workspace& workspace);
-
-// Returns the sealed outputs of the level's tiles, together with the outputs of the run before an update.
-// Returns nothing where no workspace is kept.
+// Returns the sealed outputs of the level's tiles. Returns nothing where no workspace is kept.
 std::optional<KeptOutputs> find_outputs(const Level& level, PartReader::Check check,
                                         const Workspace& workspace, const Config& config);
 

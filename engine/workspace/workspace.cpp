@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The number changes with the records in the parts.
-constexpr const char* kProgram = "lacuna " LACUNA_VERSION ", parts of form 3";
+constexpr const char* kProgram = "lacuna " LACUNA_VERSION ", parts of form 4";
 constexpr const char* kRun = "run";  // the part that says whose workspace it is
 constexpr std::array<const char*, 2> kNotes = {"tasks", "results"};  // by `WorkspaceNote`
 constexpr std::string_view kLevel = "level-", kTiles = "tiles-";
@@ -134,30 +134,33 @@ std::optional<std::string> read_note(const fs::path& folder, WorkspaceNote note)
   return std::string(text.begin(), text.end());
 }
 
-fs::path earlier_parts(const fs::path& folder) {
+fs::path earlier_run(const fs::path& folder) {
   return folder / "before";
 }
 
 fs::path earlier_results(const fs::path& folder) {
-  return earlier_parts(folder) / "compared";
+  return earlier_run(folder) / "compared";
 }
 
 void begin_update(const fs::path& folder) {
-  const fs::path earlier = earlier_parts(folder);
+  const fs::path earlier = earlier_run(folder);
   if (is_workspace(earlier)) return;
-  std::vector<fs::path> files = workspace_files(folder);
-  // The part of the run goes last: with it, the folder is a workspace.
-  std::partition(files.begin(), files.end(), [](const fs::path& file) { return file.filename() != kRun; });
   std::error_code error;
   fs::create_directory(earlier, error);
-  for (const fs::path& file : files) {
-    if (!error) fs::rename(file, earlier / file.filename(), error);
+  const auto move = [&](const char* name) {
+    if (!error && fs::exists(folder / name)) fs::rename(folder / name, earlier / name, error);
+  };
+  for (const fs::path& file : workspace_files(folder)) {
+    if (level_of_part(file) || level_of_outputs(file) || file.has_extension()) remove_part(file);
   }
-  if (error) throw Error(earlier.string() + ": parts cannot be moved there: " + error.message());
+  for (const char* note : kNotes) move(note);
+  move(kRun);  // last: with it, the folder is a workspace
+  if (error)
+    throw Error(earlier.string() + ": the data of the run cannot be moved there: " + error.message());
 }
 
 void end_update(const fs::path& folder) {
-  const fs::path earlier = earlier_parts(folder);
+  const fs::path earlier = earlier_run(folder);
   std::error_code error;
   if (!fs::is_directory(earlier, error)) return;
   // The part of the run goes first: without it, the update is at its end.
@@ -252,11 +255,7 @@ Workspace open_workspace(const PointSource& scan, const Config& given, bool is_u
       part.add(stream, 0, std::span<const char>(text));
     part.seal(digest_of(kRun));
   }
-  const bool is_update = is_workspace(earlier_parts(folder));
-  return {.folder = folder,
-          .made_from = joined(now),
-          .earlier = is_update ? earlier_parts(folder) : fs::path(),
-          .is_unit = is_unit};
+  return {.folder = folder, .made_from = joined(now), .is_unit = is_unit};
 }
 
 }  // namespace lacuna

@@ -19,10 +19,9 @@ namespace lacuna {
 
 // Where a run keeps its sealed parts.
 struct Workspace {
-  std::filesystem::path folder;   // empty: nothing is kept
-  std::string made_from;          // input and parameters of the parts, a line each
-  std::filesystem::path earlier;  // the parts of the run before an update; empty: there are none
-  bool is_unit = false;           // one of several processes that make parts of the run: it removes none
+  std::filesystem::path folder;  // empty: nothing is kept
+  std::string made_from;         // input and parameters of the parts, a line each
+  bool is_unit = false;          // one of several processes that make parts of the run: it removes none
 
   bool is_kept() const { return !folder.empty(); }
 };
@@ -57,13 +56,12 @@ std::optional<std::vector<std::string>> made_from_of(const std::filesystem::path
 void write_note(const std::filesystem::path& folder, WorkspaceNote note, const std::string& text);
 std::optional<std::string> read_note(const std::filesystem::path& folder, WorkspaceNote note);
 
-// Begins an update: moves the parts into a folder of the workspace. The run that follows takes the tiles that
-// have not changed from there. `end_update` removes the parts. If a stopped update has left such a folder,
-// the move is completed.
+// Begins an update: moves the data of the run into a folder of the workspace, and removes the other parts. If
+// a stopped update has left such a folder, this is done. `end_update` removes the folder.
 void begin_update(const std::filesystem::path& folder);
 void end_update(const std::filesystem::path& folder);
-std::filesystem::path earlier_parts(const std::filesystem::path& folder);  // where they are, if they are
-// Returns a folder for results of the run before. `end_update` removes it with the parts.
+std::filesystem::path earlier_run(const std::filesystem::path& folder);  // where its data are, if they are
+// Returns a folder for results of the run before. `end_update` removes it, too.
 std::filesystem::path earlier_results(const std::filesystem::path& folder);
 
 bool is_workspace(const std::filesystem::path& folder);

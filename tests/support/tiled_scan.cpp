@@ -15,7 +15,7 @@ namespace {
 
 Level make_level(PointSource& scan, Job& job) {
   SurveyedScan survey = survey_scan(scan, job);
-  TilePlan plan = plan_tiles(survey, std::nullopt, job);
+  TilePlan plan = plan_tiles(survey, job);
   TileStore store =
       bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), temporary_files(job), job);
   const double extent = extent_of(survey.bounds);

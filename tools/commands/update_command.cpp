@@ -103,7 +103,7 @@ ChangedRun changed_run(const UpdateArguments& arguments, const StoredRun& before
 
 // Returns the folder that has the results of the run before; empty if none is known.
 fs::path results_of(const fs::path& workspace) {
-  for (const fs::path& folder : {earlier_parts(workspace), workspace}) {
+  for (const fs::path& folder : {earlier_run(workspace), workspace}) {
     if (const auto note = read_note(folder, WorkspaceNote::kResults)) return *note;
   }
   return {};
@@ -134,7 +134,7 @@ std::string write_changes(const Comparison& comparison, const ResultArguments& t
 void run_update(const UpdateArguments& arguments) {
   // An update that was stopped begins again with the run before it.
   const fs::path& folder = arguments.workspace;
-  const fs::path source = is_workspace(earlier_parts(folder)) ? earlier_parts(folder) : folder;
+  const fs::path source = is_workspace(earlier_run(folder)) ? earlier_run(folder) : folder;
   const StoredRun run = read_run(source);
   const auto made_from = made_from_of(source);
   const ChangedRun changed = changed_run(arguments, run);
@@ -175,7 +175,7 @@ void run_update(const UpdateArguments& arguments) {
 
 void add_update_command(const Command& program) {
   const Command command = program.add_command(
-      "update", "Go on from a workspace with an input that has changed in places, and say what has changed");
+      "update", "Run again on an input that has changed in places, and say which holes have changed");
   const auto arguments = std::make_shared<UpdateArguments>(command);
   command.add_option("WORKSPACE", arguments->workspace, "Folder of lacuna detect --workspace")
       .required()

@@ -21,11 +21,6 @@ struct StoredCrossing {
   Strength strength;  // of its own end
   double distance;
 };
-template <class Visit>
-void for_each_row(StoredCrossing& record, Visit&& visit) {
-  visit(record.own.row);
-  visit(record.foreign.row);
-}
 
 // An eligible edge between tiles, in the lists of both.
 struct EligibleCrossing {

@@ -40,10 +40,6 @@ struct OpenLinkVertex {
   float radius;
   Consistency consistency;
 };
-template <class Visit>
-void for_each_row(OpenLinkVertex& record, Visit&& visit) {
-  visit(record.end.row);
-}
 
 // Open stars of one tile.
 struct OpenStars {

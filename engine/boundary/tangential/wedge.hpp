@@ -31,12 +31,6 @@ struct Wedge {
   WedgeEvidence evidence;
   Scale scale;
 };
-template <class Visit>
-void for_each_row(Wedge& record, Visit&& visit) {
-  visit(record.row);
-  visit(record.from);
-  visit(record.to);
-}
 
 // Returns 0 where the circumradius is no larger than the sampling radius, and 1 from `clear_radius` times
 // that on.

@@ -54,7 +54,7 @@ std::vector<Row> coherent(std::vector<Candidate> candidates, TiledScan& scan) {
       of_tile.push_back({.candidate = *first});
     TileOutput output;
     output.add(kCandidates, of_tile);
-    outputs.add(tile, std::move(output), {});
+    outputs.add(tile, output);
   }
   const RowSet boundary = coherent_candidates(outputs, scan.store.tiling(), scan.job);
   std::vector<Row> left;

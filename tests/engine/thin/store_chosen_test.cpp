@@ -92,24 +92,5 @@ TEST_CASE("tiles and cells that have become small are put together, up to the si
   CHECK(tiling.cells.size() < below.cells.size() / 2);
 }
 
-TEST_CASE("a join is used again where it is of these tiles, and none becomes twice as large as was wanted") {
-  const ThinnedStore thin(scattered(20'000, 3), 200, 100, 32);
-  const Tiling& below = thin.below.store.tiling();
-  CHECK(suits(thin.join, below, thin.chosen));
-  TileJoin join = thin.join;
-  join.tile_points = 10;  // tiles have more than twice as many
-  CHECK_FALSE(suits(join, below, thin.chosen));
-  join = thin.join;
-  join.first.back() = static_cast<TileIndex>(below.tiles.size());
-  CHECK_FALSE(suits(join, below, thin.chosen));
-  join = thin.join;
-  join.first.front() = 1;
-  CHECK_FALSE(suits(join, below, thin.chosen));
-  join = thin.join;
-  std::swap(join.first[1], join.first[2]);
-  CHECK_FALSE(suits(join, below, thin.chosen));
-  CHECK_FALSE(suits({}, below, thin.chosen));
-}
-
 }  // namespace
 }  // namespace lacuna

@@ -27,7 +27,7 @@ struct Kept {
   }
 
   KeptOutputs open(const std::string& made_from) const {
-    return KeptOutputs(3, kTiles, made_from, "", check, workspace);
+    return KeptOutputs(3, kTiles, made_from, check, workspace);
   }
   // The outputs that are there; each is one number.
   std::map<TileIndex, std::uint64_t> numbers(const std::string& made_from) const {
@@ -47,7 +47,7 @@ struct Kept {
     KeptOutputs kept = open(made_from);
     for (const auto& [tile, number] : numbers) {
       const KeptOutputs::Stream stream{"number", std::as_bytes(std::span(&number, 1))};
-      kept.add(tile, {}, {&stream, 1});
+      kept.add(tile, {&stream, 1});
     }
     kept.finish();
     for (const auto& [tile, number] : numbers) {

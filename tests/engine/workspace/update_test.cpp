@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run after its input has changed in places. The result is that of a run from nothing. Tiles where nothing
-// has changed are not evaluated again.
+// A run in the workspace of another one, whose input has changed. The result is that of a run from nothing.
 #include "engine/consumers.hpp"
 #include "engine/pipeline.hpp"
 #include "engine/pipeline_steps.hpp"
@@ -97,85 +96,27 @@ TEST_CASE("an updated run gives the result of a run from nothing, again and agai
       if (random.whole(0, 2) == 0)
         CHECK(run_engine(cloud, config).bytes() == bytes_from_nothing(cloud, config));
       end_update(folder.path());
-      CHECK_FALSE(fs::exists(earlier_parts(folder.path())));
+      CHECK_FALSE(fs::exists(earlier_run(folder.path())));
     }
   }
 }
 
-TEST_CASE("tiles that lie apart from what has changed are not evaluated again, at any level") {
-  const ScratchFolder folder, scratch;
-  const Config config = small_tiles(folder.path());
-  NoProgress quiet;
-  std::atomic<std::size_t> evaluated_tiles = 0;
-  struct Count {
-    std::size_t evaluated, all;
-  };
-  const auto evaluate = [&](const Cloud& cloud) {
-    std::vector<Count> counts;
-    MemoryScan input(cloud);
-    Job job(config, scratch.path(), quiet);
-    const Workspace workspace = open_workspace(input, config);
-    auto level = std::make_unique<Level>(first_level(input, workspace, job));
-    while (level && counts.size() < 3) {
-      Consumers consumers(*level, true, job);
-      consumers.all.push_back([&](const EvaluatedTile&, TileOutput&) { ++evaluated_tiles; });
-      const Tiling& tiling = level->store.tiling();
-      const Totals totals =
-          read_totals(evaluate_level(*level, consumers.all, workspace, job), tiling, level->extent);
-      counts.push_back({evaluated_tiles.exchange(0), tiling.tiles.size()});
-      std::optional<Level> above = level_above(*level, totals, workspace, job);
-      level = above ? std::make_unique<Level>(*std::move(above)) : nullptr;
-    }
-    return counts;
-  };
-  Cloud cloud = plane(120).punched({18, 20}, 5).jittered(0.3, 5);
-  for (const Count& count : evaluate(cloud)) CHECK(count.evaluated == count.all);
-  begin_update(folder.path());
-  leave_out(cloud, {Eigen::Vector3d(100, 100, -1), Eigen::Vector3d(103, 103, 1)});
-  const std::vector<Count> updated = evaluate(cloud);
-  CHECK(updated[0].all > 90);
-  CHECK(updated[0].evaluated < 20);
-  CHECK(updated[0].evaluated > 0);
-  CHECK(updated[1].evaluated < updated[1].all / 2);
-  CHECK(updated[2].evaluated < updated[2].all);
-}
-
-TEST_CASE("an update that was stopped while it moved the parts moves the rest") {
+TEST_CASE("an update that was stopped while it moved the data of the run begins again") {
   const ScratchFolder folder;
   const Config config = small_tiles(folder.path());
   Cloud cloud = scan();
   run_engine(cloud, config);
-  const std::vector<fs::path> parts = workspace_files(folder.path());
-  fs::create_directory(earlier_parts(folder.path()));
-  fs::rename(parts.front(), earlier_parts(folder.path()) / parts.front().filename());
+  write_note(folder.path(), WorkspaceNote::kResults, "results");
+  for (const fs::path& part : workspace_files(folder.path()))
+    if (level_of_part(part)) remove_part(part);
+  fs::create_directory(earlier_run(folder.path()));
+  fs::rename(folder / "results", earlier_run(folder.path()) / "results");
   begin_update(folder.path());
-  CHECK(workspace_files(earlier_parts(folder.path())).size() == parts.size());
+  CHECK(workspace_files(earlier_run(folder.path())).size() == 2);
+  CHECK(read_note(earlier_run(folder.path()), WorkspaceNote::kResults) == "results");
   CHECK(workspace_files(folder.path()).empty());
   leave_out(cloud, {Eigen::Vector3d(10, 10, -1), Eigen::Vector3d(14, 12, 1)});
   CHECK(run_engine(cloud, config).bytes() == bytes_from_nothing(cloud, config));
-}
-
-TEST_CASE("damaged parts of the run before are not used") {
-  Random random(7);
-  Cloud cloud = scan();
-  Cloud changed = cloud;
-  leave_out(changed, {Eigen::Vector3d(10, 10, -1), Eigen::Vector3d(14, 12, 1)});
-  for (int round = 0; round < 8; ++round) {
-    const ScratchFolder folder;
-    const Config config = small_tiles(folder / "w");
-    fs::create_directory(folder / "w");
-    run_engine(cloud, config);
-    begin_update(folder / "w");
-    for (const fs::path& file : workspace_files(earlier_parts(folder / "w"))) {
-      std::string content = test::read_file(file);
-      if (random.whole(0, 1) == 0 || content.empty() || file.filename() == "run") continue;
-      content[static_cast<std::size_t>(random.whole(0, std::int64_t(content.size()) - 1))] ^= 1;
-      folder.write("damaged", content);
-      fs::rename(folder / "damaged", file);
-    }
-    INFO("round " << round);
-    CHECK(run_engine(changed, config).bytes() == bytes_from_nothing(changed, config));
-  }
 }
 
 }  // namespace
