@@ -102,19 +102,19 @@ TEST_CASE("a disk that cannot hold the annotated scan is an error before the run
 }
 
 TEST_CASE(
-    "a disk with less than half of what the run needs is an error before it, unless points may be left out") {
+    "a disk with less than an even scan needs is an error before the run, unless points may be left out") {
   const ScratchFolder folder;
   const FileScan scan({folder.write("scan.ply", ply())}, {});
   io::FilesConfig config = with_limit();
-  const std::uint64_t half = workspace_bytes(scan, config) / 2;
+  const std::uint64_t least = run_costs(scan, config, kPoints, kPoints).least_disk;
   const auto check = [&](std::uint64_t free) {
     return check_disks(scan, config, "ws", "out", Disks{{{"ws", {1, free}}, {"out", {2, kPlenty}}}});
   };
-  CHECK(check(half).size() == 1);
-  CHECK_THROWS_WITH(check(half - 1),
+  CHECK(check(least).size() == 1);
+  CHECK_THROWS_WITH(check(least - 1),
                     Contains("ws: ") && Contains("needs at least ") && Contains("--scratch"));
   config.input.drop_origin = true;
-  CHECK(check(half - 1).size() == 1);
+  CHECK(check(least - 1).size() == 1);
 }
 
 TEST_CASE("more points than can ever fit in memory are an error before the run") {

@@ -48,10 +48,10 @@ std::vector<std::string> check_disks(const FileScan& scan, const FilesConfig& co
   NoProgress silence;
   if (takes_all)
     Job(config, workspace, silence).tile_points(points);  // throws where memory can never suffice
-  const std::uint64_t disk = run_costs(scan, config, rows, points).disk;
+  const RunCosts costs = run_costs(scan, config, rows, points);
   const ResultBytes bytes = result_bytes(scan, config, rows, points);
 
-  const Needs run{takes_all ? disk / 2 : 0, disk}, results{bytes.certain, bytes.all()};
+  const Needs run{takes_all ? costs.least_disk : 0, costs.disk}, results{bytes.certain, bytes.all()};
   const std::optional<Disk> of_workspace = find_disk(workspace), of_results = find_disk(out);
   std::vector<std::string> warnings;
   if (of_workspace && of_results && of_workspace->number == of_results->number) {

@@ -10,8 +10,9 @@
 namespace lacuna::tools {
 
 struct RunCosts {
-  std::uint64_t disk = 0;  // bytes of temporary files, at the peak
-  double seconds = 0;      // on a machine that does nothing else
+  std::uint64_t least_disk = 0;  // that an even scan takes, which has few curves
+  std::uint64_t disk = 0;        // bytes of temporary files, at the peak
+  double seconds = 0;            // on a machine that does nothing else
 };
 
 // `rows` are the input's. `points` take part; they are fewer than the rows if a scan is thinned or filtered.
