@@ -46,8 +46,8 @@ constexpr Rate kDecodedOnce = {.bytes = 24, .microseconds = 0.8};  // autzen_tri
 
 constexpr double kStartSeconds = 0.06;  // a process without a scan
 constexpr double kListsInMemory = 1.0 / 8;
-// An even scan takes this share of the bytes: a jittered grid of 4 M points takes 40 for each of them, and
-// one of 448 M takes 62 within 2 GiB.
+// An even scan takes this share of the bytes. A jittered grid of 4 M points takes 40 for each of them. One of 448 M
+// takes 62 within 2 GiB.
 constexpr double kLeastShare = 0.4;
 
 class Sum {
