@@ -46,6 +46,11 @@ std::string difference(const FileState& before, const std::optional<FileState>& 
 
 }  // namespace
 
+std::optional<FileIdentity> find_identity(const std::filesystem::path& file) {
+  const std::optional<FileState> state = look_up(file);
+  return state ? std::optional(FileIdentity(state->device, state->inode)) : std::nullopt;
+}
+
 FileState file_state(const std::filesystem::path& file) {
   const auto state = look_up(file);
   if (!state) check_regular_file(file, "a scan file");  // says of an address that it is one

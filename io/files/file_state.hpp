@@ -6,6 +6,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <utility>
 
 namespace lacuna::io {
 
@@ -16,6 +18,10 @@ struct FileState {
   std::int64_t mtime = 0;  // nanoseconds since 1970, as ctime
   std::int64_t ctime = 0;  // of the last change to content, name, owner or permissions; no program sets it
 };
+
+// Returns device and inode of what a name stands for; nothing if there is nothing.
+using FileIdentity = std::pair<std::uint64_t, std::uint64_t>;
+std::optional<FileIdentity> find_identity(const std::filesystem::path& file);
 
 // Throws `Error` if there is no such file.
 FileState file_state(const std::filesystem::path& file);

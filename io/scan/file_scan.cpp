@@ -43,6 +43,8 @@ FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint6
     : config_(std::move(config)), memory_(memory), stated_(read_stated_crs(config_)), expected_points_(0) {
   for (ScanInput& input : inputs) {
     states_.push_back(input.arrays ? FileState() : file_state(input.file));
+    if (!input.arrays)
+      first_of_.emplace(FileIdentity(states_.back().device, states_.back().inode), states_.size() - 1);
     arrays_.push_back(std::move(input.arrays));
     files_.push_back(std::move(input.file));
     poses_.push_back(std::move(input.pose));
@@ -294,13 +296,25 @@ bool FileScan::single_precision() const {
   });
 }
 
-void check_not_input(const std::filesystem::path& file, const FileScan& scan) {
-  for (const auto& input : scan.files()) {
-    std::error_code error;  // where nothing is, nothing can be lost
-    if (std::filesystem::equivalent(file, input, error)) {
-      throw Error(input.string() + ": is an input in the place of a result; another output folder is needed");
-    }
+std::optional<std::size_t> FileScan::find(const std::filesystem::path& file) const {
+  const std::optional<FileIdentity> identity = find_identity(file);
+  const auto first = identity ? first_of_.find(*identity) : first_of_.end();
+  return first == first_of_.end() ? std::nullopt : std::optional(first->second);
+}
+
+std::vector<std::size_t> FileScan::repeated() const {
+  std::vector<std::size_t> repeated;
+  for (std::size_t i = 0; i < files_.size(); ++i) {
+    const auto first = first_of_.find({states_[i].device, states_[i].inode});
+    if (first != first_of_.end() && first->second < i) repeated.push_back(i);
   }
+  return repeated;
+}
+
+void check_not_input(const std::filesystem::path& file, const FileScan& scan) {
+  if (const std::optional<std::size_t> input = scan.find(file))
+    throw Error(scan.files()[*input].string() +
+                ": is an input in the place of a result; another output folder is needed");
 }
 
 }  // namespace lacuna::io

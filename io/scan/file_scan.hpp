@@ -13,6 +13,7 @@
 
 #include <concepts>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -117,6 +118,10 @@ class LACUNA_API FileScan : public PointSource {
   // Throws `Error` if a file is no longer what it was when it was first opened. Then a later read may not fit
   // an earlier one.
   void check_unchanged() const;
+  // Returns the first input that is this file, by whatever name; nothing if none is.
+  std::optional<std::size_t> find(const std::filesystem::path& file) const;
+  // Returns the inputs that are the same file as one before them, ascending.
+  std::vector<std::size_t> repeated() const;
   void observe(RowObserver* observer) { observer_ = observer; }  // null: no observer
   void read_all(RowObserver& observer);                          // for this observer alone, once
   bool has_scanners() const { return has_scanners_; }            // a file has the place of one
@@ -134,7 +139,8 @@ class LACUNA_API FileScan : public PointSource {
   std::vector<std::shared_ptr<const ScanArrays>> arrays_;  // one per file; null for a file on disk
   InputConfig config_;
   std::uint64_t memory_;
-  std::vector<FileState> states_;  // of each file; nothing for arrays
+  std::vector<FileState> states_;                 // of each file; nothing for arrays
+  std::map<FileIdentity, std::size_t> first_of_;  // the first input of each file
   std::vector<RowLayout> layouts_;
   std::vector<std::string> crs_, units_, z_units_, formats_;
   std::vector<double> z_factors_;

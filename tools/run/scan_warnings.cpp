@@ -45,13 +45,6 @@ std::string print_in_steps(double value, double step) {
   return text.data();
 }
 
-bool is_repeated(const std::vector<std::filesystem::path>& files, std::size_t i) {
-  return std::any_of(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(i), [&](const auto& before) {
-    std::error_code error;
-    return std::filesystem::equivalent(files[i], before, error);
-  });
-}
-
 std::string file_name(const FileScan& scan, std::size_t i) {
   return visible(scan.files()[i].string());
 }
@@ -227,10 +220,8 @@ void require_lengths(const FileScan& scan) {
 
 std::vector<std::string> input_warnings(const FileScan& scan) {
   std::vector<std::string> warnings;
-  for (std::size_t i = 0; i < scan.files().size(); ++i) {
-    if (is_repeated(scan.files(), i))
-      warnings.push_back(file_name(scan, i) + ": given more than once; its points are the same");
-  }
+  for (const std::size_t i : scan.repeated())
+    warnings.push_back(file_name(scan, i) + ": given more than once; its points are the same");
   if (scan.stated_crs().crs.empty()) {
     warn_of_other_systems(scan, warnings);
     warn_of_missing_systems(scan, warnings);
