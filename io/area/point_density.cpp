@@ -22,10 +22,9 @@ double PointDensity::spacing_around(const PlanPolygon& outline, const PlanRaster
   for (const Ring2& ring : outline) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Eigen::Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
-      const auto steps = static_cast<std::size_t>(std::ceil((b - a).norm() / static_cast<double>(kEdge)));
-      for (std::size_t step = 0; step < std::max<std::size_t>(steps, 1); ++step) {
-        const Eigen::Vector2d at =
-            a + (b - a) * static_cast<double>(step) / static_cast<double>(std::max<std::size_t>(steps, 1));
+      const double steps = std::max(std::ceil((b - a).norm() / static_cast<double>(kEdge)), 1.0);
+      for (double step = 0; step < steps; ++step) {
+        const Eigen::Vector2d at = a + (b - a) * step / steps;
         passed.push_back(static_cast<std::size_t>(at.y()) / kEdge * columns_ +
                          static_cast<std::size_t>(at.x()) / kEdge);
       }
