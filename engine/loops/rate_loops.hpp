@@ -8,8 +8,8 @@
 
 namespace lacuna {
 
-// Fills in the ratings, without the persistence, which tracking finds. `points`: of the level. Cost:
-// `emptiness` of each hole.
+// Adds the evidence that the curves do not have, but not the persistence, which tracking finds. `points`: of
+// the level. Cost: `emptiness` of each hole.
 void rate_loops(const TileStore& points, Loops& loops, Job& job);
 
 }  // namespace lacuna

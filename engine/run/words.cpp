@@ -35,12 +35,15 @@ std::string listed(const std::vector<std::string_view>& words) {
 }
 
 std::string suggestion(std::string_view word, const std::vector<std::string_view>& words) {
-  const auto starts_with_it = [&](std::string_view other) {
-    return word.size() > 1 && other.starts_with(word);
+  const auto text_of = [](std::string_view meant) {
+    return " (did you mean \"" + std::string(meant) + "\"?)";
   };
-  const auto longer = std::ranges::find_if(words, starts_with_it);
-  std::string_view closest = longer == words.end() ? std::string_view() : *longer;
-  std::size_t least = closest.empty() ? 3 : 0;  // a swap of two characters costs 2
+  const auto begins_with_it = [&](std::string_view other) { return other.starts_with(word); };
+  const auto longer = std::ranges::find_if(words, begins_with_it);
+  if (word.size() > 1 && longer != words.end()) return text_of(*longer);
+
+  std::string_view closest;
+  std::size_t least = 3;  // a swap of two characters costs 2
   for (const std::string_view candidate : words) {
     const std::size_t distance = edit_distance(word, candidate);
     if (distance < least && distance < candidate.size()) {
@@ -48,7 +51,7 @@ std::string suggestion(std::string_view word, const std::vector<std::string_view
       closest = candidate;
     }
   }
-  return closest.empty() ? "" : " (did you mean \"" + std::string(closest) + "\"?)";
+  return closest.empty() ? "" : text_of(closest);
 }
 
 }  // namespace lacuna

@@ -20,8 +20,7 @@ Level thin_to_first(const Level& all, StoreFiles files, Job& job);
 // Makes the level above, with one point for each cell of a lattice. Edges are powers of sqrt 2, so lattices
 // do not depend on the scan. The edge is the first one that leaves about six in ten points. Returns nothing
 // where too few points are left for a hole. `distances`: mean distances to the neighbours, of all points of
-// the level below. `files` makes empty ones for the store, once the
-// points are chosen.
+// the level below. `files` makes empty ones for the store, once the points are chosen.
 std::optional<Level> thin_above(const Level& below, const LengthBins& distances,
                                 const std::function<StoreFiles()>& files, Job& job);
 

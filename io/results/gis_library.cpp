@@ -3,6 +3,7 @@
 
 #include "io/crs/gis_module.hpp"
 #include "io/results/coverage_tif.hpp"
+#include "io/results/voids_gis.hpp"
 
 #include <mutex>
 #include <string>
@@ -12,7 +13,7 @@
 namespace lacuna::io {
 namespace {
 
-constexpr const char* kUser = "--gpkg, --geojson and --coverage";
+constexpr const char* kUser = "--gpkg, --geojson, --coverage and --area";
 
 // A run gives one warning for all files.
 void warn_not_understood(const FileScan& scan) {
@@ -76,6 +77,12 @@ void write_coverage(const Detection& detection, const FileScan& scan, const File
   const CoverageGrid grid = cover(detection, scan, config);
   if (grid.size() == 0) return;  // GDAL makes no raster without cells
   if (!write({.grid = grid, .crs = scan.common_crs(), .name = out.path(), .place = out.place()}))
+    warn_not_understood(scan);
+}
+
+void write_voids_gpkg(const AreaCheck& check, const FileScan& scan, OutputFile& out) {
+  static auto* const write = reinterpret_cast<WriteVoidsGis*>(load_gis_function(kWriteVoidsGis, kUser));
+  if (!write({.check = check, .crs = scan.common_crs(), .name = out.path(), .place = out.place()}))
     warn_not_understood(scan);
 }
 

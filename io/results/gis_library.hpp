@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
+#include "io/area/area_check.hpp"
 #include "io/files/output_file.hpp"
 #include "io/options/options.hpp"
 #include "io/results/loops_gis.hpp"
@@ -22,5 +23,8 @@ void write_loops_gis(const ExplainedDetection& detection, const FileScan& scan, 
 // Writes coverage.tif in the same way (io/results/coverage_tif.hpp); writes no file if no point takes part.
 void write_coverage(const Detection& detection, const FileScan& scan, const FilesConfig& config,
                     OutputFile& out);
+
+// Writes voids.gpkg in the same way (io/results/voids_gis.hpp).
+void write_voids_gpkg(const AreaCheck& check, const FileScan& scan, OutputFile& out);
 
 }  // namespace lacuna::io

@@ -3,20 +3,27 @@
 
 #include "io/results/coverage_tif.hpp"
 #include "io/results/loops_gis.hpp"
+#include "io/results/voids_gis.hpp"
 
 namespace lacuna::io {
 namespace {
 
 using namespace std::string_view_literals;
 
-bool has_layer(std::string_view pages) {
-  return pages.find(kGisLayer) != pages.npos && pages.find(kGisDescription) != pages.npos;
+bool has(std::string_view pages, std::string_view layer, std::string_view description) {
+  return pages.find(layer) != pages.npos && pages.find(description) != pages.npos;
 }
+
+constexpr std::string_view kSqlite = "SQLite format 3\0"sv;
 
 }  // namespace
 
 FileMark geopackage_mark() {
-  return {"SQLite format 3\0"sv, has_layer};
+  return {kSqlite, [](std::string_view pages) { return has(pages, kGisLayer, kGisDescription); }};
+}
+
+FileMark voids_gpkg_mark() {
+  return {kSqlite, [](std::string_view pages) { return has(pages, kVoidsLayer, kVoidsDescription); }};
 }
 
 FileMark coverage_mark() {

@@ -14,6 +14,9 @@ inline constexpr std::string_view kGeoJsonMark =
 // The file is an SQLite file that names the layer and its description in its first pages.
 FileMark geopackage_mark();
 
+// The file names the layer and the description of voids.gpkg likewise.
+FileMark voids_gpkg_mark();
+
 // The file is a TIFF that names the software of coverage.tif.
 FileMark coverage_mark();
 

@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/results/voids.hpp"
 
-#include "engine/run/error.hpp"
-#include "io/crs/gis_module.hpp"
 #include "io/files/number.hpp"
 #include "io/loops/json.hpp"
+#include "io/results/gis_library.hpp"
+#include "io/results/gis_marks.hpp"
 #include "io/results/results.hpp"
-#include "io/results/voids_gis.hpp"
 
 #include <cmath>
 #include <string>
-#include <system_error>
-
-#include <spdlog/spdlog.h>
 
 namespace lacuna::io {
 namespace {
-
-using namespace std::string_view_literals;
 
 Json rings_json(const PlanPolygon& polygon) {
   Json rings = Json::array();
@@ -58,6 +52,21 @@ void write_list(std::string_view key, const List& elements, const Print& print_e
     out.write((i == 0 ? "\n    " : ",\n    ") + print(print_element(i), -1));
   out.write("]");
 }
+
+struct VoidsFile {
+  const char* name;
+  FileMark (*mark)();
+  void (*write)(const AreaCheck&, const FileScan&, const AreaConfig&, OutputFile&);
+  Writer writer = Writer::kThis;
+};
+constexpr VoidsFile kVoidsFiles[] = {{"voids.gpkg", voids_gpkg_mark,
+                                      [](const AreaCheck& check, const FileScan& scan, const AreaConfig&,
+                                         OutputFile& out) { write_voids_gpkg(check, scan, out); },
+                                      Writer::kLibrary},
+                                     {"voids.csv", [] { return FileMark(kVoidsHeader); },
+                                      [](const AreaCheck& check, const FileScan&, const AreaConfig&,
+                                         OutputFile& out) { write_voids_table(check, out); }},
+                                     {kVoidsFile, [] { return FileMark(kJsonMark); }, write_voids_json}};
 
 }  // namespace
 
@@ -103,26 +112,10 @@ void write_voids_table(const AreaCheck& check, OutputFile& out) {
   }
 }
 
-void write_voids_gpkg(const AreaCheck& check, const FileScan& scan, OutputFile& out) {
-  static auto* const write = reinterpret_cast<WriteVoidsGis*>(load_gis_function(kWriteVoidsGis, "--area"));
-  if (!write({.check = check, .crs = scan.common_crs(), .name = out.path(), .place = out.place()}))
-    spdlog::warn(
-        "{}: GDAL does not understand the coordinate reference system of the scan; the file has none",
-        out.path().string());
-}
-
-FileMark voids_gpkg_mark() {
-  return {"SQLite format 3\0"sv, [](std::string_view pages) {
-            return pages.find(kVoidsLayer) != pages.npos && pages.find(kVoidsDescription) != pages.npos;
-          }};
-}
-
 void check_voids_folder(const FileScan& scan, const std::filesystem::path& folder, Overwrite overwrite) {
-  const std::pair<const char*, FileMark> files[] = {
-      {"voids.gpkg", voids_gpkg_mark()}, {"voids.csv", kVoidsHeader}, {kVoidsFile, kJsonMark}};
-  for (const auto& [name, mark] : files) {
-    check_not_input(folder / name, scan);
-    check_output(folder / name, mark, overwrite);
+  for (const VoidsFile& file : kVoidsFiles) {
+    check_not_input(folder / file.name, scan);
+    check_output(folder / file.name, file.mark(), overwrite);
   }
 }
 
@@ -131,9 +124,8 @@ std::vector<std::filesystem::path> write_voids(const AreaCheck& check, const Fil
                                                Overwrite overwrite) {
   check_voids_folder(scan, folder, overwrite);
   OutputSet set(overwrite);
-  write_voids_gpkg(check, scan, set.add(folder / "voids.gpkg", voids_gpkg_mark(), Writer::kLibrary));
-  write_voids_table(check, set.add(folder / "voids.csv", kVoidsHeader));
-  write_voids_json(check, scan, config, set.add(folder / kVoidsFile, kJsonMark));
+  for (const VoidsFile& file : kVoidsFiles)
+    file.write(check, scan, config, set.add(folder / file.name, file.mark(), file.writer));
   scan.check_unchanged();
   return set.commit();
 }

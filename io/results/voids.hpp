@@ -25,10 +25,6 @@ void write_voids_json(const AreaCheck& check, const FileScan& scan, const AreaCo
 // One line for each void. What is not finite is empty.
 void write_voids_table(const AreaCheck& check, OutputFile& out);
 
-// The layers `lacuna_voids` and `lacuna_area_tiles`, by GDAL.
-void write_voids_gpkg(const AreaCheck& check, const FileScan& scan, OutputFile& out);
-FileMark voids_gpkg_mark();
-
 // Throws `Error` if the results of `lacuna check` may not be written to `folder`.
 LACUNA_API void check_voids_folder(const FileScan& scan, const std::filesystem::path& folder,
                                    Overwrite overwrite);

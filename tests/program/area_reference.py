@@ -188,9 +188,9 @@ def compare(expected, result, code):
         assert is_inside(void["outline"], *void["middle"])
 
 
-if sys.argv[1] == "--compare":
-    compare(*sys.argv[2:])
-else:
+def main():
+    if sys.argv[1] == "--compare":
+        return compare(*sys.argv[2:])
     name, scan, area_file, except_file = sys.argv[1:]
     size, points, area, exceptions = case_of(name)
     with open(scan, "w") as out:
@@ -203,3 +203,7 @@ else:
     write_polygons(except_file, exceptions)
     print(size, "x y z" + (" return_number" if name == "returns" else ""))
     print(json.dumps(voids_of(size, points, area, exceptions or [[square(1e4, 1e4, 1e4 + 1, 1e4 + 1)]])))
+
+
+if __name__ == "__main__":
+    main()

@@ -39,20 +39,13 @@ grep -q '"area":{"lacuna"' detected/report.html
 
 # coverage.tif has no points where all of a cell is void.
 gdal_translate -q -of XYZ -b 1 detected/coverage.tif points.xyz
-python3 - <<'END'
+PYTHONPATH=$here python3 - <<'END'
 import json
 from pathlib import Path
+
+from area_reference import is_inside
+
 voids = json.load(open("detected/voids.json"))["voids"]
-
-
-def is_inside(rings, x, y):
-    inside = False
-    for ring in rings:
-        for (ax, ay), (bx, by) in zip(ring, ring[1:] + ring[:1]):
-            if (ay <= y) != (by <= y) and ax + (y - ay) / (by - ay) * (bx - ax) > x:
-                inside = not inside
-    return inside
-
 
 checked = 0
 for line in Path("points.xyz").read_text().split("\n")[:-1]:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run in the workspace of another one, whose input has changed. The result is that of a run from nothing.
+// A run in the workspace of another one, whose input has changed, gives the result of a run from nothing.
 #include "engine/consumers.hpp"
 #include "engine/pipeline.hpp"
 #include "engine/pipeline_steps.hpp"
