@@ -8,7 +8,7 @@
 
 namespace lacuna {
 
-Consumers::Consumers(const Level& level, bool keeps_outputs, Job& job)
+Consumers::Consumers(const Level& level, Job& job)
     : method(boundary_method(level.store.tiling(), job)) {
   all.push_back([this](const EvaluatedTile& tile, TileOutput& output) { method->emit(tile, output); });
   if (level.number > 0) return;
@@ -17,7 +17,7 @@ Consumers::Consumers(const Level& level, bool keeps_outputs, Job& job)
   if (wanted.points) all.push_back(emit_point_results);
   if (wanted.voxels) all.push_back(emit_probabilities);
   if (wanted.sample_points > 0) {
-    sample.emplace(static_cast<std::uint64_t>(wanted.sample_points), keeps_outputs);
+    sample.emplace(static_cast<std::uint64_t>(wanted.sample_points));
     all.push_back([this](const EvaluatedTile& tile, TileOutput& output) { sample->emit(tile, output); });
   }
   if (job.config.normals.orient) all.push_back(emit_orientation);

@@ -17,8 +17,7 @@ namespace lacuna {
 // The method finds the loops. At the first level, other consumers find all else that a user wants of its
 // points.
 struct Consumers {
-  // `keeps_outputs`: a workspace keeps the outputs. `level` and `job` must outlive this.
-  Consumers(const Level& level, bool keeps_outputs, Job& job);
+  Consumers(const Level& level, Job& job);  // both must outlive this
   Consumers(const Consumers&) = delete;
   Consumers& operator=(const Consumers&) = delete;
 

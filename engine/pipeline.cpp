@@ -18,6 +18,7 @@
 #include "engine/results/probability_voxels.hpp"
 #include "engine/results/represented.hpp"
 #include "engine/results/scan_sample.hpp"
+#include "engine/run/error.hpp"
 #include "engine/store/kept_scan.hpp"
 #include "engine/summarise.hpp"
 #include "engine/survey/survey_scan.hpp"
@@ -26,7 +27,7 @@
 #include "engine/track/track_loops.hpp"
 #include "engine/workspace/sealed_level.hpp"
 
-#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -34,6 +35,8 @@
 
 namespace lacuna {
 namespace {
+
+namespace fs = std::filesystem;
 
 // Brings all points of the scan into tiles on disk.
 Level bucket_points(PointSource& scan, StoreFiles files, Job& job) {
@@ -52,26 +55,6 @@ Level bucket_points(PointSource& scan, StoreFiles files, Job& job) {
           .tile_points = tile_points,
           .store = std::move(store),
           .represented = {}};
-}
-
-// Returns the tiles of a level whose outputs a process makes: tiles without outputs whose middle point is in
-// its share.
-std::vector<TileIndex> tiles_in(const TaskShare& share, const std::vector<TileIndex>& missing,
-                                const Tiling& tiling) {
-  std::vector<TileIndex> mine;
-  const double all = static_cast<double>(tiling.points());
-  std::uint64_t before = 0;
-  auto next = missing.begin();
-  for (TileIndex t = 0; t < tiling.tiles.size() && next != missing.end(); ++t) {
-    const double middle = static_cast<double>(before) + static_cast<double>(tiling.tiles[t].points) / 2;
-    const auto task =
-        static_cast<std::size_t>(middle / all * static_cast<double>(share.tasks));  // or `tasks`
-    before += tiling.tiles[t].points;
-    if (*next != t) continue;
-    if (std::min(task, share.tasks - 1) == share.task) mine.push_back(t);
-    ++next;
-  }
-  return mine;
 }
 
 struct FoundLevel {
@@ -103,7 +86,7 @@ void find_loops_above(const Level& first, Totals totals, std::vector<LevelLoops>
   Phase phase(job, "levels", 2 * first.store.tiling().points());  // each has half of the points below
   std::optional<Level> below;
   while (std::optional<Level> level = level_above(below ? *below : first, totals, workspace, job)) {
-    Consumers consumers(*level, workspace.is_kept(), job);
+    Consumers consumers(*level, job);
     FoundLevel found = find_loops(*level, consumers, workspace, job);
     levels.push_back(level_loops(std::move(found.found.loops), level->edge, found.totals));
     totals = std::move(found.totals);
@@ -123,35 +106,55 @@ Level first_level(PointSource& scan, const Workspace& workspace, Job& job) {
   Level all = bucket_points(scan, is_thinned ? temporary_files(job) : level_files(0, workspace, job), job);
   Level level = is_thinned ? thin_to_first(all, level_files(0, workspace, job), job) : std::move(all);
   level.input = scan.pass_counts();
-  seal_level(level, workspace.made_from, workspace, job);
+  seal_part(level, {}, workspace.made_from, workspace, job);
   return level;
+}
+
+std::optional<Level> thin_level(const Level& below, const Totals& totals, const TaskShare& share,
+                                const Workspace& workspace, Job& job) {
+  const double edge = edge_above(below, totals.distances);
+  if (edge == 0) return std::nullopt;
+  Level part = thin_above(below, share, edge, level_files(below.number + 1, workspace, job), job);
+  if (share.tasks == 1 && part.store.tiling().points() < kFewestOfLevel) return std::nullopt;
+  seal_part(part, share, made_from(below, job.config), workspace, job);
+  return part;
 }
 
 std::optional<Level> level_above(const Level& below, const Totals& totals, const Workspace& workspace,
                                  Job& job) {
   const std::size_t number = below.number + 1;
-  if (std::optional<Level> kept = open_level(number, below.evaluation, workspace, job)) return kept;
-  std::optional<Level> level = thin_above(
-      below, totals.distances, [&] { return level_files(number, workspace, job); }, job);
-  if (level) seal_level(*level, below.evaluation, workspace, job);
-  return level;
+  const std::string from = made_from(below, job.config);
+  std::optional<Level> level = open_level(number, from, workspace, job);
+  if (!level) {
+    const std::size_t tasks = tasks_of(number, workspace.plan);
+    if (tasks == 1) return thin_level(below, totals, {}, workspace, job);
+    for (std::size_t task = 0; task < tasks; ++task) {
+      if (!has_part(number, {task, tasks}, from, workspace, job))
+        thin_level(below, totals, {task, tasks}, workspace, job);
+    }
+    level = open_level(number, from, workspace, job);
+    if (!level)
+      throw Error(workspace.folder.string() +
+                  ": another process has replaced parts of it; the same command goes on from there");
+  }
+  return level->store.tiling().points() >= kFewestOfLevel ? std::move(level) : std::nullopt;
 }
 
 TileOutputs evaluate_level(const Level& level, std::span<const TileConsumer> consumers,
-                           const Workspace& workspace, Job& job, const std::optional<TaskShare>& share) {
+                           const Workspace& workspace, Job& job, const TaskShare& share) {
   const Tiling& tiling = level.store.tiling();
-  const auto check = share ? PartReader::Check::kTable : PartReader::Check::kWhole;
-  TileOutputs outputs(tiling, find_outputs(level, check, workspace, job.config), job);
+  TileOutputs outputs(tiling, find_outputs(level, workspace, job.config), job);
   std::vector<TileIndex> tiles = outputs.missing();
-  if (share) tiles = tiles_in(*share, tiles, tiling);
+  const TileRange range = tiling.tiles_in(share);
+  std::erase_if(tiles, [&](TileIndex t) { return t < range.first || t >= range.last; });
   evaluate_tiles(level, tiles, exchange_halo(level.store, tiles, job), consumers, outputs, job);
   return outputs;
 }
 
-std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
-                                  const std::filesystem::path& scratch, Progress& progress) {
-  check_config(given);
-  const Config config = with_min_hole(given);
+namespace {
+
+std::unique_ptr<Detection> detect_once(PointSource& scan, const Config& config, const fs::path& scratch,
+                                       Progress& progress) {
   Job job(config, scratch, progress);
   const Workspace workspace = open_workspace(scan, config);
 
@@ -163,7 +166,7 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   refuse_balls(store.tiling(), eps, job);  // the balls of thinner levels hold fewer points
 
   // Finds the loops of all levels.
-  Consumers consumers(first, workspace.is_kept(), job);
+  Consumers consumers(first, job);
   FoundLevel found = find_loops(first, consumers, workspace, job);
   const TileOutputs& outputs = found.outputs;
   std::vector<LevelLoops> levels;
@@ -199,6 +202,15 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given,
   std::unique_ptr<Detection> detection = collect_results(std::move(findings), outputs, store, job);
   if (!first.represented) return detection;
   return spread_results(std::move(detection), *std::move(first.represented), job);
+}
+
+}  // namespace
+
+std::unique_ptr<Detection> detect(PointSource& scan, const Config& given, const fs::path& scratch,
+                                  Progress& progress) {
+  check_config(given);
+  const Config config = with_min_hole(given);
+  return without_damaged_files([&] { return detect_once(scan, config, scratch, progress); });
 }
 
 }  // namespace lacuna

@@ -25,16 +25,12 @@ Level first_level(PointSource& scan, const Workspace& workspace, Job& job);
 // Thins the points of a level to the level above. Returns nothing where too few are left for a hole.
 std::optional<Level> level_above(const Level& below, const Totals& totals, const Workspace& workspace,
                                  Job& job);
+// Makes a task's part of the level above. Returns nothing where the level has too few points.
+std::optional<Level> thin_level(const Level& below, const Totals& totals, const TaskShare& share,
+                                const Workspace& workspace, Job& job);
 
-// One of several processes that evaluate a level: the tiles' points are shared out evenly.
-struct TaskShare {
-  std::size_t task = 0, tasks = 1;
-};
-
-// Makes the outputs of all tiles of a level: halo, evaluate. With a share, at least the tiles of the share
-// get outputs.
+// Makes the outputs of a task's tiles of a level: halo, evaluate.
 TileOutputs evaluate_level(const Level& level, std::span<const TileConsumer> consumers,
-                           const Workspace& workspace, Job& job,
-                           const std::optional<TaskShare>& share = std::nullopt);
+                           const Workspace& workspace, Job& job, const TaskShare& share = {});
 
 }  // namespace lacuna

@@ -4,6 +4,7 @@
 
 #include "engine/model/ids.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -46,6 +47,15 @@ struct Tile {
 
 using TileIndex = std::uint32_t;
 
+// One of several tasks that share the tiles of a level.
+struct TaskShare {
+  std::size_t task = 0, tasks = 1;
+};
+
+struct TileRange {
+  TileIndex first = 0, last = 0;  // [first, last)
+};
+
 // The index of a scan. It holds boxes, counts and places, never points. Cells and tiles are in the order of
 // points in the store. What is near in that order is near in space.
 struct Tiling {
@@ -64,6 +74,8 @@ struct Tiling {
   std::vector<TileIndex> tiles_of(std::span<const Row> rows) const;  // each once, in ascending order
   std::uint64_t row_count() const;                                   // rows up to the last used one
   std::uint64_t points() const;                                      // distinct ones
+  // Returns the tiles of a task. Tasks have about equally many points.
+  TileRange tiles_in(const TaskShare& share) const;
 
   // Returns whether tiles hold every cell once and in order, and their rows do not overlap. Rows of cells lie
   // in their tiles, and the nodes halve all cells. For asserts and tests.

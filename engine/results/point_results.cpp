@@ -70,7 +70,8 @@ void PointResults::append(TileIndex tile, std::span<const std::byte> records,
   std::sort(copies.begin(), copies.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   std::vector<std::byte> block;  // of ids
   for (std::size_t i = 0; i < copies.size(); ++i) {
-    const auto [id, p] = copies[i];
+    const PointId id = copies[i].id;
+    const LocalIndex p = copies[i].of;
     const auto record = records.subspan(p * record_bytes(), record_bytes());
     const std::size_t at = block.size();
     block.insert(block.end(), record.begin(), record.end());

@@ -60,7 +60,7 @@ void ScanSample::emit(const EvaluatedTile& tile, TileOutput& output) {
     points.push_back(
         {key_of(tile.points.ids[p], e), tile.probability(p), {normal.x(), normal.y(), normal.z()}, p, 0});
   }
-  if (!is_kept_) {
+  {
     const std::lock_guard lock(mutex_);
     bins_.take(points, most_points_);
   }
@@ -69,8 +69,8 @@ void ScanSample::emit(const EvaluatedTile& tile, TileOutput& output) {
 
 // Returns the largest key of the sample. Only the keys of the last bin have to be ordered.
 double ScanSample::last_key(const TileOutputs& outputs, std::size_t tiles, Job& job) const {
-  KeyBins bins = bins_;  // as the tiles were evaluated
-  for (std::size_t t = 0; is_kept_ && t < tiles; ++t) {
+  KeyBins bins;  // other processes may have evaluated tiles, too
+  for (std::size_t t = 0; t < tiles; ++t) {
     std::vector<DrawnPoint> points = outputs.read(kDrawnPoints, static_cast<TileIndex>(t));
     bins.take(points, most_points_);
   }

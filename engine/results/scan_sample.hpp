@@ -32,11 +32,10 @@ struct StoredSample {
 // depends on the points alone, not on tiles or threads.
 class ScanSample {
  public:
-  // `is_kept`: outputs are kept. Then they have the keys of all points, since an update may draw its sample
-  // from fewer points.
-  ScanSample(std::uint64_t most_points, bool is_kept) : most_points_(most_points), is_kept_(is_kept) {}
+  explicit ScanSample(std::uint64_t most_points) : most_points_(most_points) {}
 
-  // Puts out the points of a tile that may be in the sample. From any thread.
+  // Puts out the points of a tile that may be in the sample: no point has a larger key than all of a sample
+  // of the tiles so far. From any thread.
   void emit(const EvaluatedTile& tile, TileOutput& output);
   // Returns the sample in ascending id, once all tiles are evaluated.
   Column<StoredSample> draw(const TileOutputs& outputs, const TileStore& store, Job& job);
@@ -64,9 +63,8 @@ class ScanSample {
   double last_key(const TileOutputs& outputs, std::size_t tiles, Job& job) const;
 
   const std::uint64_t most_points_;
-  const bool is_kept_;
   std::mutex mutex_;
-  KeyBins bins_;
+  KeyBins bins_;  // of the tiles that this process has evaluated
 };
 
 }  // namespace lacuna

@@ -2,6 +2,7 @@
 // One record of plain data per row, on disk.
 #pragma once
 
+#include "engine/store/digest.hpp"
 #include "engine/store/store_file.hpp"
 
 #include <algorithm>
@@ -43,7 +44,12 @@ class Column {
     return records;
   }
 
+  Digest digest(std::uint64_t row, std::uint64_t count) const {  // of the bytes of some rows
+    return digest_of(file_, row * sizeof(Record), count * sizeof(Record));
+  }
+
   StoreFile& file() { return file_; }
+  const StoreFile& file() const { return file_; }
 
  private:
   StoreFile file_;

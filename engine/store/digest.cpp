@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/store/digest.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #define XXH_INLINE_ALL  // no library to link
 #include <xxhash.h>
 
@@ -33,6 +36,20 @@ Digest digest_of(std::span<const std::byte> bytes) {
 
 Digest digest_of(std::string_view text) {
   return digest_of(std::as_bytes(std::span(text)));
+}
+
+Digest digest_of(const StoreFile& file, std::uint64_t offset, std::uint64_t bytes) {
+  constexpr std::uint64_t kBlock = 1 << 16;  // in the cache
+  std::vector<std::byte> block(std::min(kBlock, bytes));
+  Hash hash;
+  while (bytes > 0) {
+    const auto part = std::span(block).first(std::min(kBlock, bytes));
+    file.read(offset, part);
+    hash.add(part);
+    offset += part.size();
+    bytes -= part.size();
+  }
+  return hash.digest();
 }
 
 }  // namespace lacuna

@@ -2,6 +2,8 @@
 // Fingerprints: short numbers that are equal only where the bytes are.
 #pragma once
 
+#include "engine/store/store_file.hpp"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -26,5 +28,6 @@ class Hash {
 };
 Digest digest_of(std::span<const std::byte> bytes);
 Digest digest_of(std::string_view text);
+Digest digest_of(const StoreFile& file, std::uint64_t offset, std::uint64_t bytes);  // of these bytes of it
 
 }  // namespace lacuna

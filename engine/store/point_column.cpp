@@ -27,6 +27,14 @@ StoreFile& PointColumn::file() {
   return std::visit([](auto& column) -> StoreFile& { return column.file(); }, column_);
 }
 
+const StoreFile& PointColumn::file() const {
+  return std::visit([](const auto& column) -> const StoreFile& { return column.file(); }, column_);
+}
+
+Digest PointColumn::digest(std::uint64_t row, std::uint64_t count) const {
+  return std::visit([&](const auto& column) { return column.digest(row, count); }, column_);
+}
+
 void PointColumn::write(std::uint64_t row, std::span<const StoredPoint> points) {
   if (auto* const wide = std::get_if<Column<StoredPoint>>(&column_)) {
     wide->write(row, points);

@@ -35,8 +35,11 @@ class PointColumn {
   void read(std::uint64_t row, std::span<StoredPoint> points) const;
   std::vector<StoredPoint> read(std::uint64_t row, std::size_t count) const;
 
+  Digest digest(std::uint64_t row, std::uint64_t count) const;  // of the bytes of some rows
+
   Precision precision() const;
   StoreFile& file();
+  const StoreFile& file() const;
 
  private:
   struct SinglePoint {

@@ -13,34 +13,28 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kBlock = 1 << 20;  // bytes read or written together
-constexpr std::array<char, 8> kMagic = {'l', 'a', 'c', 'u', 'n', 'a', '0', '1'};
+constexpr std::array<char, 8> kMagic = {'l', 'a', 'c', 'u', 'n', 'a', '0', '2'};
 
 struct Entry {
   std::array<char, 24> stream;
   std::uint64_t key, offset, bytes;
+  Digest digest;
 };
 
 // The last bytes of a part.
 struct Trailer {
   std::uint64_t entries;  // their table ends where the trailer begins
   Digest made_from;
-  Digest checksum;  // of all bytes before, and of the two fields before
+  Digest checksum;  // of the table, and of the two fields before
   std::array<char, 8> magic;
 };
 
-void add_range(const StoreFile& file, std::uint64_t end, Hash& hash) {
-  std::vector<std::byte> block(std::min<std::uint64_t>(kBlock, end));
-  for (std::uint64_t at = 0; at < end;) {
-    const auto part = std::span(block).first(std::min<std::uint64_t>(block.size(), end - at));
-    file.read(at, part);
-    hash.add(part);
-    at += part.size();
-  }
-}
-
-void add_fields(const Trailer& trailer, Hash& hash) {
+Digest checksum_of(std::span<const Entry> table, const Trailer& trailer) {
+  Hash hash;
+  hash.add(std::as_bytes(table));
   hash.add(std::as_bytes(std::span(&trailer.entries, 1)));
   hash.add(std::as_bytes(std::span(trailer.made_from)));
+  return hash.digest();
 }
 
 std::optional<Trailer> trailer_of(const StoreFile& file) {
@@ -53,11 +47,8 @@ std::optional<Trailer> trailer_of(const StoreFile& file) {
 
 }  // namespace
 
-Digest digest_of(const StoreFile& file) {
-  Hash hash;
-  add_range(file, file.size(), hash);
-  return hash.digest();
-}
+DamagedFile::DamagedFile(fs::path file)
+    : Error(file.string() + ": its bytes are not those that were sealed"), file_(std::move(file)) {}
 
 struct PartWriter::State {
   explicit State(fs::path path)
@@ -69,13 +60,11 @@ struct PartWriter::State {
     if (bytes.size() < kBlock) {
       block.insert(block.end(), bytes.begin(), bytes.end());
     } else {
-      hash.add(bytes);
       file.append(bytes);
     }
     size += bytes.size();
   }
   void flush() {
-    hash.add(block);
     file.append(block);
     file.start_sync();
     block.clear();
@@ -83,7 +72,6 @@ struct PartWriter::State {
 
   fs::path path;
   StoreFile file;
-  Hash hash;
   std::vector<std::byte> block;
   std::uint64_t size = 0;
   std::vector<Entry> table;
@@ -94,7 +82,7 @@ PartWriter::PartWriter(PartWriter&&) noexcept = default;
 PartWriter::~PartWriter() = default;
 
 void PartWriter::add(std::string_view stream, std::uint64_t key, std::span<const std::byte> bytes) {
-  Entry entry{{}, key, state_->size, bytes.size()};
+  Entry entry{{}, key, state_->size, bytes.size(), digest_of(bytes)};
   assert(stream.size() < entry.stream.size());
   stream.copy(entry.stream.data(), entry.stream.size() - 1);
   state_->table.push_back(entry);
@@ -110,8 +98,7 @@ Digest PartWriter::seal(const Digest& made_from) {
   s.write(std::as_bytes(std::span(s.table)));
   s.flush();
   Trailer trailer{.entries = s.table.size(), .made_from = made_from, .checksum = {}, .magic = kMagic};
-  add_fields(trailer, s.hash);
-  trailer.checksum = s.hash.digest();
+  trailer.checksum = checksum_of(s.table, trailer);
   s.file.append(std::as_bytes(std::span(&trailer, 1)));
   s.file.seal(s.path);
   return trailer.checksum;
@@ -122,38 +109,25 @@ bool PartReader::is_part(const fs::path& path) {
   return file && trailer_of(*file);
 }
 
-std::optional<PartReader> PartReader::open(const fs::path& path, const std::optional<Digest>& made_from,
-                                           Check check) {
-  std::optional<PartReader> part = open_table(path);
-  if (!part) return std::nullopt;
-  const Trailer trailer = *trailer_of(part->file_);
-  if (made_from && trailer.made_from != *made_from) return std::nullopt;
-  if (check == Check::kTable) return part;
-  Hash hash;
-  add_range(part->file_, part->file_.size() - sizeof trailer, hash);
-  add_fields(trailer, hash);
-  if (hash.digest() != trailer.checksum) return std::nullopt;
-  return part;
-}
-
-// An entry outside of the streams is left out.
-std::optional<PartReader> PartReader::open_table(const fs::path& path) {
+std::optional<PartReader> PartReader::open(const fs::path& path, const std::optional<Digest>& made_from) {
   std::optional<StoreFile> file = StoreFile::open_sealed(path);
   if (!file) return std::nullopt;
   const std::optional<Trailer> trailer = trailer_of(*file);
-  if (!trailer) return std::nullopt;
+  if (!trailer || (made_from && trailer->made_from != *made_from)) return std::nullopt;
   const std::uint64_t end = file->size() - sizeof *trailer;
   if (trailer->entries > end / sizeof(Entry)) return std::nullopt;
-  PartReader part(*std::move(file));
-  part.checksum_ = trailer->checksum;
   std::vector<Entry> table(trailer->entries);
   const std::uint64_t begin = end - table.size() * sizeof(Entry);
-  part.file_.read(begin, std::as_writable_bytes(std::span(table)));
-  for (Entry& entry : table) {
-    entry.stream.back() = 0;
-    if (entry.offset <= begin && entry.bytes <= begin - entry.offset)
-      part.entries_[entry.key][entry.stream.data()].push_back({entry.offset, entry.bytes});
+  file->read(begin, std::as_writable_bytes(std::span(table)));
+  if (checksum_of(table, *trailer) != trailer->checksum) return std::nullopt;
+  PartReader part(*std::move(file));
+  part.checksum_ = trailer->checksum;
+  std::uint64_t bytes = 0;
+  for (const Entry& entry : table) {
+    part.entries_[entry.key][entry.stream.data()].push_back({entry.offset, entry.bytes, entry.digest});
+    bytes += entry.bytes;
   }
+  if (bytes != begin) return std::nullopt;  // it was cut in its middle
   return part;
 }
 
@@ -179,9 +153,14 @@ std::uint64_t PartReader::size(std::string_view stream, std::uint64_t key) const
 
 void PartReader::read(std::string_view stream, std::uint64_t key, std::span<std::byte> to) const {
   for (const Extent& extent : extents(stream, key)) {
-    file_.read(extent.offset, to.first(extent.bytes));
+    read(extent, to.first(extent.bytes));
     to = to.subspan(extent.bytes);
   }
+}
+
+void PartReader::read(const Extent& extent, std::span<std::byte> to) const {
+  file_.read(extent.offset, to);
+  if (digest_of(std::span<const std::byte>(to)) != extent.digest) throw DamagedFile(file_.path());
 }
 
 std::span<const PartReader::Extent> PartReader::extents(std::string_view stream, std::uint64_t key) const {

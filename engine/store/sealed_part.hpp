@@ -2,11 +2,13 @@
 // A sealed part: a file of a workspace that outlives the process. It holds what a step of a run has found.
 //
 // A part consists of entries: records of one stream that belong to one key, such as a tile. The table of the
-// entries follows, and then the part's length, its checksum and the fingerprint of what it was made from. So
-// a part proves by itself that it is whole, and from what it was made. The name of a file proves nothing. Its
-// name is complete only once all of it is on the disk.
+// entries follows, with the digest of each, and then the table's length, its checksum and the fingerprint of
+// what the part was made from. So a part proves by itself from what it was made, and each entry proves that
+// it is whole when it is read. The name of a file proves nothing. Its name is complete only once all of it is
+// on the disk.
 #pragma once
 
+#include "engine/run/error.hpp"
 #include "engine/store/digest.hpp"
 #include "engine/store/store_file.hpp"
 
@@ -25,7 +27,15 @@
 
 namespace lacuna {
 
-Digest digest_of(const StoreFile& file);  // of all of its bytes, read once
+// A file of a workspace does not have the bytes that were sealed.
+class DamagedFile : public Error {
+ public:
+  explicit DamagedFile(std::filesystem::path file);
+  const std::filesystem::path& file() const { return file_; }
+
+ private:
+  std::filesystem::path file_;
+};
 
 // Writes entries in any order, from one thread at a time. Without `seal` no file remains.
 class PartWriter {
@@ -43,7 +53,7 @@ class PartWriter {
     add(stream, key, std::as_bytes(records));
   }
   std::uint64_t bytes() const;
-  Digest seal(const Digest& made_from);  // returns the checksum
+  Digest seal(const Digest& made_from);  // returns the checksum of the table
 
  private:
   struct State;
@@ -55,21 +65,18 @@ class PartReader {
  public:
   // Returns whether the file ends as parts do. It may be damaged elsewhere.
   static bool is_part(const std::filesystem::path& path);
-  enum class Check {
-    kWhole,  // reads all of it once
-    kTable,  // bytes may be damaged
-  };
-  // Opens a part. Returns nothing if the part is missing, not whole, or made from something other than
-  // `made_from`. Without `made_from`, it may be made from anything.
+  // Opens a part. Returns nothing if the part is missing, its table is not whole, or it was made from
+  // something other than `made_from`. Without `made_from`, it may be made from anything.
   static std::optional<PartReader> open(const std::filesystem::path& path,
-                                        const std::optional<Digest>& made_from, Check check = Check::kWhole);
+                                        const std::optional<Digest>& made_from);
 
-  const Digest& checksum() const { return checksum_; }
+  const Digest& checksum() const { return checksum_; }  // of the table, and so of all entries
 
   std::vector<std::uint64_t> keys() const;  // ascending
   std::vector<std::string> streams(std::uint64_t key) const;
   std::uint64_t size(std::string_view stream, std::uint64_t key) const;  // bytes; 0 where there is no entry
-  // Reads an entry. `to` has `size` bytes.
+  // Reads an entry. `to` has `size` bytes. Reading throws `DamagedFile` where the bytes are not those of the
+  // table.
   void read(std::string_view stream, std::uint64_t key, std::span<std::byte> to) const;
   // Returns the records of an entry, and an empty vector where there is no entry. Throws `Error` where the
   // bytes are no whole number of records.
@@ -82,9 +89,10 @@ class PartReader {
  private:
   struct Extent {
     std::uint64_t offset, bytes;
+    Digest digest;
   };
   explicit PartReader(StoreFile file) : file_(std::move(file)) {}
-  static std::optional<PartReader> open_table(const std::filesystem::path& path);
+  void read(const Extent& extent, std::span<std::byte> to) const;
   std::span<const Extent> extents(std::string_view stream, std::uint64_t key) const;
   [[noreturn]] void fail_record_size(std::string_view stream) const;
 
@@ -100,7 +108,7 @@ void PartReader::for_each(std::string_view stream, std::uint64_t key, Visit&& vi
   for (const Extent& extent : extents(stream, key)) {
     if (extent.bytes % sizeof(Record) != 0) fail_record_size(stream);
     records.resize(extent.bytes / sizeof(Record));
-    file_.read(extent.offset, std::as_writable_bytes(std::span(records)));
+    read(extent, std::as_writable_bytes(std::span(records)));
     visit(std::span<const Record>(records));
   }
 }

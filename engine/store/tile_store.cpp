@@ -2,9 +2,12 @@
 #include "engine/store/tile_store.hpp"
 
 #include "engine/run/error.hpp"
+#include "engine/store/sealed_part.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
+#include <iterator>
 
 namespace lacuna {
 namespace {
@@ -24,35 +27,112 @@ TileStore::TileStore(StoreFiles files, std::vector<Tile> tiles, std::uint64_t mo
                      bool with_normals, std::shared_ptr<BufferPool> lists)
     : cells_(tiles.size()),
       has_normals_(with_normals),
-      points_(std::move(files.points), precision),
-      normals_(std::move(files.normals)),
       duplicates_(std::move(files.duplicates), most_tiles, std::move(lists)) {
   tiling_.tiles = std::move(tiles);
+  columns_.push_back(
+      {PointColumn(std::move(files.points), precision), Column<StoredNormal>(std::move(files.normals))});
 }
 
-TileStore::TileStore(StoreFiles files, Tiling tiling, Precision precision, bool with_normals,
-                     std::shared_ptr<BufferPool> lists)
+TileStore::TileStore(StoreFiles files, Tiling tiling, std::vector<TileDigests> digests, Precision precision,
+                     bool with_normals, std::shared_ptr<BufferPool> lists)
     : TileStore(std::move(files), {}, tiling.tiles.size(), precision, with_normals, std::move(lists)) {
   tiling_ = std::move(tiling);
-  tiling_.build_tree();
+  digests_ = std::move(digests);
+  is_checked_.resize(digests_.size());
+}
+
+TileStore TileStore::joined(std::vector<TileStore> parts, const std::filesystem::path& duplicates,
+                            const std::shared_ptr<BufferPool>& lists) {
+  if (parts.size() == 1) return std::move(parts.front());
+  std::size_t tiles = 0, cells = 0;
+  for (const TileStore& part : parts) {
+    tiles += part.tiling_.tiles.size();
+    cells += part.tiling_.cells.size();
+  }
+  TileStore& all = parts.front();
+  all.tiling_.tiles.reserve(tiles);
+  all.tiling_.cells.reserve(cells);
+  AppendLists<Duplicate> all_duplicates(duplicates, tiles, lists);
+  for (TileStore& part : parts) {
+    const std::size_t first_tile = &part == &all ? 0 : all.tiling_.tiles.size();
+    for (std::size_t t = 0; t < part.tiling_.tiles.size(); ++t)
+      part.duplicates_.for_each(t, [&](const Duplicate& d) { all_duplicates.append(first_tile + t, d); });
+    if (&part == &all) continue;
+    const auto first_cell = static_cast<std::uint32_t>(all.tiling_.cells.size());
+    const std::uint64_t first_row = aligned_row(all.tiling_.row_count());
+    for (Tile tile : part.tiling_.tiles) {
+      tile.first_cell += first_cell;
+      tile.last_cell += first_cell;
+      tile.first_row = Row{value(tile.first_row) + first_row};
+      all.tiling_.tiles.push_back(tile);
+    }
+    for (Cell cell : part.tiling_.cells) {
+      cell.first_row = Row{value(cell.first_row) + first_row};
+      all.tiling_.cells.push_back(cell);
+    }
+    part.columns_.front().first_row = first_row;
+    all.columns_.push_back(std::move(part.columns_.front()));
+    all.digests_.insert(all.digests_.end(), part.digests_.begin(), part.digests_.end());
+  }
+  all.duplicates_ = std::move(all_duplicates);
+  all.is_checked_.assign(all.digests_.size(), 0);
+  all.tiling_.build_tree();
+  return std::move(all);
+}
+
+const TileStore::Columns& TileStore::columns_of(std::uint64_t row) const {
+  const auto lies_before = [](std::uint64_t at, const Columns& columns) { return at < columns.first_row; };
+  return *std::prev(std::upper_bound(columns_.begin(), columns_.end(), row, lies_before));
+}
+
+void TileStore::read_points(std::uint64_t row, std::span<StoredPoint> points) const {
+  const Columns& columns = columns_of(row);
+  columns.points.read(row - columns.first_row, points);
+}
+
+std::vector<StoredPoint> TileStore::read_points(std::uint64_t row, std::uint64_t count) const {
+  std::vector<StoredPoint> points(count);
+  read_points(row, points);
+  return points;
+}
+
+TileDigests TileStore::digests(TileIndex index) const {
+  const Tile& tile = tiling_.tiles[index];
+  const Columns& columns = columns_of(value(tile.first_row));
+  const std::uint64_t row = value(tile.first_row) - columns.first_row;
+  return {columns.points.digest(row, tile.points),
+          columns.normals.digest(row, has_normals_ ? tile.points : 0)};
+}
+
+// Several threads may check a tile at once. They find the same.
+void TileStore::check_digests(TileIndex tile) const {
+  const TileDigests found = digests(tile);
+  const Columns& columns = columns_of(value(tiling_.tiles[tile].first_row));
+  if (found.points != digests_[tile].points) throw DamagedFile(columns.points.file().path());
+  if (found.normals != digests_[tile].normals) throw DamagedFile(columns.normals.file().path());
+  std::atomic_ref(is_checked_[tile]).store(1, std::memory_order_relaxed);
 }
 
 std::vector<StoredPoint> TileStore::points(TileIndex index) const {
+  check(index);
   const Tile& tile = tiling_.tiles[index];
-  return points_.read(value(tile.first_row), tile.points);
+  return read_points(value(tile.first_row), tile.points);
 }
 
 std::vector<Eigen::Vector3d> TileStore::normals(TileIndex index) const {
   std::vector<Eigen::Vector3d> normals;
   if (!has_normals_) return normals;
+  check(index);
   const Tile& tile = tiling_.tiles[index];
-  for (const StoredNormal& n : normals_.read(value(tile.first_row), tile.points))
+  const Columns& columns = columns_of(value(tile.first_row));
+  for (const StoredNormal& n : columns.normals.read(value(tile.first_row) - columns.first_row, tile.points))
     normals.emplace_back(n.x, n.y, n.z);
   return normals;
 }
 
 std::vector<StoredPoint> TileStore::cell(std::uint32_t cell) const {
-  return points_.read(value(tiling_.cells[cell].first_row), tiling_.cells[cell].points);
+  check(tiling_.tile_of_cell(cell));
+  return read_points(value(tiling_.cells[cell].first_row), tiling_.cells[cell].points);
 }
 
 void TileStore::read_cells(std::span<const std::uint32_t> cells, std::vector<StoredPoint>& points,
@@ -60,27 +140,31 @@ void TileStore::read_cells(std::span<const std::uint32_t> cells, std::vector<Sto
   points.clear();
   rows.clear();
   for (std::size_t i = 0; i < cells.size();) {
-    // Cells whose points follow each other in the store are one read.
+    // Cells of a tile whose points follow each other in the store are one read.
+    const TileIndex tile = tiling_.tile_of_cell(cells[i]);
+    check(tile);
     const std::uint64_t first = value(tiling_.cells[cells[i]].first_row);
     std::uint64_t end = first;
-    for (; i < cells.size() && value(tiling_.cells[cells[i]].first_row) == end; ++i)
+    for (; i < cells.size() && cells[i] < tiling_.tiles[tile].last_cell &&
+           value(tiling_.cells[cells[i]].first_row) == end;
+         ++i)
       end += tiling_.cells[cells[i]].points;
     const std::size_t at = points.size();
     points.resize(at + (end - first));
-    points_.read(first, std::span(points).subspan(at));
+    read_points(first, std::span(points).subspan(at));
     for (std::uint64_t row = first; row < end; ++row) rows.push_back(Row{row});
   }
 }
 
 std::vector<StoredPoint> TileStore::raw_points(TileIndex index) const {
   const Tile& tile = tiling_.tiles[index];
-  return points_.read(value(tile.first_row), tile.raw);
+  return read_points(value(tile.first_row), tile.raw);
 }
 
 std::vector<StoredNormal> TileStore::raw_normals(TileIndex index) const {
   if (!has_normals_) return {};
   const Tile& tile = tiling_.tiles[index];
-  return normals_.read(value(tile.first_row), tile.raw);
+  return columns_.front().normals.read(value(tile.first_row), tile.raw);
 }
 
 void TileStore::put(TileIndex index, std::span<const StoredPoint> points,
@@ -95,8 +179,8 @@ void TileStore::put(TileIndex index, std::span<const StoredPoint> points,
     row += cell.points;
   }
   cells_[index] = std::move(cells);
-  points_.write(value(tile.first_row), points);
-  if (has_normals_) normals_.write(value(tile.first_row), normals);
+  columns_.front().points.write(value(tile.first_row), points);
+  if (has_normals_) columns_.front().normals.write(value(tile.first_row), normals);
 }
 
 void TileStore::add_tile(std::span<const StoredPoint> points, std::span<const StoredNormal> normals,
@@ -126,8 +210,10 @@ void TileStore::finish() {
 TileStore::Filler::Filler(TileStore& store, std::uint64_t memory)
     : tiling_(store.tiling_),
       filled_(tiling_.tiles.size()),
-      points_(store.points_, first_rows(tiling_), store.has_normals_ ? memory / 7 * 4 : memory) {
-  if (store.has_normals_) normals_.emplace(store.normals_, first_rows(tiling_), memory / 7 * 3);
+      points_(store.columns_.front().points, first_rows(tiling_),
+              store.has_normals_ ? memory / 7 * 4 : memory) {
+  if (store.has_normals_)
+    normals_.emplace(store.columns_.front().normals, first_rows(tiling_), memory / 7 * 3);
 }
 
 void TileStore::Filler::append(TileIndex tile, std::span<const StoredPoint> points,

@@ -7,10 +7,12 @@
 #include "engine/store/append_lists.hpp"
 #include "engine/store/column.hpp"
 #include "engine/store/column_filler.hpp"
+#include "engine/store/digest.hpp"
 #include "engine/store/point_column.hpp"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
@@ -30,6 +32,12 @@ struct StoredNormal {
 struct Duplicate {
   PointId id;
   LocalIndex of;
+  std::uint32_t padding = 0;  // all bytes are in the checksum of a part
+};
+
+// The digests of a tile's points and normals, as the files have them.
+struct TileDigests {
+  Digest points, normals;
 };
 
 // The files of a store.
@@ -45,9 +53,14 @@ class TileStore {
   // `tiles`: where raw points go at first; `most_tiles`: the number of tiles with those that are added later.
   TileStore(StoreFiles files, std::vector<Tile> tiles, std::uint64_t most_tiles, Precision precision,
             bool with_normals, std::shared_ptr<BufferPool> lists);
-  // Opens a store that was finished before. `files`: sealed ones. The caller adds the duplicates.
-  TileStore(StoreFiles files, Tiling tiling, Precision precision, bool with_normals,
-            std::shared_ptr<BufferPool> lists);
+  // Opens a store that was finished before. `files`: sealed ones. Reading a tile throws `DamagedFile` where
+  // its bytes have other digests. The caller adds the duplicates.
+  TileStore(StoreFiles files, Tiling tiling, std::vector<TileDigests> digests, Precision precision,
+            bool with_normals, std::shared_ptr<BufferPool> lists);
+  // Joins finished stores of the same kind, at least one: tiles of the first one come first. `duplicates`: a
+  // temporary file.
+  static TileStore joined(std::vector<TileStore> parts, const std::filesystem::path& duplicates,
+                          const std::shared_ptr<BufferPool>& lists);
 
   const Tiling& tiling() const { return tiling_; }
   bool has_normals() const { return has_normals_; }
@@ -89,27 +102,46 @@ class TileStore {
   // Ends the filling once all tiles are put: counts are final.
   void finish();
 
-  Precision precision() const { return points_.precision(); }
-  // Returns the file for sealing, once the store is finished.
-  StoreFile& points_file() { return points_.file(); }
-  StoreFile& normals_file() { return normals_.file(); }
+  Precision precision() const { return columns_.front().points.precision(); }
+  // Return the digests and the files for sealing, once the store is finished. It is not joined of others.
+  TileDigests digests(TileIndex tile) const;
+  StoreFile& points_file() { return columns_.front().points.file(); }
+  StoreFile& normals_file() { return columns_.front().normals.file(); }
 
  private:
+  // The points and normals of a run of rows.
+  struct Columns {
+    PointColumn points;
+    Column<StoredNormal> normals;
+    std::uint64_t first_row = 0;
+  };
+  const Columns& columns_of(std::uint64_t row) const;
+  void read_points(std::uint64_t row, std::span<StoredPoint> points) const;
+  std::vector<StoredPoint> read_points(std::uint64_t row, std::uint64_t count) const;
+  // Checks a tile before it is read for the first time.
+  void check(TileIndex tile) const {
+    if (is_checked_.empty()) return;
+    if (std::atomic_ref(is_checked_[tile]).load(std::memory_order_relaxed) == 0) check_digests(tile);
+  }
+  void check_digests(TileIndex tile) const;
+
   Tiling tiling_;
   std::vector<std::vector<Cell>> cells_;  // of each tile, until the store is finished
   bool has_normals_;
-  PointColumn points_;
-  Column<StoredNormal> normals_;
+  std::vector<Columns> columns_;  // in ascending row
   AppendLists<Duplicate> duplicates_;
+  std::vector<TileDigests> digests_;              // of a store that was finished before
+  mutable std::vector<std::uint8_t> is_checked_;  // of each of these tiles
 };
 
 template <class Visit>
 void TileStore::for_each_point(TileIndex index, Visit&& visit) const {
+  check(index);
   const Tile& tile = tiling_.tiles[index];
   std::array<StoredPoint, 2048> part;
   for (std::uint64_t done = 0; done < tile.points;) {
     const std::uint64_t count = std::min<std::uint64_t>(part.size(), tile.points - done);
-    points_.read(value(tile.first_row) + done, std::span(part).first(count));
+    read_points(value(tile.first_row) + done, std::span(part).first(count));
     for (std::size_t i = 0; i < count; ++i) visit(part[i]);
     done += count;
   }

@@ -7,9 +7,9 @@
 #include "engine/thin/lattice.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <cstddef>
+#include <numeric>
 #include <span>
 #include <sstream>
 #include <tuple>
@@ -19,35 +19,41 @@ namespace {
 
 constexpr std::uint64_t kBytesPerPoint = 128;  // of a tile, with its cells
 
-// The occupied cells of some points in a hash table, each with the point that represents it.
+// The occupied cells of a tile in a hash table, each with the point that represents it.
 class OccupiedCells {
  public:
   OccupiedCells(std::vector<StoredPoint> points, double edge)
       : lattice_(edge),
         edge_(edge),
         points_(std::move(points)),
+        owned_(points_.size()),
         slots_(std::bit_ceil(2 * points_.size() + 1)) {
-    cells_.reserve(points_.size());
-    for (LocalIndex p = 0; p < points_.size(); ++p) add(p);
+    cells_.reserve(owned_);
+    for (LocalIndex p = 0; p < owned_; ++p) add(p);
   }
 
-  // Calls visit(index) for each point that represents its cell.
-  template <class Visit>
-  void for_each_representative(Visit&& visit) const {
-    for (const Cell& cell : cells_) visit(cell.representative);
-  }
-
-  std::span<const StoredPoint> points() const { return points_; }
-  // Returns null where no point is in the cell of this one.
-  const StoredPoint* representative_of(const StoredPoint& point) const {
-    const std::uint32_t slot = slots_[slot_of(place_of(point))];
-    return slot == 0 ? nullptr : &points_[cells_[slot - 1].representative];
-  }
-  // Returns whether one of the points comes before this one in its cell.
-  bool has_better(const StoredPoint& point) const {
+  // Compares a point of another tile with the representative of its cell, if there is one.
+  void compare(const StoredPoint& point) {
     const LatticePlace place = place_of(point);
     const std::uint32_t slot = slots_[slot_of(place)];
-    return slot != 0 && !comes_first(place.squared_offset, point, cells_[slot - 1]);
+    if (slot == 0 || !comes_first(place.squared_offset, point, cells_[slot - 1])) return;
+    cells_[slot - 1].squared_offset = place.squared_offset;
+    cells_[slot - 1].representative = static_cast<LocalIndex>(points_.size());
+    points_.push_back(point);
+  }
+
+  // Calls visit(index) for each point of the tile that represents its cell.
+  template <class Visit>
+  void for_each_representative(Visit&& visit) const {
+    for (const Cell& cell : cells_) {
+      if (cell.representative < owned_) visit(cell.representative);
+    }
+  }
+
+  // Of the tile.
+  std::span<const StoredPoint> points() const { return std::span(points_).first(owned_); }
+  const StoredPoint& representative_of(const StoredPoint& point) const {  // which is one of the tile
+    return points_[cells_[slots_[slot_of(place_of(point))] - 1].representative];
   }
 
  private:
@@ -94,7 +100,8 @@ class OccupiedCells {
 
   Lattice lattice_;
   double edge_;
-  std::vector<StoredPoint> points_;
+  std::vector<StoredPoint> points_;  // of the tile, and then those of others that represent a cell
+  LocalIndex owned_;
   std::vector<Cell> cells_;
   std::vector<std::uint32_t> slots_;  // one more than a cell's index; 0: no cell. A power of two
 };
@@ -106,132 +113,71 @@ double squared_reach(const Eigen::AlignedBox3d& box, double edge) {
   return 3 * side * side;
 }
 
-class Chooser {
- public:
-  Chooser(const TileStore& store, double edge, ChosenPoints& chosen)
-      : store_(store), tiling_(store.tiling()), edge_(edge), lattice_(edge), chosen_(chosen) {}
-
-  // First, each tile chooses alone.
-  void choose_within(TileIndex t) {
-    const Tile& tile = tiling_.tiles[t];
-    OccupiedCells(store_.points(t), edge_).for_each_representative([&](LocalIndex p) {
-      chosen_.rows.insert(tile.row(p));
-    });
-    count(t);
+// Returns the cells of other tiles whose points may lie in one lattice cell with a point of this tile.
+std::vector<std::uint32_t> cells_at_border(const Tiling& tiling, const Tile& tile, double edge) {
+  const Lattice lattice(edge);
+  const auto place_of = [&](const Eigen::Vector3d& position) -> Eigen::Array3d {
+    return lattice.place_of(position).cell;  // in whole numbers: monotone along each axis
+  };
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell; ++cell) {
+    const Eigen::AlignedBox3d& box = tiling.cells[cell].box;
+    for_each_cell_near(tiling, box, squared_reach(box, edge), tile.first_cell, tile.last_cell,
+                       [&](std::uint32_t near) {
+                         const Eigen::AlignedBox3d& other = tiling.cells[near].box;
+                         const bool may_share = (place_of(other.max()) >= place_of(box.min())).all() &&
+                                                (place_of(other.min()) <= place_of(box.max())).all();
+                         if (may_share) found.push_back(near);
+                         return true;
+                       });
   }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
 
-  // Then, where cells reach into other tiles, only the best of all is left. Tiles may run in any order and at
-  // the same time: the best of a cell is never erased, and beats all others.
-  void erase_beaten(TileIndex t) {
-    const OccupiedCells others(others_in_cells_of(t), edge_);
-    if (others.points().empty()) return;
-    for_each_chosen(t, [&](Row row, const StoredPoint& p) {
-      if (others.has_better(p)) chosen_.rows.erase(row);
-    });
+void choose_in_tile(const TileStore& store, TileIndex t, double edge, ChosenPoints& chosen) {
+  const Tiling& tiling = store.tiling();
+  const Tile& tile = tiling.tiles[t];
+  OccupiedCells cells(store.points(t), edge);
+  for (const std::uint32_t cell : cells_at_border(tiling, tile, edge)) {
+    for (const StoredPoint& p : store.cell(cell)) cells.compare(p);
   }
-
-  // Counts how many points are left in each cell of the store; returns their sum.
-  std::uint64_t count(TileIndex t) {
-    const Tile& tile = tiling_.tiles[t];
-    std::uint64_t sum = 0;
-    for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell; ++cell) {
-      std::uint32_t in_cell = 0;
-      for_each_row(cell, [&](Row row) { in_cell += chosen_.rows.contains(row); });
-      chosen_.in_cell[cell] = in_cell;
-      sum += in_cell;
-    }
-    return sum;
+  cells.for_each_representative([&](LocalIndex p) { chosen.rows.insert(tile.row(p)); });
+  for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell; ++cell) {
+    const std::uint64_t first = value(tiling.cells[cell].first_row);
+    for (std::uint64_t row = first; row < first + tiling.cells[cell].points; ++row)
+      chosen.in_cell[cell] += chosen.rows.contains(Row{row});
   }
-
-  // Last, it finds which point represents each of the tile's points, and their copies.
-  void send_represented(TileIndex t) {
-    std::vector<StoredPoint> points = store_.points(t);
-    const std::size_t owned = points.size();
-    const std::vector<StoredPoint> others = others_in_cells_of(t);
-    points.insert(points.end(), others.begin(), others.end());
-    const OccupiedCells cells(std::move(points), edge_);
-    Outbox<Represented> outbox(*chosen_.represented);
-    const auto send = [&](LocalIndex point, PointId id) {
-      const PointId representative = cells.representative_of(cells.points()[point])->id;
-      outbox.add(static_cast<TileIndex>(value(representative) / kRepresentedBlock), {representative, id});
-    };
-    for (LocalIndex p = 0; p < owned; ++p) send(p, cells.points()[p].id);
-    store_.for_each_duplicate(t, [&](const Duplicate& copy) { send(copy.of, copy.id); });
-    outbox.send();
-  }
-
- private:
-  template <class Visit>
-  void for_each_row(std::uint32_t cell, Visit&& visit) const {
-    const std::uint64_t first = value(tiling_.cells[cell].first_row);
-    for (std::uint64_t row = first; row < first + tiling_.cells[cell].points; ++row) visit(Row{row});
-  }
-
-  // Calls visit(row, point) for points of a tile that are chosen so far.
-  template <class Visit>
-  void for_each_chosen(TileIndex t, Visit&& visit) const {
-    LocalIndex owned = 0;
-    store_.for_each_point(t, [&](const StoredPoint& p) {
-      const Row row = tiling_.tiles[t].row(owned++);
-      if (chosen_.rows.contains(row)) visit(row, p);
-    });
-  }
-
-  // Returns chosen points of other tiles that may lie in cells of this tile's points.
-  std::vector<StoredPoint> others_in_cells_of(TileIndex t) const {
-    const Tile& tile = tiling_.tiles[t];
-    Eigen::AlignedBox3d box;
-    for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell; ++cell)
-      box.extend(tiling_.cells[cell].box);
-    const Eigen::Array3d low = cell_of(box.min()), high = cell_of(box.max());
-    std::vector<StoredPoint> others;
-    for_each_cell_near(
-        tiling_, box, squared_reach(box, edge_), tile.first_cell, tile.last_cell, [&](std::uint32_t cell) {
-          if (chosen_.in_cell[cell] == 0) return true;
-          const Eigen::AlignedBox3d& of_cell = tiling_.cells[cell].box;
-          if ((cell_of(of_cell.max()) < low).any() || (cell_of(of_cell.min()) > high).any()) return true;
-          std::uint64_t row = value(tiling_.cells[cell].first_row);
-          for (const StoredPoint& p : store_.cell(cell)) {
-            const Eigen::Array3d of_point = cell_of(p.position());
-            if (chosen_.rows.contains(Row{row++}) && (of_point >= low).all() && (of_point <= high).all())
-              others.push_back(p);
-          }
-          return true;
-        });
-    return others;
-  }
-
-  // In whole numbers: monotone along each axis.
-  Eigen::Array3d cell_of(const Eigen::Vector3d& position) const { return lattice_.place_of(position).cell; }
-
-  const TileStore& store_;
-  const Tiling& tiling_;
-  double edge_;
-  Lattice lattice_;
-  ChosenPoints& chosen_;
-};
+  if (!chosen.represented) return;
+  Outbox<Represented> outbox(*chosen.represented);
+  const auto send = [&](LocalIndex point, PointId id) {
+    const PointId representative = cells.representative_of(cells.points()[point]).id;
+    outbox.add(static_cast<TileIndex>(value(representative) / kRepresentedBlock), {representative, id});
+  };
+  for (LocalIndex p = 0; p < cells.points().size(); ++p) send(p, cells.points()[p].id);
+  store.for_each_duplicate(t, [&](const Duplicate& copy) { send(copy.of, copy.id); });
+  outbox.send();
+}
 
 }  // namespace
 
-ChosenPoints choose_points(const TileStore& store, double edge, std::uint64_t represented_ids, Job& job) {
+ChosenPoints choose_points(const TileStore& store, const TileRange& tiles, double edge,
+                           std::uint64_t represented_ids, Job& job) {
   const Tiling& tiling = store.tiling();
-  ChosenPoints chosen{.rows = RowSet(tiling.row_count()),
+  ChosenPoints chosen{.tiles = tiles,
+                      .rows = RowSet(tiling.row_count()),
                       .in_cell = std::vector<std::uint32_t>(tiling.cells.size()),
                       .represented = {}};
   if (represented_ids > 0)
     chosen.represented.emplace(job.file("represented"), represented_ids / kRepresentedBlock + 1, job.lists);
   std::vector<std::uint64_t> needs;
-  for (const Tile& tile : tiling.tiles) needs.push_back(tile.points * kBytesPerPoint);
-  const auto for_each_tile = [&](auto&& take) {
-    job.for_each_within(job.memory.tiles, needs, [&](std::size_t t) { take(static_cast<TileIndex>(t)); });
-  };
-  Chooser chooser(store, edge, chosen);
-  for_each_tile([&](TileIndex t) { chooser.choose_within(t); });
-  for_each_tile([&](TileIndex t) { chooser.erase_beaten(t); });
-  std::atomic<std::uint64_t> count = 0;
-  for_each_tile([&](TileIndex t) { count += chooser.count(t); });
-  chosen.count = count;
-  if (chosen.represented) for_each_tile([&](TileIndex t) { chooser.send_represented(t); });
+  for (TileIndex t = tiles.first; t < tiles.last; ++t)
+    needs.push_back(tiling.tiles[t].points * kBytesPerPoint);
+  job.for_each_within(job.memory.tiles, needs, [&](std::size_t i) {
+    choose_in_tile(store, tiles.first + static_cast<TileIndex>(i), edge, chosen);
+  });
+  chosen.count = std::accumulate(chosen.in_cell.begin(), chosen.in_cell.end(), std::uint64_t{0});
   return chosen;
 }
 

@@ -23,6 +23,7 @@ struct Represented {
 inline constexpr std::uint64_t kRepresentedBlock = 1 << 17;
 
 struct ChosenPoints {
+  TileRange tiles;  // from which they are chosen
   RowSet rows;
   std::vector<std::uint32_t> in_cell;  // how many of each cell of the store
   std::uint64_t count = 0;
@@ -32,10 +33,11 @@ struct ChosenPoints {
 
 // The point nearest to the middle of a cell represents it. Among equally near points, the point with the
 // lowest coordinates is chosen, by x first. So the choice depends on the points alone. Parts of a scan may be
-// thinned apart, and then their representatives again. Each tile chooses among its points. Then the chosen
-// points of different tiles are compared, where they lie in the same cells. Throws `Error` where a coordinate
-// is too large for the edge. Cost: linear. Memory: the tiles at work, a bit a row and 4 bytes a cell.
+// thinned apart, and then their representatives again. Each tile chooses among its points and those of other
+// tiles in the same cells. So `tiles` may be a part of the store. Throws `Error` where a coordinate is too
+// large for the edge. Cost: linear. Memory: the tiles at work, a bit a row and 4 bytes a cell of the store.
 // `represented_ids`: all ids are below it; 0: nobody wants to know which point represents which.
-ChosenPoints choose_points(const TileStore& store, double edge, std::uint64_t represented_ids, Job& job);
+ChosenPoints choose_points(const TileStore& store, const TileRange& tiles, double edge,
+                           std::uint64_t represented_ids, Job& job);
 
 }  // namespace lacuna

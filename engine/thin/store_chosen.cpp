@@ -30,8 +30,8 @@ std::uint64_t count_tiles(const Tiling& below, const ChosenPoints& chosen, TileI
 }
 
 // Behind the last tile below.
-TileIndex end_of(const TileJoin& join, std::size_t t, const Tiling& below) {
-  return t + 1 < join.first.size() ? join.first[t + 1] : static_cast<TileIndex>(below.tiles.size());
+TileIndex end_of(const TileJoin& join, std::size_t t, const TileRange& below) {
+  return t + 1 < join.first.size() ? join.first[t + 1] : below.last;
 }
 
 // The cells of the store below that become one cell. All belong to one tile below.
@@ -46,6 +46,7 @@ class Joiner {
   Joiner(const Tiling& below, const ChosenPoints& chosen, std::uint64_t tile_points,
          std::uint64_t cell_points)
       : below_(below),
+        range_(chosen.tiles),
         in_cell_(chosen.in_cell),
         counts_(count_nodes(below, chosen)),
         tile_points_(tile_points),
@@ -64,13 +65,16 @@ class Joiner {
   void add_tiles(std::uint32_t n) {
     const CellNode& node = below_.nodes[n];
     const TileIndex first = below_.tile_of_cell(node.first), last = below_.tile_of_cell(node.last - 1);
-    if (counts_[n] <= tile_points_ || first == last) {
+    if (last < range_.first || first >= range_.last) return;
+    const bool is_within = first >= range_.first && last < range_.last;
+    if (first == last || (is_within && counts_[n] <= tile_points_)) {
       tiles_.push_back(first);
     } else if (node.left != 0) {
       add_tiles(node.left);
       add_tiles(node.right);
     } else {
-      for (TileIndex t = first; t <= last; ++t) tiles_.push_back(t);
+      for (TileIndex t = std::max(first, range_.first); t <= std::min(last, range_.last - 1); ++t)
+        tiles_.push_back(t);
     }
   }
 
@@ -93,6 +97,7 @@ class Joiner {
   }
 
   const Tiling& below_;
+  const TileRange range_;
   const std::vector<std::uint32_t>& in_cell_;
   std::vector<std::uint64_t> counts_;  // of nodes
   std::uint64_t tile_points_, cell_points_;
@@ -147,7 +152,7 @@ TileStore store_chosen(const TileStore& below, const ChosenPoints& chosen, const
   std::vector<std::uint64_t> needs;
   std::uint64_t row = 0;
   for (std::size_t t = 0; t < join.first.size(); ++t) {
-    const std::uint64_t points = count_tiles(tiling, chosen, join.first[t], end_of(join, t, tiling));
+    const std::uint64_t points = count_tiles(tiling, chosen, join.first[t], end_of(join, t, chosen.tiles));
     tiles.push_back({.first_row = Row{row}, .raw = points});
     row = aligned_row(row + points);
     needs.push_back(points * kBytesPerPoint);
@@ -158,7 +163,7 @@ TileStore store_chosen(const TileStore& below, const ChosenPoints& chosen, const
   job.for_each_within(job.memory.tiles, needs, [&](std::size_t t) {
     JoinedTile to;
     to.points.reserve(needs[t] / kBytesPerPoint);
-    const TileIndex first = join.first[t], last = end_of(join, t, tiling);
+    const TileIndex first = join.first[t], last = end_of(join, t, chosen.tiles);
     for (TileIndex b = first; b < last; ++b) add_chosen(below, b, chosen.rows, to);
     const auto lies_before = [](const JoinedCells& joined, std::uint32_t cell) {
       return joined.first < cell;

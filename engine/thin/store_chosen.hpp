@@ -18,8 +18,8 @@ struct TileJoin {
   std::uint64_t cell_points = 0;  // the most in a cell, where none below has more
 };
 
-// Joins tiles: a node of the tree over the tiles below becomes one tile if it has at most `tile_points`
-// chosen points.
+// Joins the tiles from which points were chosen: a node of the tree over them becomes one tile if it has at
+// most `tile_points` chosen points.
 TileJoin join_tiles(const Tiling& below, const ChosenPoints& chosen, std::uint64_t tile_points,
                     std::uint64_t cell_points);
 

@@ -14,10 +14,11 @@ namespace lacuna {
 namespace {
 
 // Makes a level of the chosen points.
-Level level_of(ChosenPoints chosen, const Level& below, std::size_t number, double edge, StoreFiles files,
-               Job& job) {
+Level level_of(ChosenPoints chosen, const Level& below, std::size_t number, double edge, std::size_t parts,
+               StoreFiles files, Job& job) {
+  const std::uint64_t about = chosen.count * parts;  // of the level
   const TileJoin join =
-      join_tiles(below.store.tiling(), chosen, job.tile_points(chosen.count), job.cell_points(chosen.count));
+      join_tiles(below.store.tiling(), chosen, job.tile_points(about), job.cell_points(about));
   return {.number = number,
           .edge = edge,
           .survey = below.survey,
@@ -64,40 +65,29 @@ double share_left(const LengthBins& distances, double edge) {
   return left / all;
 }
 
-constexpr double kWantedLeft = 0.6, kMostLeft = 0.9;
-
-// Returns the first edge above a length that leaves as few points as a level may have; 0 where no point has a
-// neighbour.
-double edge_above(const LengthBins& distances, double length) {
-  if (distances.counts.empty()) return 0;
-  double edge = power_above(std::max(length, LengthBins::start_of(distances.counts.begin()->first) / 4));
-  while (share_left(distances, edge) > kWantedLeft) edge = power_above(edge * 1.0001);
-  return edge;
-}
-
 }  // namespace
 
 Level thin_to_first(const Level& all, StoreFiles files, Job& job) {
   Phase phase(job, "thin", all.store.tiling().points());
   const double edge = first_edge(job.config.scale);
-  ChosenPoints chosen = choose_points(all.store, edge, job.config.results.points ? all.survey.ids : 0, job);
+  const std::uint64_t represented_ids = job.config.results.points ? all.survey.ids : 0;
+  ChosenPoints chosen = choose_points(all.store, all.store.tiling().tiles_in({}), edge, represented_ids, job);
   refuse_too_coarse(chosen.count, all.survey, job.config);
-  return level_of(std::move(chosen), all, 0, edge, std::move(files), job);
+  return level_of(std::move(chosen), all, 0, edge, 1, std::move(files), job);
 }
 
-std::optional<Level> thin_above(const Level& below, const LengthBins& distances,
-                                const std::function<StoreFiles()>& files, Job& job) {
-  constexpr std::uint64_t kFewest = 200;  // points: fewer leave no interior around a hole
-  const std::uint64_t points = below.store.tiling().points();
-  // Edges are rounded powers.
-  for (double edge = edge_above(distances, below.edge * 1.0001); edge > 0;
-       edge = power_above(edge * 1.0001)) {
-    ChosenPoints chosen = choose_points(below.store, edge, 0, job);
-    if (chosen.count < kFewest) break;
-    if (static_cast<double>(chosen.count) <= kMostLeft * static_cast<double>(points))
-      return level_of(std::move(chosen), below, below.number + 1, edge, files(), job);
-  }
-  return std::nullopt;
+double edge_above(const Level& below, const LengthBins& distances) {
+  constexpr double kWantedLeft = 0.6;
+  if (distances.counts.empty()) return 0;
+  const double least = LengthBins::start_of(distances.counts.begin()->first) / 4;
+  double edge = power_above(std::max(below.edge * 1.0001, least));  // edges are rounded powers
+  while (share_left(distances, edge) > kWantedLeft) edge = power_above(edge * 1.0001);
+  return edge;
+}
+
+Level thin_above(const Level& below, const TaskShare& share, double edge, StoreFiles files, Job& job) {
+  ChosenPoints chosen = choose_points(below.store, below.store.tiling().tiles_in(share), edge, 0, job);
+  return level_of(std::move(chosen), below, below.number + 1, edge, share.tasks, std::move(files), job);
 }
 
 bool has_levels(const Config& config) {

@@ -8,8 +8,7 @@
 #include "engine/store/tile_store.hpp"
 #include "engine/thin/level.hpp"
 
-#include <functional>
-#include <optional>
+#include <cstdint>
 
 namespace lacuna {
 
@@ -17,12 +16,17 @@ namespace lacuna {
 // `Error` where too few points are left to have neighbours.
 Level thin_to_first(const Level& all, StoreFiles files, Job& job);
 
-// Makes the level above, with one point for each cell of a lattice. Edges are powers of sqrt 2, so lattices
-// do not depend on the scan. The edge is the first one that leaves about six in ten points. Returns nothing
-// where too few points are left for a hole. `distances`: mean distances to the neighbours, of all points of
-// the level below. `files` makes empty ones for the store, once the points are chosen.
-std::optional<Level> thin_above(const Level& below, const LengthBins& distances,
-                                const std::function<StoreFiles()>& files, Job& job);
+// Returns the edge of the level above: the first power of sqrt 2 that leaves about six in ten points. So
+// lattices do not depend on the scan. It is 0 where no point has a neighbour. `distances`: mean distances to
+// the neighbours, of all points of the level below.
+double edge_above(const Level& below, const LengthBins& distances);
+
+// Makes a part of the level above, with one point for each cell of a lattice. `files`: empty ones for the
+// store.
+Level thin_above(const Level& below, const TaskShare& share, double edge, StoreFiles files, Job& job);
+
+// A level of fewer points leaves no interior around a hole, and is none.
+inline constexpr std::uint64_t kFewestOfLevel = 200;
 
 // Returns whether a run with this config has levels above the first one. It has them unless the config names
 // one level, or the method is the paper's.

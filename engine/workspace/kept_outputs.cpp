@@ -21,11 +21,10 @@ constexpr int kPartsOfRun = 64;
 }  // namespace
 
 KeptOutputs::KeptOutputs(std::size_t level, std::size_t tiles, const std::string& made_from,
-                         PartReader::Check check, const Workspace& workspace)
+                         const Workspace& workspace)
     : level_(level),
       folder_(workspace.folder),
       made_from_(digest_of(made_from)),
-      check_(check),
       part_of_(tiles),
       least_age_(workspace.is_unit ? kLeastAgeOfUnit : kLeastAge) {
   find_parts(workspace.is_unit);
@@ -35,7 +34,7 @@ KeptOutputs::KeptOutputs(std::size_t level, std::size_t tiles, const std::string
 void KeptOutputs::find_parts(bool is_unit) {
   for (const fs::path& file : workspace_files(folder_)) {
     if (level_of_outputs(file) != level_) continue;
-    std::optional<PartReader> part = PartReader::open(file, made_from_, check_);
+    std::optional<PartReader> part = PartReader::open(file, made_from_);
     const auto is_tile = [&](std::uint64_t tile) { return tile < part_of_.size(); };
     if (part && std::ranges::all_of(part->keys(), is_tile)) {
       const auto shared = std::make_shared<const PartReader>(*std::move(part));
@@ -75,7 +74,7 @@ void KeptOutputs::finish() {
 void KeptOutputs::seal() {
   open_->seal(made_from_);
   open_.reset();
-  std::optional<PartReader> part = PartReader::open(open_path_, made_from_, PartReader::Check::kTable);
+  std::optional<PartReader> part = PartReader::open(open_path_, made_from_);
   if (!part) throw Error(open_path_.string() + ": the file was changed during the run");
   const auto shared = std::make_shared<const PartReader>(*std::move(part));
   for (const std::uint64_t tile : shared->keys()) part_of_[tile] = shared;

@@ -32,10 +32,8 @@ class KeptOutputs {
     std::span<const std::byte> bytes;
   };
 
-  // Finds the sealed outputs of a level that are whole and made from `made_from`. `check`: the table suffices
-  // where no output is read.
-  KeptOutputs(std::size_t level, std::size_t tiles, const std::string& made_from, PartReader::Check check,
-              const Workspace& workspace);
+  // Finds the sealed outputs of a level that are made from `made_from`.
+  KeptOutputs(std::size_t level, std::size_t tiles, const std::string& made_from, const Workspace& workspace);
 
   std::vector<TileIndex> missing() const;  // tiles without a sealed output, ascending
 
@@ -59,7 +57,6 @@ class KeptOutputs {
   std::size_t level_;
   std::filesystem::path folder_;
   Digest made_from_;
-  PartReader::Check check_;
   PartOfTile part_of_;
   std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();  // of the open part
   std::filesystem::path open_path_;                                     // of the open part

@@ -10,6 +10,7 @@
 #include <optional>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The number changes with the records in the parts.
-constexpr const char* kProgram = "lacuna " LACUNA_VERSION ", parts of form 4";
+constexpr const char* kProgram = "lacuna " LACUNA_VERSION ", parts of form 5";
 constexpr const char* kRun = "run";  // the part that says whose workspace it is
 constexpr std::array<const char*, 2> kNotes = {"tasks", "results"};  // by `WorkspaceNote`
 constexpr std::string_view kLevel = "level-", kTiles = "tiles-";
@@ -73,7 +74,7 @@ std::string first_other(const Lines& lines, const Lines& others) {
   return "nothing";
 }
 
-Lines split(std::span<const char> text, char end) {
+Lines split(std::string_view text, char end) {
   Lines lines(1);
   for (const char c : text) {
     if (c == end) {
@@ -86,13 +87,24 @@ Lines split(std::span<const char> text, char end) {
   return lines;
 }
 
+// Returns the text of a stream. Returns nothing where it is damaged.
+std::optional<std::string> text_of(const PartReader& part, std::string_view stream) {
+  try {
+    const std::vector<char> text = part.records<char>(stream, 0);
+    return std::string(text.begin(), text.end());
+  } catch (const DamagedFile&) {
+    return std::nullopt;
+  }
+}
+
 std::optional<PartReader> open_run(const fs::path& folder) {
   return PartReader::open(folder / kRun, digest_of(kRun));
 }
 
 bool is_workspace_name(const std::string& name) {
   static const std::regex parts(
-      "(run|tasks|results|level-[0-9]{1,3}|tiles-[0-9]{1,3}-[0-9a-f]{16})(\\.[0-9a-f]{16}\\.partial)?"
+      "(run|tasks|results|level-[0-9]{1,3}-[0-9]{1,5}|tiles-[0-9]{1,3}-[0-9a-f]{16})(\\.[0-9a-f]{16}\\."
+      "partial)?"
       "|level-[0-9]{1,3}-[0-9a-f]{16}\\.(points|normals)(\\.partial)?");
   return std::regex_match(name, parts);
 }
@@ -129,9 +141,18 @@ void write_note(const fs::path& folder, WorkspaceNote note, const std::string& t
 std::optional<std::string> read_note(const fs::path& folder, WorkspaceNote note) {
   const char* const name = kNotes.at(static_cast<std::size_t>(note));
   const std::optional<PartReader> part = PartReader::open(folder / name, digest_of(name));
-  if (!part) return std::nullopt;
-  const std::vector<char> text = part->records<char>("text", 0);
-  return std::string(text.begin(), text.end());
+  return part ? text_of(*part, "text") : std::nullopt;
+}
+
+void write_plan(const fs::path& folder, const TaskPlan& plan) {
+  write_note(folder, WorkspaceNote::kTasks, std::to_string(plan.tasks) + " " + std::to_string(plan.levels));
+}
+
+std::optional<TaskPlan> read_plan(const fs::path& folder) {
+  std::istringstream text(read_note(folder, WorkspaceNote::kTasks).value_or(""));
+  TaskPlan plan;
+  if (!(text >> plan.tasks >> plan.levels)) return std::nullopt;
+  return plan;
 }
 
 fs::path earlier_run(const fs::path& folder) {
@@ -174,20 +195,21 @@ void end_update(const fs::path& folder) {
 
 std::optional<std::vector<std::string>> made_from_of(const fs::path& folder) {
   const std::optional<PartReader> part = open_run(folder);
-  if (!part) return std::nullopt;
-  return split(part->records<char>("made from", 0), '\n');
+  const std::optional<std::string> text = part ? text_of(*part, "made from") : std::nullopt;
+  return text ? std::optional(split(*text, '\n')) : std::nullopt;
 }
 
 StoredRun read_run(const fs::path& folder) {
   const std::optional<PartReader> part = open_run(folder);
-  if (!part)
+  const std::optional<std::string> inputs = part ? text_of(*part, "inputs") : std::nullopt;
+  const std::optional<std::string> note = part ? text_of(*part, "note") : std::nullopt;
+  if (!inputs || !note)
     throw Error(folder.string() + ": not the workspace of a run; allowed: the folder of --workspace");
-  const std::vector<char> note = part->records<char>("note", 0);
-  return {.names = split(part->records<char>("inputs", 0), '\0'), .note = {note.begin(), note.end()}};
+  return {.names = split(*inputs, '\0'), .note = *note};
 }
 
-fs::path level_path(const fs::path& folder, std::size_t level) {
-  return folder / (std::string(kLevel) + std::to_string(level));
+fs::path level_prefix(const fs::path& folder, std::size_t level) {
+  return folder / (std::string(kLevel) + std::to_string(level) + "-");
 }
 
 fs::path tiles_prefix(const fs::path& folder, std::size_t level) {
@@ -196,7 +218,13 @@ fs::path tiles_prefix(const fs::path& folder, std::size_t level) {
 
 std::optional<std::size_t> level_of_part(const fs::path& file) {
   const std::string name = file.filename().string();
-  if (!name.starts_with(kLevel) || name.find_first_of("-.", kLevel.size()) != name.npos) return std::nullopt;
+  if (!name.starts_with(kLevel) || file.has_extension()) return std::nullopt;
+  return std::stoul(name.substr(kLevel.size()));
+}
+
+std::optional<std::size_t> level_of_column(const fs::path& file) {
+  const std::string name = file.filename().string();
+  if (!name.starts_with(kLevel) || !file.has_extension()) return std::nullopt;
   return std::stoul(name.substr(kLevel.size()));
 }
 
@@ -255,7 +283,10 @@ Workspace open_workspace(const PointSource& scan, const Config& given, bool is_u
       part.add(stream, 0, std::span<const char>(text));
     part.seal(digest_of(kRun));
   }
-  return {.folder = folder, .made_from = joined(now), .is_unit = is_unit};
+  return {.folder = folder,
+          .made_from = joined(now),
+          .plan = read_plan(folder).value_or(TaskPlan()),
+          .is_unit = is_unit};
 }
 
 }  // namespace lacuna

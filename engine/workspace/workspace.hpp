@@ -7,6 +7,7 @@
 
 #include "engine/config/config.hpp"
 #include "engine/model/points.hpp"
+#include "engine/store/sealed_part.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -17,11 +18,23 @@
 
 namespace lacuna {
 
+// How several processes share a run.
+struct TaskPlan {
+  std::size_t tasks = 1;   // of each step that is shared
+  std::size_t levels = 0;  // whose steps are shared, from the first level on
+};
+
+// Returns how many tasks make a level above the first one.
+inline std::size_t tasks_of(std::size_t level, const TaskPlan& plan) {
+  return level < plan.levels ? plan.tasks : 1;
+}
+
 // Where a run keeps its sealed parts.
 struct Workspace {
   std::filesystem::path folder;  // empty: nothing is kept
   std::string made_from;         // input and parameters of the parts, a line each
-  bool is_unit = false;          // one of several processes that make parts of the run: it removes none
+  TaskPlan plan;
+  bool is_unit = false;  // one of several processes that make parts of the run: it removes none
 
   bool is_kept() const { return !folder.empty(); }
 };
@@ -37,7 +50,7 @@ std::string evaluation_parameters(const Config& config);
 std::string output_parameters(const Config& config);
 
 enum class WorkspaceNote {
-  kTasks,    // of a step, where several processes share the run
+  kTasks,    // `TaskPlan`
   kResults,  // the folder that has the results of the last complete run
 };
 
@@ -64,15 +77,20 @@ std::filesystem::path earlier_run(const std::filesystem::path& folder);  // wher
 // Returns a folder for results of the run before. `end_update` removes it, too.
 std::filesystem::path earlier_results(const std::filesystem::path& folder);
 
+// Write and read the plan of a run. The result is empty where none was made.
+void write_plan(const std::filesystem::path& folder, const TaskPlan& plan);
+std::optional<TaskPlan> read_plan(const std::filesystem::path& folder);
+
 bool is_workspace(const std::filesystem::path& folder);
 
-// Return names of parts: the points of a level, and outputs of its tiles.
-std::filesystem::path level_path(const std::filesystem::path& folder, std::size_t level);
+// Return how names of files begin: those of the points of a level, and those of the outputs of its tiles.
+std::filesystem::path level_prefix(const std::filesystem::path& folder, std::size_t level);
 std::filesystem::path tiles_prefix(const std::filesystem::path& folder, std::size_t level);
 
-// Returns the level whose points, or outputs of tiles, a file has. Returns nothing if the file has other
-// things.
+// Returns the level that a file is of, where it is a part of the level's points, one of their columns, or has
+// outputs of tiles.
 std::optional<std::size_t> level_of_part(const std::filesystem::path& file);
+std::optional<std::size_t> level_of_column(const std::filesystem::path& file);
 std::optional<std::size_t> level_of_outputs(const std::filesystem::path& file);
 
 // Returns the files of a workspace, without others in the folder. Returns nothing where it is no workspace.
@@ -80,5 +98,20 @@ std::vector<std::filesystem::path> workspace_files(const std::filesystem::path& 
 
 // Removes one of the files.
 void remove_part(const std::filesystem::path& file);
+
+// Does the work of a run. Where it finds a damaged file, it removes the file and begins again: what the file
+// had is made anew.
+template <class Work>
+auto without_damaged_files(Work&& work) {
+  constexpr int kMostDamaged = 1000;  // more are a broken disk
+  for (int damaged = 0;; ++damaged) {
+    try {
+      return work();
+    } catch (const DamagedFile& error) {
+      if (damaged == kMostDamaged) throw;
+      remove_part(error.file());
+    }
+  }
+}
 
 }  // namespace lacuna

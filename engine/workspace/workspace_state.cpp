@@ -33,11 +33,16 @@ std::optional<WorkspaceState> state_of_workspace(const fs::path& folder) {
     if (const std::uintmax_t bytes = fs::file_size(file, error); !error) state.bytes += bytes;
     const std::optional<std::size_t> of_points = level_of_part(file), of_tiles = level_of_outputs(file);
     const std::optional<PartReader> part =
-        of_points || of_tiles ? PartReader::open(file, std::nullopt, PartReader::Check::kTable)
-                              : std::nullopt;
+        of_points || of_tiles ? PartReader::open(file, std::nullopt) : std::nullopt;
     if (!part) continue;
     if (of_points) {
-      levels[*of_points].tiles = part->records<Tile>("tiles", 0);
+      try {
+        const std::vector<Tile> tiles = part->records<Tile>("tiles", 0);
+        std::vector<Tile>& all = levels[*of_points].tiles;
+        all.insert(all.end(), tiles.begin(), tiles.end());
+      } catch (const DamagedFile&) {
+        continue;
+      }
     } else {
       const std::vector<std::uint64_t> tiles = part->keys();
       levels[*of_tiles].evaluated.insert(tiles.begin(), tiles.end());

@@ -139,7 +139,8 @@ class Slot:
         self.do(self.plan(), "plan")
         self.keep("planned")
         for level in range(2):
-            self.do(self.work("level-%d" % level), "level-%d" % level)
+            for task in range(TASKS if level > 0 else 1):
+                self.do(self.work("level-%d" % level, task), "level-%d" % level)
             self.keep("level-%d" % level)
             for task in range(TASKS):
                 self.do(self.work("evaluate-%d" % level, task), "evaluate-%d" % level)
@@ -549,12 +550,12 @@ def full_disks(share, count, add_job):
 
 def streams_of(path):
     """Places of the streams of a part, so that small ones are damaged as often as large ones."""
-    entry, trailer = 48, 48
+    entry, trailer = 64, 48
     with open(path, "rb") as file:
         data = file.read()
     size = len(data)
     whole = [("all", [(0, size)])]
-    if size < trailer or data[-8:] != b"lacuna01":
+    if size < trailer or data[-8:] != b"lacuna02":
         return whole
     entries = struct.unpack_from("<Q", data, size - trailer)[0]
     begin = size - trailer - entries * entry

@@ -49,8 +49,7 @@ TEST_CASE("a file of the workspace that is cut short during the run ends it with
                                                         {"tangential", "halo"},
                                                         {"tangential", "sites"},
                                                         {"tangential", "results"},
-                                                        {"tangential", "outputs"},
-                                                        {"paper", "strengths"}}) {
+                                                        {"tangential", "outputs"}}) {
     INFO(file << ", --method " << method);
     const Run run(method);
     bool was_cut = false;

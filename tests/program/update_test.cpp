@@ -108,7 +108,7 @@ TEST_CASE("the sample of an update with fewer points is that of a run from nothi
 TEST_CASE("an update that is killed goes on with the same command") {
   const Updated scan;
   const std::vector<std::string> arguments = scan.update({"--add", scan.patch, "--quiet"});
-  for (const char* name : {"before", "run", "level-0", "level-1"}) {
+  for (const char* name : {"before", "run", "level-0-0", "level-1-0"}) {
     test::run_program_until(arguments, SIGKILL, [&] { return fs::exists(fs::path(scan.workspace) / name); });
   }
   REQUIRE(run_program(arguments).exit_code == 0);

@@ -84,11 +84,11 @@ TEST_CASE("a run that is killed at any moment goes on to the same results") {
 
 TEST_CASE("a signal says how to go on, and what is done stays") {
   const Run run;
-  const auto has_level = [&] { return fs::exists(run.workspace / "level-0"); };
+  const auto has_level = [&] { return fs::exists(run.workspace / "level-0-0"); };
   const ProgramResult stopped = test::run_program_until(run.kept(), SIGTERM, has_level);
   REQUIRE(stopped.exit_code == 128 + SIGTERM);
   CHECK_THAT(stopped.err, EndsWith("; the same command goes on from " + run.workspace.string() + "\n"));
-  CHECK(fs::exists(run.workspace / "level-0"));
+  CHECK(fs::exists(run.workspace / "level-0-0"));
   CHECK_FALSE(fs::exists(run.folder / "out"));
   CHECK_THAT(run_program({"status", run.workspace.string()}).out,
              Contains("level 0: ") && Contains(" tiles evaluated, ") && Contains(" left"));

@@ -47,18 +47,26 @@ std::vector<std::size_t> plain_ids(const Cloud& cloud, double edge) {
   return ids;
 }
 
-std::vector<std::size_t> chosen_ids(TiledScan& scan, double edge) {
-  const ChosenPoints chosen = choose_points(scan.store, edge, 0, scan.job);
+ChosenPoints choose_all(TiledScan& scan, double edge, std::uint64_t represented_ids = 0) {
+  return choose_points(scan.store, scan.store.tiling().tiles_in({}), edge, represented_ids, scan.job);
+}
+
+// Several tasks choose together.
+std::vector<std::size_t> chosen_ids(TiledScan& scan, double edge, std::size_t tasks = 1) {
   const Tiling& tiling = scan.store.tiling();
   std::vector<std::size_t> ids;
-  for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
-    const std::vector<StoredPoint> points = scan.store.points(t);
-    for (LocalIndex p = 0; p < points.size(); ++p) {
-      if (chosen.rows.contains(tiling.tiles[t].row(p))) ids.push_back(value(points[p].id));
+  for (std::size_t task = 0; task < tasks; ++task) {
+    const std::size_t before = ids.size();
+    const ChosenPoints chosen = choose_points(scan.store, tiling.tiles_in({task, tasks}), edge, 0, scan.job);
+    for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
+      const std::vector<StoredPoint> points = scan.store.points(t);
+      for (LocalIndex p = 0; p < points.size(); ++p) {
+        if (chosen.rows.contains(tiling.tiles[t].row(p))) ids.push_back(value(points[p].id));
+      }
     }
+    CHECK(chosen.count == ids.size() - before);
+    CHECK_FALSE(chosen.represented);
   }
-  CHECK(chosen.count == ids.size());
-  CHECK_FALSE(chosen.represented);
   std::sort(ids.begin(), ids.end());
   return ids;
 }
@@ -93,6 +101,7 @@ TEST_CASE("whatever the tiles, the threads and the order, the same points repres
         for (const std::int64_t threads : {1, 4}) {
           TiledScan scan(cloud, tiled({}, tile_points, threads));
           CHECK(chosen_ids(scan, edge) == expected);
+          CHECK(chosen_ids(scan, edge, 3) == expected);
         }
         TiledScan scan(shuffled, tiled({}, tile_points));
         CHECK(chosen_ids(scan, edge) == plain_ids(shuffled, edge));
@@ -103,7 +112,7 @@ TEST_CASE("whatever the tiles, the threads and the order, the same points repres
 
 TEST_CASE("counts of cells are those of the chosen points in them") {
   TiledScan scan(scattered(5000, 7), tiled({}, 300));
-  const ChosenPoints chosen = choose_points(scan.store, 0.05, 0, scan.job);
+  const ChosenPoints chosen = choose_all(scan, 0.05);
   const Tiling& tiling = scan.store.tiling();
   REQUIRE(chosen.in_cell.size() == tiling.cells.size());
   std::uint64_t all = 0, wrong = 0;
@@ -124,7 +133,7 @@ TEST_CASE("each point of the input has the representative of its cell, copies to
   Config small;
   small.run.memory_limit = std::uint64_t{64} << 20;
   TiledScan scan(cloud, small);
-  const ChosenPoints chosen = choose_points(scan.store, 20, cloud.size(), scan.job);
+  const ChosenPoints chosen = choose_all(scan, 20, cloud.size());
   REQUIRE(chosen.represented);
   const std::map<CellKey, std::size_t> expected = plainly_chosen(cloud, 20);
   std::vector<int> times(cloud.size());
@@ -146,14 +155,14 @@ TEST_CASE("a point that is too far away for the edge is an error that names it")
   for (const std::int64_t tile_points : {1, 100}) {
     TiledScan scan(cloud, tiled({}, tile_points));
     CHECK_THROWS_WITH(
-        choose_points(scan.store, 1e-200, 0, scan.job),
+        choose_all(scan, 1e-200),
         Catch::Matchers::Contains("is too far away for a resolution of 1e-200: a larger one is needed"));
   }
 }
 
 TEST_CASE("a store without points has no chosen ones") {
   TiledScan scan(Cloud{{}, {}}, Config());
-  CHECK(choose_points(scan.store, 1, 0, scan.job).count == 0);
+  CHECK(choose_all(scan, 1).count == 0);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ struct Kept {
   }
 
   KeptOutputs open(const std::string& made_from) const {
-    return KeptOutputs(3, kTiles, made_from, check, workspace);
+    return KeptOutputs(3, kTiles, made_from, workspace);
   }
   // The outputs that are there; each is one number.
   std::map<TileIndex, std::uint64_t> numbers(const std::string& made_from) const {
@@ -57,7 +57,6 @@ struct Kept {
     }
   }
 
-  PartReader::Check check = PartReader::Check::kWhole;
   Workspace workspace;
 };
 
@@ -83,12 +82,11 @@ TEST_CASE("outputs that are made from something else make room") {
   CHECK(folder.names() == std::vector<std::string>{"run"});
 }
 
-TEST_CASE("a unit takes no part away, and is content with the table of a part") {
+TEST_CASE("a unit takes no part away") {
   const ScratchFolder folder;
   Kept kept(folder);
   kept.add("a", {{0, 10}});
   kept.workspace.is_unit = true;
-  kept.check = PartReader::Check::kTable;
   kept.add("b", {{1, 11}});
   CHECK(kept.numbers("a") == std::map<TileIndex, std::uint64_t>{{0, 10}});
   CHECK(kept.numbers("b") == std::map<TileIndex, std::uint64_t>{{1, 11}});

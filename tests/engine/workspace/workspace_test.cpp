@@ -125,7 +125,7 @@ TEST_CASE("parts that are swapped are made again") {
 TEST_CASE("later steps take other parameters, and the parts before them are used again") {
   const ScratchFolder folder;
   bytes_of(scan(), small_tiles(), folder.path());
-  const auto written = fs::last_write_time(folder / "level-0");
+  const auto written = fs::last_write_time(folder / "level-0-0");
   Config selected = small_tiles();
   selected.selection.min_confidence = 0.9;
   const fs::path outputs = outputs_of(folder, 0);
@@ -135,13 +135,13 @@ TEST_CASE("later steps take other parameters, and the parts before them are used
   threshold.coherence.threshold = 0.4;
   threshold.results.voxels = true;
   CHECK(bytes_of(scan(), threshold, folder.path()) == run_engine(scan(), threshold).bytes());
-  CHECK(fs::last_write_time(folder / "level-0") == written);
+  CHECK(fs::last_write_time(folder / "level-0-0") == written);
   Config run = small_tiles();
   run.run.threads = 1;
   run.run.tile_points = 900;
   run.run.memory_limit = 100 << 20;
   CHECK(bytes_of(scan(), run, folder.path()) == run_engine(scan(), run).bytes());
-  CHECK(fs::last_write_time(folder / "level-0") == written);
+  CHECK(fs::last_write_time(folder / "level-0-0") == written);
 }
 
 TEST_CASE("outputs that an earlier run did not want are found by the next one") {
@@ -181,11 +181,11 @@ TEST_CASE("a run whose own part is damaged goes on, and the workspace keeps its 
 
 TEST_CASE("a folder with others' files of the names of parts is refused, and they stay") {
   const ScratchFolder folder;
-  folder.write("level-0", "notes on level 0");
+  folder.write("level-0-0", "notes on level 0");
   CHECK_THROWS_WITH(bytes_of(scan(), small_tiles(), folder.path()),
-                    Contains("level-0: is not of a workspace"));
-  CHECK(test::read_file(folder / "level-0") == "notes on level 0");
-  CHECK(folder.names() == std::vector<std::string>{"level-0"});
+                    Contains("level-0-0: is not of a workspace"));
+  CHECK(test::read_file(folder / "level-0-0") == "notes on level 0");
+  CHECK(folder.names() == std::vector<std::string>{"level-0-0"});
   CHECK_FALSE(state_of_workspace(folder.path()));
   CHECK(workspace_files(folder.path()).empty());
 }
