@@ -197,7 +197,7 @@ std::unique_ptr<Detection> detect_once(PointSource& scan, const Config& config, 
   if (config.results.voxels)
     findings.probabilities.emplace(probability_voxels(outputs, found.totals.median_distance(),
                                                       findings.summary.strays.rest, store, job));
-  if (consumers.sample) findings.sample.emplace(consumers.sample->draw(outputs, store, job));
+  if (consumers.sample) findings.sample.emplace(consumers.sample->draw(outputs, store.tiling().tiles.size(), job));
   if (config.normals.orient) findings.opposed_normals = opposed_normals(outputs, store, job);
   std::unique_ptr<Detection> detection = collect_results(std::move(findings), outputs, store, job);
   if (!first.represented) return detection;

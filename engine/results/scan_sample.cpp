@@ -39,10 +39,13 @@ std::uint32_t bin_of(double key) {
 
 }  // namespace
 
-void ScanSample::KeyBins::take(std::vector<DrawnPoint>& points, std::uint64_t most_points) {
-  std::erase_if(points, [&](const DrawnPoint& point) { return bin_of(point.key) > last; });
-  for (const DrawnPoint& point : points) ++counts[bin_of(point.key)];
-  keys += points.size();
+void ScanSample::KeyBins::add(const std::map<std::uint32_t, std::uint64_t>& points,
+                              std::uint64_t most_points) {
+  for (const auto& [bin, count] : points) {
+    if (bin > last) break;
+    counts[bin] += count;
+    keys += count;
+  }
   // A bin is removed where the bins before it are enough.
   while (!counts.empty() && keys - counts.rbegin()->second >= most_points) {
     keys -= counts.rbegin()->second;
@@ -52,73 +55,78 @@ void ScanSample::KeyBins::take(std::vector<DrawnPoint>& points, std::uint64_t mo
 }
 
 void ScanSample::emit(const EvaluatedTile& tile, TileOutput& output) {
-  std::vector<DrawnPoint> points;
-  points.reserve(tile.points.owned);
+  std::vector<double> keys;
+  std::map<std::uint32_t, std::uint64_t> points;
+  keys.reserve(tile.points.owned);
   for (LocalIndex p = 0; p < tile.points.owned; ++p) {
-    const Evaluation& e = tile.evaluations[p];
-    const Eigen::Vector3f normal = e.normal.cast<float>();
-    points.push_back(
-        {key_of(tile.points.ids[p], e), tile.probability(p), {normal.x(), normal.y(), normal.z()}, p, 0});
+    keys.push_back(key_of(tile.points.ids[p], tile.evaluations[p]));
+    ++points[bin_of(keys.back())];
   }
+  std::uint32_t last = 0;
   {
     const std::lock_guard lock(mutex_);
-    bins_.take(points, most_points_);
+    bins_.add(points, most_points_);
+    last = bins_.last;
   }
-  output.add(kDrawnPoints, std::move(points));
+  std::vector<DrawnPoint> drawn;
+  std::vector<BinCount> counts;
+  for (LocalIndex p = 0; p < tile.points.owned; ++p) {
+    if (bin_of(keys[p]) > last) continue;
+    const Eigen::Vector3d& position = tile.points.positions[p];
+    const Eigen::Vector3f normal = tile.evaluations[p].normal.cast<float>();
+    drawn.push_back({keys[p],
+                     {{position.x(), position.y(), position.z(), tile.points.ids[p]},
+                      tile.probability(p),
+                      {normal.x(), normal.y(), normal.z()}}});
+  }
+  for (const auto& [bin, count] : points) {
+    if (bin <= last) counts.push_back({bin, static_cast<std::uint32_t>(count)});
+  }
+  output.add(kDrawnPoints, std::move(drawn));
+  output.add(kBinCounts, std::move(counts));
 }
 
-// Returns the largest key of the sample. Only the keys of the last bin have to be ordered.
-double ScanSample::last_key(const TileOutputs& outputs, std::size_t tiles, Job& job) const {
-  KeyBins bins;  // other processes may have evaluated tiles, too
+ScanSample::KeyBins ScanSample::bins_of(const TileOutputs& outputs, std::size_t tiles) const {
+  KeyBins bins;
   for (std::size_t t = 0; t < tiles; ++t) {
-    std::vector<DrawnPoint> points = outputs.read(kDrawnPoints, static_cast<TileIndex>(t));
-    bins.take(points, most_points_);
+    std::map<std::uint32_t, std::uint64_t> points;
+    for (const BinCount& count : outputs.read(kBinCounts, static_cast<TileIndex>(t)))
+      points.emplace(count.bin, count.points);
+    bins.add(points, most_points_);
   }
-  // Outputs of tiles that were evaluated early have keys of later bins, too.
-  const auto first_of = [](std::uint32_t bin) { return std::bit_cast<double>(std::uint64_t{bin} << 48); };
-  if (bins.keys <= most_points_) {
-    const bool has_all = bins.last == KeyBins().last;
-    return has_all ? std::numeric_limits<double>::max() : std::nextafter(first_of(bins.last + 1), -1);
-  }
-  const MemoryLedger::Lease sorting = job.ledger.take(job.memory.work / 8);
-  SortedRuns<double> of_last_bin(job.file("sample-last"), sorting.bytes());
-  for (std::size_t t = 0; t < tiles; ++t) {
-    for (const DrawnPoint& point : outputs.read(kDrawnPoints, static_cast<TileIndex>(t))) {
-      if (bin_of(point.key) == bins.last) of_last_bin.add(point.key);
+  return bins;
+}
+
+Column<StoredSample> ScanSample::draw(const TileOutputs& outputs, std::size_t tiles, Job& job) {
+  Phase phase(job, "sample", 0);
+  const KeyBins bins = bins_of(outputs, tiles);
+  const MemoryLedger::Lease sorting = job.ledger.take(job.memory.work / 4);
+  SortedRuns<StoredSample> sorted(job.file("sample-sort"), sorting.bytes() / 2);
+  SortedRuns<DrawnPoint> of_last_bin(job.file("sample-last"), sorting.bytes() / 2);
+  std::uint64_t taken = 0;
+  std::mutex mutex;
+  job.arena.for_each(tiles, [&](std::size_t t) {
+    const std::vector<DrawnPoint> drawn = outputs.read(kDrawnPoints, static_cast<TileIndex>(t));
+    const std::lock_guard lock(mutex);
+    for (const DrawnPoint& point : drawn) {
+      if (bin_of(point.key) > bins.last) continue;
+      if (bin_of(point.key) == bins.last && bins.keys > most_points_) {
+        of_last_bin.add(point);
+      } else {
+        sorted.add(point.sample);
+        ++taken;
+      }
     }
-  }
+  });
   // Several equal keys are in the sample all together, or not at all.
-  double last = std::nextafter(first_of(bins.last), -1), key_before = last;
-  std::uint64_t taken = bins.keys - of_last_bin.size();  // all of the bins before
-  of_last_bin.for_each([&](double key) {
-    if (key != key_before && taken <= most_points_) last = key_before;
-    key_before = key;
+  double last_key = 0, key_before = 0;  // keys are above 0
+  of_last_bin.for_each([&](const DrawnPoint& point) {
+    if (point.key != key_before && taken <= most_points_) last_key = key_before;
+    key_before = point.key;
     ++taken;
   });
-  return last;
-}
-
-Column<StoredSample> ScanSample::draw(const TileOutputs& outputs, const TileStore& store, Job& job) {
-  Phase phase(job, "sample", 0);
-  const std::size_t tiles = store.tiling().tiles.size();
-  const double last = last_key(outputs, tiles, job);
-  const MemoryLedger::Lease sorting = job.ledger.take(job.memory.work / 4);
-  SortedRuns<StoredSample> sorted(job.file("sample-sort"), sorting.bytes());
-  std::mutex mutex;
-  job.arena.for_each(tiles, [&](std::size_t i) {
-    const auto t = static_cast<TileIndex>(i);
-    std::vector<DrawnPoint> sampled = outputs.read(kDrawnPoints, t);
-    std::erase_if(sampled, [&](const DrawnPoint& point) { return point.key > last; });
-    std::vector<StoredSample> samples;
-    auto next = sampled.begin();
-    LocalIndex owned = 0;
-    store.for_each_point(t, [&](const StoredPoint& p) {
-      if (next == sampled.end() || next->owned != owned++) return;
-      samples.push_back({p, next->probability, next->normal});
-      ++next;
-    });
-    const std::lock_guard lock(mutex);
-    sorted.add(samples);
+  of_last_bin.for_each([&](const DrawnPoint& point) {
+    if (point.key <= last_key) sorted.add(point.sample);
   });
   Column<StoredSample> column(job.file("sample"));
   ColumnWriter<StoredSample> writer(column);

@@ -19,8 +19,8 @@ namespace lacuna {
 // A sampled point on disk, as plain data.
 struct StoredSample {
   StoredPoint point;
-  float probability;
-  std::array<float, 3> normal;
+  float probability = 0;
+  std::array<float, 3> normal{};
 
   friend bool operator<(const StoredSample& a, const StoredSample& b) { return a.point.id < b.point.id; }
 };
@@ -34,22 +34,26 @@ class ScanSample {
  public:
   explicit ScanSample(std::uint64_t most_points) : most_points_(most_points) {}
 
-  // Puts out the points of a tile that may be in the sample: no point has a larger key than all of a sample
-  // of the tiles so far. From any thread.
+  // Puts out the points of a tile that may be in the sample. Those behind a sample of the tiles so far cannot
+  // be. From any thread.
   void emit(const EvaluatedTile& tile, TileOutput& output);
   // Returns the sample in ascending id, once all tiles are evaluated.
-  Column<StoredSample> draw(const TileOutputs& outputs, const TileStore& store, Job& job);
+  Column<StoredSample> draw(const TileOutputs& outputs, std::size_t tiles, Job& job);
 
  private:
   // A point that may be in the sample.
   struct DrawnPoint {
     double key;
-    float probability;
-    std::array<float, 3> normal;
-    LocalIndex owned;
-    std::uint32_t padding;
+    StoredSample sample;
+
+    friend bool operator<(const DrawnPoint& a, const DrawnPoint& b) { return a.key < b.key; }
   };
-  static constexpr RecordStream<DrawnPoint> kDrawnPoints{"sample"};  // in ascending owned index
+  // How many points a tile has drawn whose keys lie in a bin.
+  struct BinCount {
+    std::uint32_t bin, points;
+  };
+  static constexpr RecordStream<DrawnPoint> kDrawnPoints{"sample"};
+  static constexpr RecordStream<BinCount> kBinCounts{"sample bins"};
 
   // The smallest keys so far, by bins that have the order of the keys.
   struct KeyBins {
@@ -57,10 +61,11 @@ class ScanSample {
     std::map<std::uint32_t, std::uint64_t> counts;
     std::uint64_t keys = 0;  // in all bins
 
-    // Removes the points whose keys lie behind the last bin, and counts the others.
-    void take(std::vector<DrawnPoint>& points, std::uint64_t most_points);
+    // Adds points. Bins that are then behind the last one go.
+    void add(const std::map<std::uint32_t, std::uint64_t>& points, std::uint64_t most_points);
   };
-  double last_key(const TileOutputs& outputs, std::size_t tiles, Job& job) const;
+  // Returns the bins of all tiles.
+  KeyBins bins_of(const TileOutputs& outputs, std::size_t tiles) const;
 
   const std::uint64_t most_points_;
   std::mutex mutex_;

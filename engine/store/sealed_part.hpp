@@ -2,10 +2,10 @@
 // A sealed part: a file of a workspace that outlives the process. It holds what a step of a run has found.
 //
 // A part consists of entries: records of one stream that belong to one key, such as a tile. The table of the
-// entries follows, with the digest of each, and then the table's length, its checksum and the fingerprint of
-// what the part was made from. So a part proves by itself from what it was made, and each entry proves that
-// it is whole when it is read. The name of a file proves nothing. Its name is complete only once all of it is
-// on the disk.
+// entries follows, with the digest of each. The last bytes are the table's length, its checksum and the
+// fingerprint of what the part was made from. So a part proves by itself from what it was made, and each
+// entry proves that it is whole when it is read. The name of a file proves nothing. Its name is complete only
+// once all of it is on the disk.
 #pragma once
 
 #include "engine/run/error.hpp"

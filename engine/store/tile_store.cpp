@@ -43,7 +43,6 @@ TileStore::TileStore(StoreFiles files, Tiling tiling, std::vector<TileDigests> d
 
 TileStore TileStore::joined(std::vector<TileStore> parts, const std::filesystem::path& duplicates,
                             const std::shared_ptr<BufferPool>& lists) {
-  if (parts.size() == 1) return std::move(parts.front());
   std::size_t tiles = 0, cells = 0;
   for (const TileStore& part : parts) {
     tiles += part.tiling_.tiles.size();
@@ -77,6 +76,7 @@ TileStore TileStore::joined(std::vector<TileStore> parts, const std::filesystem:
   all.duplicates_ = std::move(all_duplicates);
   all.is_checked_.assign(all.digests_.size(), 0);
   all.tiling_.build_tree();
+  assert(all.tiling_.check());
   return std::move(all);
 }
 

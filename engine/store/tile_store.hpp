@@ -53,8 +53,8 @@ class TileStore {
   // `tiles`: where raw points go at first; `most_tiles`: the number of tiles with those that are added later.
   TileStore(StoreFiles files, std::vector<Tile> tiles, std::uint64_t most_tiles, Precision precision,
             bool with_normals, std::shared_ptr<BufferPool> lists);
-  // Opens a store that was finished before. `files`: sealed ones. Reading a tile throws `DamagedFile` where
-  // its bytes have other digests. The caller adds the duplicates.
+  // Opens a store that was finished before, to be joined. `files`: sealed ones. Reading a tile throws
+  // `DamagedFile` where its bytes have other digests. The caller adds the duplicates.
   TileStore(StoreFiles files, Tiling tiling, std::vector<TileDigests> digests, Precision precision,
             bool with_normals, std::shared_ptr<BufferPool> lists);
   // Joins finished stores of the same kind, at least one: tiles of the first one come first. `duplicates`: a

@@ -50,8 +50,7 @@ class OccupiedCells {
     }
   }
 
-  // Of the tile.
-  std::span<const StoredPoint> points() const { return std::span(points_).first(owned_); }
+  std::span<const StoredPoint> points() const { return std::span(points_).first(owned_); }  // of the tile
   const StoredPoint& representative_of(const StoredPoint& point) const {  // which is one of the tile
     return points_[cells_[slots_[slot_of(place_of(point))] - 1].representative];
   }

@@ -18,7 +18,7 @@ struct TileJoin {
   std::uint64_t cell_points = 0;  // the most in a cell, where none below has more
 };
 
-// Joins the tiles from which points were chosen: a node of the tree over them becomes one tile if it has at
+// Joins the tiles from which points were chosen. A node of the tree over them becomes one tile if it has at
 // most `tile_points` chosen points.
 TileJoin join_tiles(const Tiling& below, const ChosenPoints& chosen, std::uint64_t tile_points,
                     std::uint64_t cell_points);

@@ -88,7 +88,6 @@ Tiling tiling_of(const PartReader& part) {
   tiling.tiles = part.records<Tile>("tiles", 0);
   for (const StoredCell& cell : part.records<StoredCell>("cells", 0))
     tiling.cells.push_back({cell.box.box(), Row{cell.first_row}, cell.points});
-  tiling.build_tree();
   return tiling;
 }
 
@@ -187,7 +186,7 @@ std::optional<Level> read_part(std::size_t number, const TaskShare& share, const
   if (!stored) return std::nullopt;
   const StoredLevel& record = *stored;
   Tiling tiling = tiling_of(*part);
-  if (!tiling.check() || !fits(tiling, job)) return std::nullopt;
+  if (!fits(tiling, job)) return std::nullopt;
   std::optional<StoreFile> points =
       open_file(column_of(number, record.points_digest, kPoints, workspace), record.points_bytes);
   std::optional<StoreFile> normals =

@@ -87,8 +87,8 @@ bool is_workspace(const std::filesystem::path& folder);
 std::filesystem::path level_prefix(const std::filesystem::path& folder, std::size_t level);
 std::filesystem::path tiles_prefix(const std::filesystem::path& folder, std::size_t level);
 
-// Returns the level that a file is of, where it is a part of the level's points, one of their columns, or has
-// outputs of tiles.
+// Return the level that a file is of. It is a part of the level's points, a column of them, or has outputs of
+// tiles.
 std::optional<std::size_t> level_of_part(const std::filesystem::path& file);
 std::optional<std::size_t> level_of_column(const std::filesystem::path& file);
 std::optional<std::size_t> level_of_outputs(const std::filesystem::path& file);

@@ -76,8 +76,9 @@ void sample_border(StarExchange& exchange, TileIndex t, const TangentialConfig& 
     queries.push_back(belt.queries()[i]);
     rows.push_back(belt.rows()[queries.back().point]);
   }
-  const std::vector<Site> sites = read_rows(exchange.sites, belt.rows());
-  std::vector<StarSample> samples = read_rows(exchange.samples, std::span<const Row>(rows));
+  const std::vector<Row> places = exchange.places_of(rows);
+  const std::vector<Site> sites = read_rows(exchange.sites, exchange.places_of(belt.rows()));
+  std::vector<StarSample> samples = read_rows(exchange.samples, places);
   StarFinder(sites).for_each_batch(
       queries.size(), [&](std::size_t i) { return queries[i]; },
       [&](std::size_t first, std::span<const FoundStar> stars) {
@@ -87,13 +88,14 @@ void sample_border(StarExchange& exchange, TileIndex t, const TangentialConfig& 
           samples[first + i].radii = smallest_radii(stars[i], config);
         }
       });
-  replace_rows(exchange.samples, std::span<const Row>(rows), std::span<const StarSample>(samples));
+  replace_rows<StarSample>(exchange.samples, places, samples);
 }
 
 void measure_belt(StarExchange& exchange, TileIndex t, const TangentialConfig& config) {
   const Belt belt(exchange.outputs, t);
-  const std::vector<Site> sites = read_rows(exchange.sites, belt.rows());
-  const std::vector<StarSample> samples = read_rows(exchange.samples, belt.rows());
+  const std::vector<Row> places = exchange.places_of(belt.rows());
+  const std::vector<Site> sites = read_rows(exchange.sites, places);
+  const std::vector<StarSample> samples = read_rows(exchange.samples, places);
   std::vector<Sampling> samplings;
   samplings.reserve(samples.size());
   for (const StarSample& sample : samples) samplings.push_back(sample.sampling);

@@ -2,7 +2,6 @@
 #include "engine/boundary/tangential/star_exchange.hpp"
 
 #include "engine/store/merge_runs.hpp"
-#include "engine/store/row_runs.hpp"
 
 #include <span>
 #include <tuple>
@@ -21,8 +20,14 @@ StarExchange::StarExchange(const TileOutputs& outputs, const Tiling& tiling, con
       sites(job.file("sites")),
       samples(job.file("samples")),
       remote_triangles(job.file("remote-triangles"), tiling.tiles.size(), job.lists),
+      numbers_(tiling.tiles.size()),
       belt_stars_(job.file("belt-stars"), tiling.tiles.size(), job.lists),
       belt_vertices_(job.file("belt-vertices"), tiling.tiles.size(), job.lists) {
+  std::uint64_t place = 0;
+  for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
+    first_places_.push_back(place);
+    place += outputs.count(kSampled, t);
+  }
   job.arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
     const auto t = static_cast<TileIndex>(i);
     for (const LocalIndex p : outputs.read(kActive, t)) active.insert(tiling.tiles[t].row(p));
@@ -31,10 +36,23 @@ StarExchange::StarExchange(const TileOutputs& outputs, const Tiling& tiling, con
 }
 
 void StarExchange::publish(TileIndex tile) {
-  std::vector<Row> rows;
-  for (const LocalIndex p : outputs.read(kSampled, tile)) rows.push_back(tiling.tiles[tile].row(p));
-  write_rows<Site>(sites, rows, outputs.read(kSites, tile));
-  write_rows<StarSample>(samples, rows, outputs.read(kSamples, tile));
+  const std::vector<LocalIndex> sampled = outputs.read(kSampled, tile);
+  numbers_[tile].collect(sampled.size(), [&](auto&& add) {
+    for (const LocalIndex p : sampled) add(tiling.tiles[tile].row(p));
+  });
+  sites.write(first_places_[tile], outputs.read(kSites, tile));
+  samples.write(first_places_[tile], outputs.read(kSamples, tile));
+}
+
+std::vector<Row> StarExchange::places_of(std::span<const Row> rows) const {
+  std::vector<Row> places;
+  places.reserve(rows.size());
+  TileIndex tile = 0;
+  for (const Row row : rows) {
+    if (!tiling.tiles[tile].owns(row)) tile = tiling.tile_of_row(row);
+    places.push_back(Row{first_places_[tile] + numbers_[tile].number(row)});
+  }
+  return places;
 }
 
 void StarExchange::add_belt_stars(TileIndex tile, const OpenStars& stars) {
