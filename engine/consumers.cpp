@@ -8,8 +8,7 @@
 
 namespace lacuna {
 
-Consumers::Consumers(const Level& level, Job& job)
-    : method(boundary_method(level.store.tiling(), job)) {
+Consumers::Consumers(const Level& level, Job& job) : method(boundary_method(level.store.tiling(), job)) {
   all.push_back([this](const EvaluatedTile& tile, TileOutput& output) { method->emit(tile, output); });
   if (level.number > 0) return;
   const ResultsConfig& wanted = job.config.results;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/inspect.hpp"
 
-#include "engine/pipeline_steps.hpp"
+#include "engine/first_level.hpp"
 #include "engine/run/job.hpp"
 #include "engine/summarise.hpp"
 

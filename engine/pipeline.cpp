@@ -2,9 +2,9 @@
 #include "engine/pipeline.hpp"
 
 #include "engine/boundary/candidates.hpp"
-#include "engine/bucket/bucket_scan.hpp"
 #include "engine/consumers.hpp"
 #include "engine/evaluate/evaluate_tiles.hpp"
+#include "engine/first_level.hpp"
 #include "engine/halo/eps_balls.hpp"
 #include "engine/halo/halo.hpp"
 #include "engine/loops/measure_loops.hpp"
@@ -19,9 +19,7 @@
 #include "engine/results/represented.hpp"
 #include "engine/results/scan_sample.hpp"
 #include "engine/run/error.hpp"
-#include "engine/store/kept_scan.hpp"
 #include "engine/summarise.hpp"
-#include "engine/survey/survey_scan.hpp"
 #include "engine/thin/thin.hpp"
 #include "engine/track/level_loops.hpp"
 #include "engine/track/track_loops.hpp"
@@ -37,25 +35,6 @@ namespace lacuna {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Brings all points of the scan into tiles on disk.
-Level bucket_points(PointSource& scan, StoreFiles files, Job& job) {
-  if (scan.reads_slowly()) {
-    KeptScan kept(scan, job.file("input"));
-    return bucket_points(kept, std::move(files), job);
-  }
-  SurveyedScan survey = survey_scan(scan, job);
-  TilePlan plan = plan_tiles(survey, job);
-  const std::uint64_t tile_points = plan.tile_points;
-  TileStore store =
-      bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), std::move(files), job);
-  const double extent = extent_of(survey.bounds);
-  return {.survey = std::move(survey),
-          .extent = extent,
-          .tile_points = tile_points,
-          .store = std::move(store),
-          .represented = {}};
-}
 
 struct FoundLevel {
   TileOutputs outputs;
@@ -96,19 +75,6 @@ void find_loops_above(const Level& first, Totals totals, std::vector<LevelLoops>
 }
 
 }  // namespace
-
-Level first_level(PointSource& scan, const Workspace& workspace, Job& job) {
-  if (std::optional<Level> kept = open_level(0, workspace.made_from, workspace, job)) {
-    scan.set_pass_counts(kept->input);
-    return *std::move(kept);
-  }
-  const bool is_thinned = first_edge(job.config.scale) > 0;
-  Level all = bucket_points(scan, is_thinned ? temporary_files(job) : level_files(0, workspace, job), job);
-  Level level = is_thinned ? thin_to_first(all, level_files(0, workspace, job), job) : std::move(all);
-  level.input = scan.pass_counts();
-  seal_part(level, {}, workspace.made_from, workspace, job);
-  return level;
-}
 
 std::optional<Level> thin_level(const Level& below, const Totals& totals, const TaskShare& share,
                                 const Workspace& workspace, Job& job) {
@@ -197,7 +163,8 @@ std::unique_ptr<Detection> detect_once(PointSource& scan, const Config& config, 
   if (config.results.voxels)
     findings.probabilities.emplace(probability_voxels(outputs, found.totals.median_distance(),
                                                       findings.summary.strays.rest, store, job));
-  if (consumers.sample) findings.sample.emplace(consumers.sample->draw(outputs, store.tiling().tiles.size(), job));
+  if (consumers.sample)
+    findings.sample.emplace(consumers.sample->draw(outputs, store.tiling().tiles.size(), job));
   if (config.normals.orient) findings.opposed_normals = opposed_normals(outputs, store, job);
   std::unique_ptr<Detection> detection = collect_results(std::move(findings), outputs, store, job);
   if (!first.represented) return detection;
@@ -210,7 +177,8 @@ std::unique_ptr<Detection> detect(PointSource& scan, const Config& given, const 
                                   Progress& progress) {
   check_config(given);
   const Config config = with_min_hole(given);
-  return without_damaged_files([&] { return detect_once(scan, config, scratch, progress); });
+  const Config shared = with_planned_tiles(config);
+  return without_damaged_files([&] { return detect_once(scan, shared, scratch, progress); });
 }
 
 }  // namespace lacuna

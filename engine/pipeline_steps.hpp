@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps of a run that other processes may do, too (unit.hpp). Each step takes from the workspace what is
-// already there.
+// The steps of a run from the first level on that other processes may do, too (unit.hpp). Each step takes
+// from the workspace what is already there.
 #pragma once
 
 #include "engine/evaluate/evaluated_tile.hpp"
@@ -17,10 +17,6 @@
 #include <vector>
 
 namespace lacuna {
-
-// Makes the points of the first level: survey, bucket, thin. Where the config has a resolution, one point is
-// left for each cell of its lattice. Reads the input twice, or once where it reads slowly. Throws `Error`.
-Level first_level(PointSource& scan, const Workspace& workspace, Job& job);
 
 // Thins the points of a level to the level above. Returns nothing where too few are left for a hole.
 std::optional<Level> level_above(const Level& below, const Totals& totals, const Workspace& workspace,

@@ -22,12 +22,19 @@
 namespace lacuna {
 
 struct Step {
+  enum class Kind {
+    kSurvey,    // counts the points of parts of the scan
+    kTiles,     // plans the tiles, from all counts
+    kBucket,    // brings the points of parts of the scan to their tiles
+    kLevel,     // makes the points of a level
+    kEvaluate,  // evaluates the tiles of a level
+  };
+  Kind kind = Kind::kLevel;
   std::size_t level = 0;
-  bool evaluates = false;    // the tiles of the level; else makes its points
   std::size_t tasks = 1;     // units of the step, which may be done at the same time
   std::uint64_t points = 0;  // of the level, about
 
-  std::string name() const;  // "level-0", "evaluate-0"
+  std::string name() const;  // "survey", "level-0", "evaluate-0"
 };
 
 inline constexpr std::size_t kMostTasks = 100'000;

@@ -8,6 +8,11 @@
 #include "engine/store/tile_store.hpp"
 #include "engine/survey/survey.hpp"
 
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
 namespace lacuna {
 
 // Plans the tiles of a surveyed scan, as large as the memory limit allows. Consumes the survey's cells.
@@ -16,7 +21,29 @@ TilePlan plan_tiles(SurveyedScan& survey, const Job& job);
 
 // Streams the scan and stores every distinct finite point in its tile, in cell order. `bounds`: of all
 // points. `files`: empty ones for the store.
-TileStore bucket_scan(PointSource& scan, TilePlan plan, const Eigen::AlignedBox3d& bounds,
+TileStore bucket_scan(PointSource& scan, const TilePlan& plan, const Eigen::AlignedBox3d& bounds,
                       Precision precision, StoreFiles files, Job& job);
+
+// Several tasks may do so, in two steps: they scatter the points of parts of the scan, and then store tiles.
+
+// Points on their way to a place: a tile of the plan, or, from the number of tiles on, a group of points that
+// are set aside.
+struct ScatteredPoints {
+  std::vector<StoredPoint> points;
+  std::vector<StoredNormal> normals;
+};
+// Streams the scan, and hands points to their places: take(place, points, normals). Places of tiles get
+// points from any thread, and others from one thread at a time.
+using TakePoints =
+    std::function<void(std::size_t, std::span<const StoredPoint>, std::span<const StoredNormal>)>;
+void scatter_points(PointSource& scan, const TilePlan& plan, const TakePoints& take, Job& job);
+
+// Stores a task's tiles. The last task stores the points that are set aside, too. for_each(place, visit)
+// calls visit(scattered) once or several times with all points of a place.
+using VisitPoints = std::function<void(const ScatteredPoints&)>;
+TileStore store_tiles(const TilePlan& plan, const TaskShare& share, const Eigen::AlignedBox3d& bounds,
+                      Precision precision, bool with_normals,
+                      const std::function<void(std::size_t, const VisitPoints&)>& for_each, StoreFiles files,
+                      Job& job);
 
 }  // namespace lacuna

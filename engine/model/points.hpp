@@ -52,7 +52,12 @@ class LACUNA_API PointSource {
   // Returns whether a pass costs more than to write and read a file of plain numbers, as in compressed
   // formats.
   virtual bool reads_slowly() const { return false; }
-  // Returns one line for each part of the source, such as a file. Lines are equal only where the points are.
+  // Returns about how many points each part of the source has, such as a file. Parts can be read apart. The
+  // result is empty where they cannot.
+  virtual std::vector<std::uint64_t> parts() const { return {}; }
+  // Lets passes read the parts [first, last) alone. The first point of theirs has the id `id`.
+  virtual void select(std::size_t /*first*/, std::size_t /*last*/, PointId /*id*/) {}
+  // Returns one line for each part of the source. Lines are equal only where the points are.
   // The result is empty where a source cannot identify its parts. Then no workspace is kept.
   virtual std::vector<std::string> identity() const { return {}; }
   // Returns names that open the same parts again, in whatever form the source's program reads.

@@ -78,20 +78,11 @@ std::uint64_t Tiling::points() const {
 }
 
 TileRange Tiling::tiles_in(const TaskShare& share) const {
-  const auto all = static_cast<double>(points()), tasks = static_cast<double>(share.tasks);
-  std::uint64_t before = 0;
-  const auto task_of = [&](const Tile& tile) {  // by its middle point
-    const double middle = static_cast<double>(before) + static_cast<double>(tile.points) / 2;
-    before += tile.points;
-    return std::min(static_cast<std::size_t>(all > 0 ? middle / all * tasks : 0), share.tasks - 1);
-  };
-  TileRange range;
-  for (const Tile& tile : tiles) {
-    const std::size_t task = task_of(tile);
-    range.first += task < share.task;
-    range.last += task <= share.task;
-  }
-  return range;
+  std::vector<std::uint64_t> weights;
+  weights.reserve(tiles.size());
+  for (const Tile& tile : tiles) weights.push_back(tile.points);
+  const IndexRange range = share_of(weights, share);
+  return {static_cast<TileIndex>(range.first), static_cast<TileIndex>(range.last)};
 }
 
 bool Tiling::check() const {

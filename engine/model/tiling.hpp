@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/model/ids.hpp"
+#include "engine/model/task_share.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -46,11 +47,6 @@ struct Tile {
 };
 
 using TileIndex = std::uint32_t;
-
-// One of several tasks that share the tiles of a level.
-struct TaskShare {
-  std::size_t task = 0, tasks = 1;
-};
 
 struct TileRange {
   TileIndex first = 0, last = 0;  // [first, last)

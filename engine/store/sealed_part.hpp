@@ -60,6 +60,22 @@ class PartWriter {
   std::unique_ptr<State> state_;
 };
 
+// Adds the records that for_each(visit) visits. Some thousands are in memory at a time.
+template <class Record, class ForEach>
+void add_in_blocks(PartWriter& part, std::string_view stream, std::uint64_t key, ForEach&& for_each) {
+  constexpr std::size_t kTogether = 1 << 14;
+  std::vector<Record> block;
+  const auto write = [&] {
+    part.add(stream, key, std::span<const Record>(block));
+    block.clear();
+  };
+  for_each([&](const Record& record) {
+    block.push_back(record);
+    if (block.size() == kTogether) write();
+  });
+  if (!block.empty()) write();
+}
+
 // Reads may come from several threads.
 class PartReader {
  public:

@@ -188,8 +188,12 @@ bool Survey::merge_unless_apart(Count&& count) {
   return true;
 }
 
-void Survey::add(const PointBatch& batch) {
+void Survey::choose_size(const PointBatch& batch) {
   if (!sized_ && std::any_of(batch.positions.begin(), batch.positions.end(), finite)) choose_cell_size(batch);
+}
+
+void Survey::add(const PointBatch& batch) {
+  choose_size(batch);
   add(count_cells(batch, finest()));
 }
 
@@ -199,8 +203,13 @@ void Survey::add(const CellCounts& counts) {
   scan_.ids = std::max(scan_.ids, counts.ids);
   scan_.bounds.extend(counts.bounds);
   scan_.is_single &= counts.is_single;
-  for_each_part(counts.runs, [&](std::span<const CellRun> runs) {
-    counts_.add(runs, scan_.grid.shift);
+  add_runs(counts.runs, 0);
+}
+
+// `shift`: of the cells of the runs.
+void Survey::add_runs(std::span<const CellRun> all, int shift) {
+  for_each_part(all, [&](std::span<const CellRun> runs) {
+    counts_.add(runs, scan_.grid.shift - shift);
     while (needs_too_much() && can_merge()) take(counts_.merged());
     while (is_too_fine() && can_merge()) {
       // It counts leaves: in random order cells have few points at first, and hardly merge.
@@ -225,6 +234,31 @@ bool Survey::is_too_fine() const {
   constexpr std::uint64_t kSurelyFilled = 24;
   const std::uint64_t most = std::max<std::uint64_t>(points / kPointsPerCell, 1024);
   return counts_.cells() > most || counts_.leaves() * kSurelyFilled > most;
+}
+
+SurveyedScan Survey::counts() {
+  scan_.cells = counts_.counted_cells(0);
+  return std::move(scan_);
+}
+
+void Survey::add(const SurveyedScan& counts) {
+  scan_.points += counts.points;
+  scan_.dropped += counts.dropped;
+  scan_.ids += counts.ids;
+  scan_.bounds.extend(counts.bounds);
+  scan_.is_single &= counts.is_single;
+  if (counts.cells.empty()) return;
+  if (!sized_) {
+    scan_.grid = counts.grid;
+    scan_.middle = counts.middle;
+    sized_ = true;
+  }
+  while (scan_.grid.shift < counts.grid.shift) take(counts_.merged());
+  std::vector<CellRun> runs;
+  runs.reserve(counts.cells.size());
+  for (const CountedCell& cell : counts.cells)
+    runs.push_back({cell.coord, static_cast<std::int32_t>(cell.points)});
+  add_runs(runs, counts.grid.shift);
 }
 
 SurveyedScan Survey::finish() {

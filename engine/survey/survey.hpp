@@ -52,6 +52,9 @@ class Survey {
   Survey(std::uint64_t memory, std::uint64_t expected_points);
 
   void add(const PointBatch& batch);
+  // Chooses the cell size by a batch. Does nothing where it is chosen, or where no point of the batch is
+  // finite.
+  void choose_size(const PointBatch& batch);
   // Adding may take two steps: `add(count_cells(batch, finest()))`. The inner one may run in other threads. A
   // batch with a finite point must have been added before.
   bool is_sized() const { return sized_; }
@@ -59,10 +62,16 @@ class Survey {
   void add(const CellCounts& counts);
   SurveyedScan finish();
 
+  // Another survey, of other points, may count from the same size on. `counts` returns what it has counted,
+  // and `add` adds that. Ids of the added points follow those before.
+  SurveyedScan counts();
+  void add(const SurveyedScan& counts);
+
   static constexpr std::uint64_t kPointsPerCell = 16;
 
  private:
   void choose_cell_size(const PointBatch& batch);
+  void add_runs(std::span<const CellRun> runs, int shift);
   bool needs_too_much() const;
   bool is_too_fine() const;
   bool can_merge() const { return scan_.grid.shift < CellGrid::kMaxShift; }

@@ -41,4 +41,23 @@ SurveyedScan survey_scan(PointSource& scan, Job& job) {
   return survey.finish();
 }
 
+SurveyedScan survey_parts(PointSource& scan, const IndexRange& parts, Job& job) {
+  const MemoryLedger::Lease reading = job.ledger.take(job.memory.reading);
+  Survey survey(job.memory.cells, scan.expected_points().value_or(0));
+  // All tasks count from one size on: the size for the first points of the scan.
+  scan.select(0, scan.parts().size(), PointId{0});
+  scan.rewind();
+  for (PointBatch batch; !survey.is_sized() && scan.next(batch);) survey.choose_size(batch);
+  scan.select(parts.first, parts.last, PointId{0});
+  count_points(survey, scan, 0, job);
+  return survey.counts();
+}
+
+SurveyedScan merge_surveys(std::size_t tasks, const std::function<SurveyedScan(std::size_t)>& survey_of_task,
+                           std::optional<std::uint64_t> expected_points, const Job& job) {
+  Survey survey(job.memory.cells, expected_points.value_or(0));
+  for (std::size_t task = 0; task < tasks; ++task) survey.add(survey_of_task(task));
+  return survey.finish();
+}
+
 }  // namespace lacuna

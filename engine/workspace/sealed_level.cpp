@@ -2,6 +2,7 @@
 #include "engine/workspace/sealed_level.hpp"
 
 #include "engine/store/sealed_part.hpp"
+#include "engine/workspace/stored_survey.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -20,28 +21,15 @@ namespace fs = std::filesystem;
 
 constexpr const char *kPoints = ".points", *kNormals = ".normals";
 
-struct StoredBox {
-  double min[3], max[3];
-
-  StoredBox() = default;
-  explicit StoredBox(const Eigen::AlignedBox3d& box) {
-    for (int axis = 0; axis < 3; ++axis) min[axis] = box.min()[axis], max[axis] = box.max()[axis];
-  }
-  Eigen::AlignedBox3d box() const { return {Eigen::Vector3d(min), Eigen::Vector3d(max)}; }
-};
-
 struct StoredCell {
   StoredBox box;
   std::uint64_t first_row, points;
 };
 
 struct StoredLevel {
-  std::uint64_t parts;
-  StoredBox bounds;
-  double middle[3], grid_origin[3];
-  std::int64_t grid_finest, grid_shift;
-  std::uint64_t points, dropped, ids, is_single;
+  StoredSurvey survey;
   double extent, edge;
+  std::uint64_t parts;
   std::uint64_t tile_points, has_normals;
   std::uint64_t represented;  // lists; 0: no lists
   std::uint64_t points_bytes, normals_bytes;
@@ -49,38 +37,13 @@ struct StoredLevel {
 };
 
 StoredLevel stored(const Level& level, const TaskShare& share) {
-  const SurveyedScan& survey = level.survey;
-  StoredLevel stored{.parts = share.tasks,
-                     .bounds = StoredBox(survey.bounds),
-                     .grid_finest = survey.grid.finest,
-                     .grid_shift = survey.grid.shift,
-                     .points = survey.points,
-                     .dropped = survey.dropped,
-                     .ids = survey.ids,
-                     .is_single = survey.is_single,
-                     .extent = level.extent,
-                     .edge = level.edge,
-                     .tile_points = level.tile_points,
-                     .has_normals = level.store.has_normals(),
-                     .represented = level.represented ? level.represented->lists() : 0};
-  for (int axis = 0; axis < 3; ++axis) {
-    stored.middle[axis] = survey.middle[axis];
-    stored.grid_origin[axis] = survey.grid.origin[static_cast<std::size_t>(axis)];
-  }
-  return stored;
-}
-
-SurveyedScan survey_of(const StoredLevel& stored) {
-  return {.grid = {.finest = static_cast<int>(stored.grid_finest),
-                   .shift = static_cast<int>(stored.grid_shift),
-                   .origin = {stored.grid_origin[0], stored.grid_origin[1], stored.grid_origin[2]}},
-          .cells = {},
-          .bounds = stored.bounds.box(),
-          .middle = Eigen::Vector3d(stored.middle),
-          .points = stored.points,
-          .dropped = stored.dropped,
-          .ids = stored.ids,
-          .is_single = stored.is_single != 0};
+  return {.survey = StoredSurvey(level.survey),
+          .extent = level.extent,
+          .edge = level.edge,
+          .parts = share.tasks,
+          .tile_points = level.tile_points,
+          .has_normals = level.store.has_normals(),
+          .represented = level.represented ? level.represented->lists() : 0};
 }
 
 Tiling tiling_of(const PartReader& part) {
@@ -89,22 +52,6 @@ Tiling tiling_of(const PartReader& part) {
   for (const StoredCell& cell : part.records<StoredCell>("cells", 0))
     tiling.cells.push_back({cell.box.box(), Row{cell.first_row}, cell.points});
   return tiling;
-}
-
-// for_each(visit) visits the records, of which some thousands are in memory at a time.
-template <class Record, class ForEach>
-void add_in_blocks(PartWriter& part, std::string_view stream, std::uint64_t key, ForEach&& for_each) {
-  constexpr std::size_t kTogether = 1 << 14;
-  std::vector<Record> block;
-  const auto write = [&] {
-    part.add(stream, key, std::span<const Record>(block));
-    block.clear();
-  };
-  for_each([&](const Record& record) {
-    block.push_back(record);
-    if (block.size() == kTogether) write();
-  });
-  if (!block.empty()) write();
 }
 
 std::optional<AppendLists<Represented>> represented_of(const StoredLevel& stored, const PartReader& part,
@@ -158,17 +105,9 @@ void remove_other_columns(Level& level, const Workspace& workspace) {
   }
 }
 
-std::string line_of(const Digest& checksum) {
-  return std::to_string(checksum[0]) + " " + std::to_string(checksum[1]) + "\n";
-}
-
-Digest made_from_of(const std::string& made_from, const TaskShare& share) {
-  return digest_of(made_from + "part " + std::to_string(share.task) + " of " + std::to_string(share.tasks));
-}
-
 std::optional<PartReader> open_part(std::size_t number, const TaskShare& share, const std::string& made_from,
                                     const Workspace& workspace) {
-  return PartReader::open(part_path(number, share.task, workspace), made_from_of(made_from, share));
+  return PartReader::open(part_path(number, share.task, workspace), digest_of(made_from, share));
 }
 
 // Returns how many tasks have made a level. Whether they have made it from the right data, each part says.
@@ -185,6 +124,7 @@ std::optional<Level> read_part(std::size_t number, const TaskShare& share, const
   const std::optional<StoredLevel> stored = record_of(*part);
   if (!stored) return std::nullopt;
   const StoredLevel& record = *stored;
+  const SurveyedScan survey = record.survey.survey();
   Tiling tiling = tiling_of(*part);
   if (!fits(tiling, job)) return std::nullopt;
   std::optional<StoreFile> points =
@@ -193,14 +133,14 @@ std::optional<Level> read_part(std::size_t number, const TaskShare& share, const
       open_file(column_of(number, record.normals_digest, kNormals, workspace), record.normals_bytes);
   if (!points || !normals) return std::nullopt;
   TileStore store({std::move(*points), std::move(*normals), job.file("duplicates")}, std::move(tiling),
-                  part->records<TileDigests>("digests", 0), survey_of(record).precision(),
-                  record.has_normals != 0, job.lists);
+                  part->records<TileDigests>("digests", 0), survey.precision(), record.has_normals != 0,
+                  job.lists);
   for (TileIndex t = 0; t < store.tiling().tiles.size(); ++t)
     part->for_each<Duplicate>(
         "duplicates", t, [&](std::span<const Duplicate> duplicates) { store.add_duplicates(t, duplicates); });
   return Level{.number = number,
                .edge = record.edge,
-               .survey = survey_of(record),
+               .survey = survey,
                .extent = record.extent,
                .tile_points = record.tile_points,
                .store = std::move(store),
@@ -278,7 +218,7 @@ void seal_part(Level& level, const TaskShare& share, const std::string& made_fro
     add_in_blocks<Represented>(part, "represented", list,
                                [&](auto&& visit) { level.represented->for_each(list, visit); });
   }
-  level.seal = line_of(part.seal(made_from_of(made_from, share)));
+  level.seal = line_of(part.seal(digest_of(made_from, share)));
   if (!workspace.is_unit && share.tasks == 1) remove_other_columns(level, workspace);
 }
 

@@ -103,7 +103,8 @@ std::optional<PartReader> open_run(const fs::path& folder) {
 
 bool is_workspace_name(const std::string& name) {
   static const std::regex parts(
-      "(run|tasks|results|level-[0-9]{1,3}-[0-9]{1,5}|tiles-[0-9]{1,3}-[0-9a-f]{16})(\\.[0-9a-f]{16}\\."
+      "(run|tasks|results|tiles|(survey|bucket|level-[0-9]{1,3})-[0-9]{1,5}|tiles-[0-9]{1,3}-[0-9a-f]{16})("
+      "\\.[0-9a-f]{16}\\."
       "partial)?"
       "|level-[0-9]{1,3}-[0-9a-f]{16}\\.(points|normals)(\\.partial)?");
   return std::regex_match(name, parts);
@@ -144,15 +145,32 @@ std::optional<std::string> read_note(const fs::path& folder, WorkspaceNote note)
   return part ? text_of(*part, "text") : std::nullopt;
 }
 
+Digest digest_of(const std::string& made_from, const TaskShare& share) {
+  return digest_of(made_from + "part " + std::to_string(share.task) + " of " + std::to_string(share.tasks));
+}
+
+std::string line_of(const Digest& checksum) {
+  return std::to_string(checksum[0]) + " " + std::to_string(checksum[1]) + "\n";
+}
+
 void write_plan(const fs::path& folder, const TaskPlan& plan) {
-  write_note(folder, WorkspaceNote::kTasks, std::to_string(plan.tasks) + " " + std::to_string(plan.levels));
+  std::ostringstream text;
+  text << plan.tasks << " " << plan.levels << " " << plan.tile_points << " " << plan.reads;
+  write_note(folder, WorkspaceNote::kTasks, text.str());
 }
 
 std::optional<TaskPlan> read_plan(const fs::path& folder) {
   std::istringstream text(read_note(folder, WorkspaceNote::kTasks).value_or(""));
   TaskPlan plan;
-  if (!(text >> plan.tasks >> plan.levels)) return std::nullopt;
+  if (!(text >> plan.tasks >> plan.levels >> plan.tile_points >> plan.reads)) return std::nullopt;
   return plan;
+}
+
+Config with_planned_tiles(Config config) {
+  const fs::path folder = config.run.workspace;
+  if (!folder.empty() && config.run.tile_points == 0)
+    config.run.tile_points = static_cast<std::int64_t>(read_plan(folder).value_or(TaskPlan()).tile_points);
+  return config;
 }
 
 fs::path earlier_run(const fs::path& folder) {
@@ -171,10 +189,10 @@ void begin_update(const fs::path& folder) {
   const auto move = [&](const char* name) {
     if (!error && fs::exists(folder / name)) fs::rename(folder / name, earlier / name, error);
   };
-  for (const fs::path& file : workspace_files(folder)) {
-    if (level_of_part(file) || level_of_outputs(file) || file.has_extension()) remove_part(file);
-  }
   for (const char* note : kNotes) move(note);
+  for (const fs::path& file : workspace_files(folder)) {
+    if (file.filename() != kRun) remove_part(file);
+  }
   move(kRun);  // last: with it, the folder is a workspace
   if (error)
     throw Error(earlier.string() + ": the data of the run cannot be moved there: " + error.message());

@@ -7,6 +7,7 @@
 
 #include "engine/config/config.hpp"
 #include "engine/model/points.hpp"
+#include "engine/model/task_share.hpp"
 #include "engine/store/sealed_part.hpp"
 
 #include <cstddef>
@@ -20,13 +21,23 @@ namespace lacuna {
 
 // How several processes share a run.
 struct TaskPlan {
-  std::size_t tasks = 1;   // of each step that is shared
-  std::size_t levels = 0;  // whose steps are shared, from the first level on
+  std::size_t tasks = 1;          // of each step that is shared
+  std::size_t levels = 0;         // whose steps are shared, from the first level on
+  std::uint64_t tile_points = 0;  // of each task's tiles, at most
+  bool reads = false;             // whether reading the scan is shared
 };
 
-// Returns how many tasks make a level above the first one.
+// Returns the fingerprint of a part that one of several tasks makes.
+Digest digest_of(const std::string& made_from, const TaskShare& share);
+// Returns a checksum as a line of what another part is made from.
+std::string line_of(const Digest& checksum);
+
+// Returns the config with tiles as large as the plan of its workspace has them, unless it says how large.
+Config with_planned_tiles(Config config);
+
+// Returns how many tasks make a level.
 inline std::size_t tasks_of(std::size_t level, const TaskPlan& plan) {
-  return level < plan.levels ? plan.tasks : 1;
+  return level < plan.levels && (level > 0 || plan.reads) ? plan.tasks : 1;
 }
 
 // Where a run keeps its sealed parts.

@@ -68,6 +68,7 @@ FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint6
   }
   choose_crs();
   choose_z_factors();
+  last_file_ = files_.size();
 }
 
 // A code states the units that a file does not.
@@ -160,9 +161,24 @@ void FileScan::refuse_too_far(const PointBatch& batch) const {
   throw Error(message.str());
 }
 
+std::vector<std::uint64_t> FileScan::parts() const {
+  constexpr std::uint64_t kBytesOfLine = 24;
+  std::vector<std::uint64_t> parts;
+  for (std::size_t file = 0; file < files_.size(); ++file)
+    parts.push_back(expected_rows_[file].value_or(states_[file].size / kBytesOfLine));
+  return parts;
+}
+
+void FileScan::select(std::size_t first, std::size_t last, PointId id) {
+  first_file_ = first;
+  last_file_ = last;
+  first_id_ = id;
+  std::fill(rows_read_.begin(), rows_read_.end(), 0);
+}
+
 void FileScan::rewind() {
-  file_ = 0;
-  next_id_ = 0;
+  file_ = first_file_;
+  next_id_ = value(first_id_);
   reader_.reset();
   filtered_out_ = {};
   before_filters_ = {};
@@ -174,7 +190,7 @@ bool FileScan::next(PointBatch& batch) {
   batch.first = PointId{next_id_};
   batch.positions.clear();
   batch.normals.clear();
-  for (; file_ < files_.size(); ++file_, reader_.reset()) {
+  for (; file_ < last_file_; ++file_, reader_.reset()) {
     if (!reader_) {
       reader_ = open(file_);
       rows_read_[file_] = 0;
@@ -198,6 +214,7 @@ bool FileScan::next(PointBatch& batch) {
     next_id_ += rows_.count;
     return true;
   }
+  if (last_file_ - first_file_ < files_.size()) return false;  // other files may have points
   if (filtered_out_.total() > 0 && before_filters_.kept == 0)
     throw Error(describe_no_row_left(config_, filtered_out_, before_filters_));
   if (!has_point_ && !files_.empty() && !arrays_[0]) throw Error(describe_no_point());

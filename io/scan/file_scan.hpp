@@ -69,6 +69,9 @@ class LACUNA_API FileScan : public PointSource {
   std::optional<std::uint64_t> expected_points() const override;
   bool has_normals() const override;   // any file has nx ny nz
   bool reads_slowly() const override;  // any file does
+  // Returns the rows of each file as its header declares. For text, they are as many as short lines allow.
+  std::vector<std::uint64_t> parts() const override;
+  void select(std::size_t first, std::size_t last, PointId id) override;
   // Returns name, size, time and a sample of each file, its pose, and the parameters of input. Returns
   // nothing if there are arrays.
   std::vector<std::string> identity() const override;
@@ -151,7 +154,9 @@ class LACUNA_API FileScan : public PointSource {
   bool has_normals_ = false, reads_slowly_ = false, has_scanners_ = false;
   std::vector<std::optional<std::uint64_t>> expected_rows_;
   std::optional<std::uint64_t> expected_points_;
-  std::vector<std::uint64_t> rows_read_;  // of each file, in this pass
+  std::vector<std::uint64_t> rows_read_;    // of each file, in this pass
+  std::size_t first_file_ = 0, last_file_;  // that passes read
+  PointId first_id_{};
   // where reading goes on
   std::size_t file_ = 0;
   std::uint64_t next_id_ = 0;

@@ -49,6 +49,7 @@ struct SharedRun {
     NoProgress quiet;
     return work(input, config, step, task, scratch.path(), quiet);
   }
+  Step step(const char* name) const { return step_of_name(name, config.run.workspace).value(); }
   std::string bytes() const { return run_engine(cloud, config).bytes(); }
   std::string expected() const {
     Config alone = config;
@@ -66,7 +67,7 @@ TEST_CASE("units of any number of tasks give the result of one process") {
     for (const std::size_t tasks : {1, 2, 7, 40}) {
       SharedRun run(method);
       const std::vector<Step> steps = run.planned(tasks);
-      CHECK(steps.size() == (method == LoopMethod::kPaper ? 2 : 6));
+      CHECK(steps.size() == (method == LoopMethod::kPaper ? 5 : 9));
       for (const Step& step : steps) {
         for (std::size_t task = step.tasks; task-- > 0;) CHECK(run.work_on(step, task));
       }
@@ -110,16 +111,15 @@ TEST_CASE("a step does not trust damaged outputs of the step before") {
   Random random(9);
   for (int round = 0; round < 20; ++round) {
     SharedRun run;
-    const std::vector<Step> steps = run.planned(2);
-    run.work_on(steps[0], 0);
-    for (std::size_t task = 0; task < 2; ++task) run.work_on(steps[1], task);
+    run.planned(2);
+    for (std::size_t task = 0; task < 2; ++task) run.work_on(run.step("evaluate-0"), task);
     for (const fs::path& file : workspace_files(run.config.run.workspace)) {
       if (!level_of_outputs(file)) continue;
       std::string content = test::read_file(file);
       content[static_cast<std::size_t>(random.whole(0, static_cast<std::int64_t>(content.size()) - 1))] ^= 8;
       fs::rename(run.folder.write("damaged", content), file);
     }
-    run.work_on(steps[2], 0);
+    run.work_on(run.step("level-1"), 0);
     INFO("round " << round);
     CHECK(run.bytes() == run.expected());
   }
@@ -127,10 +127,10 @@ TEST_CASE("a step does not trust damaged outputs of the step before") {
 
 TEST_CASE("the tasks of a step share its tiles: none is evaluated twice") {
   SharedRun run;
-  const std::vector<Step> steps = run.planned(5);
+  run.planned(5);
   std::size_t before = 0, all = 0;
   for (std::size_t task = 0; task < 5; ++task) {
-    run.work_on(steps[1], task);
+    run.work_on(run.step("evaluate-0"), task);
     const LevelState level = state_of_workspace(run.config.run.workspace)->levels.front();
     CHECK(level.evaluated > before);
     before = level.evaluated;
@@ -143,7 +143,7 @@ TEST_CASE("a level that the scan does not have is nothing to do") {
   SharedRun run;
   run.planned(2);
   CHECK_FALSE(run.work_on({.level = 60}, 0));
-  CHECK_FALSE(run.work_on({.level = 60, .evaluates = true, .tasks = 2}, 1));
+  CHECK_FALSE(run.work_on({.kind = Step::Kind::kEvaluate, .level = 60, .tasks = 2}, 1));
   CHECK(run.bytes() == run.expected());
 }
 
@@ -153,7 +153,7 @@ TEST_CASE("names of steps go forth and back, and others are none") {
     const std::optional<Step> read = step_of_name(step.name(), run.config.run.workspace);
     REQUIRE(read);
     CHECK(read->level == step.level);
-    CHECK(read->evaluates == step.evaluates);
+    CHECK(read->kind == step.kind);
     CHECK(read->tasks == step.tasks);
   }
   for (const char* name : {"", "level", "level-", "level--1", "evaluate-0x", "evaluate-500", "tiles-0"})

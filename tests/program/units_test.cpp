@@ -27,7 +27,8 @@ struct Shared {
   Shared() {
     folder.write("a.txt", test::sheet(300));
     folder.write("b.txt", "0 0 9\n0 1 9\n1 0 9\n");
-    folder.write("all.list", "a.txt\nb.txt pose=1 0 0 5 0 1 0 0 0 0 1 0\n");
+    folder.write("c.txt", "x y z nx ny nz\n2 2 7 0 0 1\n3 3 7 0 0 1\n900 3 7 0 0 1\n");
+    folder.write("all.list", "c.txt\na.txt\nb.txt pose=1 0 0 5 0 1 0 0 0 0 1 0\n");
   }
   std::string list() const { return std::string("@").append((folder / "all.list").string()); }
   ProgramResult plan(std::vector<std::string> more = {}) const {
@@ -39,7 +40,8 @@ struct Shared {
 
 TEST_CASE("plan, work and finish give the files of detect") {
   const Shared run;
-  const ProgramResult planned = run.plan({"--tsv", "--points", "--normals", "--k", "14"});
+  const ProgramResult planned =
+      run.plan({"--tsv", "--points", "--normals", "--k", "14", "--bounds", "0,0,290,290"});
   REQUIRE(planned.exit_code == 0);
   std::istringstream lines(planned.out);
   std::vector<std::string> steps;
@@ -57,14 +59,14 @@ TEST_CASE("plan, work and finish give the files of detect") {
       CHECK_THAT(worked.out, Contains(step + ", task " + std::to_string(task) + ": done"));
     }
   }
-  CHECK(steps == std::vector<std::string>{"level-0", "evaluate-0", "finish"});
+  CHECK(steps == std::vector<std::string>{"survey", "tiles", "bucket", "level-0", "evaluate-0", "finish"});
   const ProgramResult finished =
       run_program({"finish", run.workspace, "--out", (run.folder / "out").string(), "--quiet"});
   INFO(finished.err);
   REQUIRE(finished.exit_code == 0);
   const fs::path alone = run.folder / "alone";
   REQUIRE(run_program({"detect", run.list(), "--out", alone.string(), "--points", "--normals", "--k", "14",
-                       "--quiet"})
+                       "--bounds", "0,0,290,290", "--quiet"})
               .exit_code == 0);
   CHECK(fs::exists(alone / "points" / "a.csv"));
   test::check_same_results(run.folder / "out", alone);

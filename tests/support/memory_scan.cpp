@@ -8,15 +8,27 @@
 namespace lacuna {
 
 bool MemoryScan::next(PointBatch& batch) {
-  const std::size_t end = std::min(next_ + batch_, cloud_.size());
+  const std::size_t end = std::min(next_ + batch_, end_);
   const auto part = [&](const std::vector<Eigen::Vector3d>& all) {
     if (all.empty()) return std::vector<Eigen::Vector3d>{};
     return std::vector(all.begin() + static_cast<std::ptrdiff_t>(next_),
                        all.begin() + static_cast<std::ptrdiff_t>(end));
   };
-  batch = {PointId{next_}, {}, part(cloud_.positions), part(cloud_.normals)};
+  batch = {PointId{value(id_) + next_ - first_}, {}, part(cloud_.positions), part(cloud_.normals)};
   next_ = end;
   return batch.size() > 0;
+}
+
+std::vector<std::uint64_t> MemoryScan::parts() const {
+  std::vector<std::uint64_t> parts;
+  for (std::size_t part = 0; part < kParts; ++part) parts.push_back(first_of(part + 1) - first_of(part));
+  return parts;
+}
+
+void MemoryScan::select(std::size_t first, std::size_t last, PointId id) {
+  next_ = first_ = first_of(first);
+  end_ = first_of(last);
+  id_ = id;
 }
 
 std::vector<std::string> MemoryScan::identity() const {

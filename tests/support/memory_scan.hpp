@@ -14,16 +14,23 @@ class MemoryScan final : public PointSource {
  public:
   explicit MemoryScan(const Cloud& cloud, std::size_t batch = 1000) : cloud_(cloud), batch_(batch) {}
 
-  void rewind() override { next_ = 0; }
+  void rewind() override { next_ = first_; }
   bool next(PointBatch& batch) override;
   std::optional<std::uint64_t> expected_points() const override { return cloud_.size(); }
   bool has_normals() const override { return !cloud_.normals.empty(); }
+  std::vector<std::uint64_t> parts() const override;
+  void select(std::size_t first, std::size_t last, PointId id) override;
   std::vector<std::string> identity() const override;
 
  private:
+  static constexpr std::size_t kParts = 5;  // of equal sizes
+  std::size_t first_of(std::size_t part) const { return cloud_.size() * part / kParts; }
+
   const Cloud& cloud_;
   std::size_t batch_;
   std::size_t next_ = 0;
+  std::size_t first_ = 0, end_ = cloud_.size();
+  PointId id_{};
 };
 
 }  // namespace lacuna

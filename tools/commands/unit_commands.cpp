@@ -19,6 +19,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -28,15 +29,6 @@ using namespace io;
 namespace {
 
 namespace fs = std::filesystem;
-
-// Returns the rows that headers declare; for text files, as many as their size allows for short lines.
-std::uint64_t about_points(const FileScan& scan) {
-  constexpr std::uint64_t kBytesOfLine = 24;
-  std::uint64_t points = 0;
-  for (std::size_t file = 0; file < scan.files().size(); ++file)
-    points += scan.expected_rows()[file].value_or(fs::file_size(scan.files()[file]) / kBytesOfLine);
-  return points;
-}
 
 // Returns whole minutes that a task takes at most. A whole run on its points takes more than twice as long as
 // a step, and is the bound.
@@ -70,7 +62,7 @@ void print_plan(const PlanArguments& arguments, const std::vector<Step>& steps, 
   std::uint64_t all = 0;
   for (const Step& step : steps) {
     add(step.name(), step.tasks, step.points, minutes_of(step, scan, config));
-    all += step.evaluates ? step.points : 0;
+    all += step.kind == Step::Kind::kEvaluate ? step.points : 0;
   }
   // All tiles are read again, and their loops found; the levels that are no steps are made.
   add("finish", 1, all, minutes_of({.points = all}, scan, config));
@@ -88,7 +80,9 @@ void run_plan(const PlanArguments& arguments) {
   config.run.note = print_config(config);
   const MadeFolder folder(workspace);
   const FolderLock alone(folder.path());
-  print_plan(arguments, plan(*scan, config, arguments.tasks, about_points(*scan)), *scan, config);
+  const std::vector<std::uint64_t> parts = scan->parts();
+  const std::uint64_t points = std::accumulate(parts.begin(), parts.end(), std::uint64_t{0});
+  print_plan(arguments, plan(*scan, config, arguments.tasks, points), *scan, config);
 }
 
 struct WorkArguments {

@@ -2,6 +2,7 @@
 // The levels of a scan: which lattices, and which points.
 #include "engine/thin/level.hpp"
 
+#include "engine/first_level.hpp"
 #include "engine/pipeline_steps.hpp"
 #include "engine/thin/thin.hpp"
 #include "tests/support/clouds.hpp"

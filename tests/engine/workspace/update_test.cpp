@@ -2,6 +2,7 @@
 // A run in the workspace of another one, whose input has changed, gives the result of a run from nothing.
 #include "engine/consumers.hpp"
 #include "engine/pipeline.hpp"
+#include "engine/first_level.hpp"
 #include "engine/pipeline_steps.hpp"
 #include "engine/workspace/workspace.hpp"
 #include "tests/support/clouds.hpp"

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/first_level.hpp"
+
+#include "engine/bucket/bucket_scan.hpp"
+#include "engine/halo/eps_balls.hpp"
+#include "engine/run/error.hpp"
+#include "engine/store/kept_scan.hpp"
+#include "engine/survey/survey_scan.hpp"
+#include "engine/thin/thin.hpp"
+#include "engine/workspace/sealed_level.hpp"
+#include "engine/workspace/sealed_scan.hpp"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lacuna {
+namespace {
+
+Level level_of(SurveyedScan survey, std::uint64_t tile_points, TileStore store) {
+  const double extent = extent_of(survey.bounds);
+  return {.survey = std::move(survey),
+          .extent = extent,
+          .tile_points = tile_points,
+          .store = std::move(store),
+          .represented = {}};
+}
+
+// Brings all points of the scan into tiles on disk.
+Level bucket_points(PointSource& scan, StoreFiles files, Job& job) {
+  if (scan.reads_slowly()) {
+    KeptScan kept(scan, job.file("input"));
+    return bucket_points(kept, std::move(files), job);
+  }
+  SurveyedScan survey = survey_scan(scan, job);
+  const TilePlan plan = plan_tiles(survey, job);
+  TileStore store = bucket_scan(scan, plan, survey.bounds, survey.precision(), std::move(files), job);
+  return level_of(std::move(survey), plan.tile_points, std::move(store));
+}
+
+IndexRange parts_of(const PointSource& scan, const TaskShare& share) {
+  return share_of(scan.parts(), share);
+}
+
+SealedSurvey shared_survey(PointSource& scan, const TaskShare& share, const Workspace& workspace, Job& job) {
+  if (std::optional<SealedSurvey> sealed = open_survey(share, workspace)) return *std::move(sealed);
+  const SurveyedScan survey = survey_parts(scan, parts_of(scan, share), job);
+  seal_survey(survey, scan.pass_counts(), share, workspace);
+  return open_survey(share, workspace).value();
+}
+
+SealedPlan shared_plan(PointSource& scan, const Workspace& workspace, Job& job) {
+  const std::size_t tasks = workspace.plan.tasks;
+  if (const std::optional<std::string> seals = seals_of_surveys(tasks, workspace)) {
+    if (std::optional<SealedPlan> kept = open_plan(*seals, workspace)) return *std::move(kept);
+  }
+  std::string seals;
+  SealedPlan sealed;
+  std::uint64_t first_id = 0;
+  sealed.survey = merge_surveys(
+      tasks,
+      [&](std::size_t task) {
+        SealedSurvey part = shared_survey(scan, {task, tasks}, workspace, job);
+        seals += part.seal;
+        sealed.first_ids.push_back(first_id);
+        first_id += part.survey.ids;
+        sealed.pass_counts.resize(part.pass_counts.size());
+        for (std::size_t i = 0; i < part.pass_counts.size(); ++i)
+          sealed.pass_counts[i] += part.pass_counts[i];
+        return std::move(part.survey);
+      },
+      scan.expected_points(), job);
+  if (sealed.survey.points == sealed.survey.dropped) {  // the source says so in its own words
+    scan.select(0, scan.parts().size(), PointId{0});
+    survey_scan(scan, job);
+  }
+  sealed.plan = plan_tiles(sealed.survey, job);
+  seal_plan(sealed, seals, workspace);
+  return sealed;
+}
+
+PartReader shared_points(PointSource& scan, const SealedPlan& sealed, const TaskShare& share,
+                         const Workspace& workspace, Job& job) {
+  if (std::optional<PartReader> part = open_scattered(share, sealed.seal, workspace)) return *std::move(part);
+  const IndexRange parts = parts_of(scan, share);
+  scan.select(parts.first, parts.last, PointId{sealed.first_ids[share.task]});
+  ScatteredLists lists(sealed.plan.tiles.size() + sealed.plan.groups(), job);
+  scatter_points(
+      scan, sealed.plan,
+      [&](std::size_t place, std::span<const StoredPoint> points, std::span<const StoredNormal> normals) {
+        lists.take(place, points, normals);
+      },
+      job);
+  lists.seal(share, sealed.seal, workspace);
+  return open_scattered(share, sealed.seal, workspace).value();
+}
+
+}  // namespace
+
+bool can_share_reading(const PointSource& scan, const Config& config) {
+  return !scan.parts().empty() && first_edge(config.scale) == 0;
+}
+
+void survey_share(PointSource& scan, const TaskShare& share, const Workspace& workspace, Job& job) {
+  shared_survey(scan, share, workspace, job);
+}
+
+void plan_shared_tiles(PointSource& scan, const Workspace& workspace, Job& job) {
+  shared_plan(scan, workspace, job);
+}
+
+void scatter_share(PointSource& scan, const TaskShare& share, const Workspace& workspace, Job& job) {
+  shared_points(scan, shared_plan(scan, workspace, job), share, workspace, job);
+}
+
+void store_share(PointSource& scan, const TaskShare& share, const Workspace& workspace, Job& job) {
+  if (has_part(0, share, workspace.made_from, workspace, job)) return;
+  const SealedPlan sealed = shared_plan(scan, workspace, job);
+  std::vector<PartReader> parts;
+  for (std::size_t task = 0; task < share.tasks; ++task)
+    parts.push_back(shared_points(scan, sealed, {task, share.tasks}, workspace, job));
+  const auto for_each = [&](std::size_t place, const VisitPoints& visit) {
+    for (const PartReader& part : parts) visit_scattered(part, place, visit);
+  };
+  TileStore store = store_tiles(sealed.plan, share, sealed.survey.bounds, sealed.survey.precision(),
+                                scan.has_normals(), for_each, level_files(0, workspace, job), job);
+  Level level = level_of(sealed.survey, sealed.plan.tile_points, std::move(store));
+  level.input = sealed.pass_counts;
+  seal_part(level, share, workspace.made_from, workspace, job);
+}
+
+Level first_level(PointSource& scan, const Workspace& workspace, Job& job) {
+  std::optional<Level> kept = open_level(0, workspace.made_from, workspace, job);
+  if (!kept && workspace.plan.reads) {
+    for (std::size_t task = 0; task < workspace.plan.tasks; ++task)
+      store_share(scan, {task, workspace.plan.tasks}, workspace, job);
+    scan.select(0, scan.parts().size(), PointId{0});
+    kept = open_level(0, workspace.made_from, workspace, job);
+  }
+  if (kept) {
+    scan.set_pass_counts(kept->input);
+    if (workspace.plan.reads) remove_scan_parts(workspace);
+    return *std::move(kept);
+  }
+  const bool is_thinned = first_edge(job.config.scale) > 0;
+  Level all = bucket_points(scan, is_thinned ? temporary_files(job) : level_files(0, workspace, job), job);
+  Level level = is_thinned ? thin_to_first(all, level_files(0, workspace, job), job) : std::move(all);
+  level.input = scan.pass_counts();
+  seal_part(level, {}, workspace.made_from, workspace, job);
+  return level;
+}
+
+}  // namespace lacuna

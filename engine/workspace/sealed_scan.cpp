@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/workspace/sealed_scan.hpp"
+
+#include "engine/store/sealed_part.hpp"
+#include "engine/workspace/stored_survey.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <span>
+#include <utility>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kScattered = "points", kWithNormals = "points with normals";
+
+struct StoredCount {
+  CellCoord coord;
+  std::uint32_t points;
+  std::uint32_t is_far;
+};
+
+std::vector<StoredCount> stored(std::span<const CountedCell> cells) {
+  std::vector<StoredCount> stored;
+  stored.reserve(cells.size());
+  for (const CountedCell& cell : cells) stored.push_back({cell.coord, cell.points, cell.is_far});
+  return stored;
+}
+
+std::vector<CountedCell> counted(const PartReader& part, std::string_view stream) {
+  std::vector<CountedCell> cells;
+  cells.reserve(part.size(stream, 0) / sizeof(StoredCount));
+  part.for_each<StoredCount>(stream, 0, [&](std::span<const StoredCount> some) {
+    for (const StoredCount& cell : some) cells.push_back({cell.coord, cell.points, cell.is_far != 0});
+  });
+  return cells;
+}
+
+struct StoredPlan {
+  StoredSurvey survey;
+  std::uint64_t heavy, points, tile_points, cell_points;
+};
+
+fs::path survey_path(const Workspace& workspace, std::size_t task) {
+  return workspace.folder / ("survey-" + std::to_string(task));
+}
+fs::path plan_path(const Workspace& workspace) {
+  return workspace.folder / "tiles";
+}
+fs::path scattered_path(const Workspace& workspace, std::size_t task) {
+  return workspace.folder / ("bucket-" + std::to_string(task));
+}
+
+template <class Record>
+void add(PartWriter& part, std::string_view stream, const std::vector<Record>& records) {
+  part.add(stream, 0, std::span<const Record>(records));
+}
+
+}  // namespace
+
+void seal_survey(const SurveyedScan& survey, const std::vector<std::uint64_t>& pass_counts,
+                 const TaskShare& share, const Workspace& workspace) {
+  PartWriter part(survey_path(workspace, share.task));
+  const StoredSurvey record(survey);
+  part.add("survey", 0, std::span<const StoredSurvey>(&record, 1));
+  add(part, "cells", stored(survey.cells));
+  add(part, "input", pass_counts);
+  part.seal(digest_of(workspace.made_from, share));
+}
+
+std::optional<SealedSurvey> open_survey(const TaskShare& share, const Workspace& workspace) {
+  const std::optional<PartReader> part =
+      PartReader::open(survey_path(workspace, share.task), digest_of(workspace.made_from, share));
+  if (!part) return std::nullopt;
+  SealedSurvey sealed{.survey = part->records<StoredSurvey>("survey", 0).at(0).survey(),
+                      .pass_counts = part->records<std::uint64_t>("input", 0),
+                      .seal = line_of(part->checksum())};
+  sealed.survey.cells = counted(*part, "cells");
+  return sealed;
+}
+
+std::optional<std::string> seals_of_surveys(std::size_t tasks, const Workspace& workspace) {
+  std::string seals;
+  for (std::size_t task = 0; task < tasks; ++task) {
+    const std::optional<PartReader> part = PartReader::open(
+        survey_path(workspace, task), digest_of(workspace.made_from, TaskShare{task, tasks}));
+    if (!part) return std::nullopt;
+    seals += line_of(part->checksum());
+  }
+  return seals;
+}
+
+void seal_plan(SealedPlan& sealed, const std::string& made_from, const Workspace& workspace) {
+  PartWriter part(plan_path(workspace));
+  const TilePlan& plan = sealed.plan;
+  const StoredPlan record{.survey = StoredSurvey(sealed.survey),
+                          .heavy = plan.heavy,
+                          .points = plan.points,
+                          .tile_points = plan.tile_points,
+                          .cell_points = plan.cell_points};
+  part.add("plan", 0, std::span<const StoredPlan>(&record, 1));
+  add(part, "cells", stored(plan.cells));
+  add(part, "aside", stored(plan.aside));
+  add(part, "tiles", plan.tiles);
+  add(part, "input", sealed.pass_counts);
+  add(part, "first ids", sealed.first_ids);
+  sealed.seal = line_of(part.seal(digest_of(made_from)));
+}
+
+std::optional<SealedPlan> open_plan(const std::string& made_from, const Workspace& workspace) {
+  const std::optional<PartReader> part = PartReader::open(plan_path(workspace), digest_of(made_from));
+  if (!part) return std::nullopt;
+  const StoredPlan record = part->records<StoredPlan>("plan", 0).at(0);
+  SealedPlan sealed{.plan = {},
+                    .survey = record.survey.survey(),
+                    .pass_counts = part->records<std::uint64_t>("input", 0),
+                    .first_ids = part->records<std::uint64_t>("first ids", 0),
+                    .seal = line_of(part->checksum())};
+  sealed.plan = {.grid = sealed.survey.grid,
+                 .cells = counted(*part, "cells"),
+                 .tiles = part->records<Tile>("tiles", 0),
+                 .aside = counted(*part, "aside"),
+                 .heavy = record.heavy,
+                 .points = record.points,
+                 .tile_points = record.tile_points,
+                 .cell_points = record.cell_points};
+  return sealed;
+}
+
+ScatteredLists::ScatteredLists(std::size_t places, const Job& job)
+    : points_(job.file("scattered"), places, job.lists),
+      with_normals_(job.file("scattered-normals"), places, job.lists) {}
+
+void ScatteredLists::take(std::size_t place, std::span<const StoredPoint> points,
+                          std::span<const StoredNormal> normals) {
+  if (normals.empty()) {
+    points_.append(place, points);
+    return;
+  }
+  std::vector<PointWithNormal> both;
+  both.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) both.push_back({points[i], normals[i]});
+  with_normals_.append(place, both);
+}
+
+void ScatteredLists::seal(const TaskShare& share, const std::string& made_from,
+                          const Workspace& workspace) const {
+  PartWriter part(scattered_path(workspace, share.task));
+  for (std::size_t place = 0; place < points_.lists(); ++place) {
+    add_in_blocks<StoredPoint>(part, kScattered, place,
+                               [&](auto&& visit) { points_.for_each(place, visit); });
+    add_in_blocks<PointWithNormal>(part, kWithNormals, place,
+                                   [&](auto&& visit) { with_normals_.for_each(place, visit); });
+  }
+  part.seal(digest_of(made_from, share));
+}
+
+std::optional<PartReader> open_scattered(const TaskShare& share, const std::string& made_from,
+                                         const Workspace& workspace) {
+  return PartReader::open(scattered_path(workspace, share.task), digest_of(made_from, share));
+}
+
+void visit_scattered(const PartReader& part, std::size_t place, const VisitPoints& visit) {
+  part.for_each<StoredPoint>(kScattered, place, [&](std::span<const StoredPoint> some) {
+    visit({{some.begin(), some.end()}, {}});
+  });
+  part.for_each<PointWithNormal>(kWithNormals, place, [&](std::span<const PointWithNormal> some) {
+    ScatteredPoints points;
+    for (const PointWithNormal& p : some) {
+      points.points.push_back(p.point);
+      points.normals.push_back(p.normal);
+    }
+    visit(points);
+  });
+}
+
+void remove_scan_parts(const Workspace& workspace) {
+  for (const fs::path& file : workspace_files(workspace.folder)) {
+    const std::string name = file.filename().string();
+    if (name == "tiles" || name.starts_with("survey-") || name.starts_with("bucket-")) remove_part(file);
+  }
+}
+
+}  // namespace lacuna
