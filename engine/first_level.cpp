@@ -39,6 +39,13 @@ Level bucket_points(PointSource& scan, StoreFiles files, Job& job) {
   return level_of(std::move(survey), plan.tile_points, std::move(store));
 }
 
+// Returns a part that was sealed a moment ago.
+template <class Part>
+Part found(std::optional<Part> part, const Workspace& workspace) {
+  if (!part) fail_replaced(workspace);
+  return *std::move(part);
+}
+
 IndexRange parts_of(const PointSource& scan, const TaskShare& share) {
   return share_of(scan.parts(), share);
 }
@@ -47,7 +54,7 @@ SealedSurvey shared_survey(PointSource& scan, const TaskShare& share, const Work
   if (std::optional<SealedSurvey> sealed = open_survey(share, workspace)) return *std::move(sealed);
   const SurveyedScan survey = survey_parts(scan, parts_of(scan, share), job);
   seal_survey(survey, scan.pass_counts(), share, workspace);
-  return open_survey(share, workspace).value();
+  return found(open_survey(share, workspace), workspace);
 }
 
 SealedPlan shared_plan(PointSource& scan, const Workspace& workspace, Job& job) {
@@ -93,7 +100,7 @@ PartReader shared_points(PointSource& scan, const SealedPlan& sealed, const Task
       },
       job);
   lists.seal(share, sealed.seal, workspace);
-  return open_scattered(share, sealed.seal, workspace).value();
+  return found(open_scattered(share, sealed.seal, workspace), workspace);
 }
 
 }  // namespace

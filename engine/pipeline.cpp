@@ -99,9 +99,7 @@ std::optional<Level> level_above(const Level& below, const Totals& totals, const
         thin_level(below, totals, {task, tasks}, workspace, job);
     }
     level = open_level(number, from, workspace, job);
-    if (!level)
-      throw Error(workspace.folder.string() +
-                  ": another process has replaced parts of it; the same command goes on from there");
+    if (!level) fail_replaced(workspace);
   }
   return level->store.tiling().points() >= kFewestOfLevel ? std::move(level) : std::nullopt;
 }

@@ -43,8 +43,8 @@ Totals totals_of(const Level& level, const Workspace& workspace, Job& job) {
 }
 
 std::optional<Level> make_level(std::size_t number, PointSource& scan, const Workspace& workspace, Job& job) {
-  if (std::optional<Level> kept = find_level(number, workspace, job)) return kept;
   if (number == 0) return first_level(scan, workspace, job);
+  if (std::optional<Level> kept = find_level(number, workspace, job)) return kept;
   const std::optional<Level> below = make_level(number - 1, scan, workspace, job);
   if (!below) return std::nullopt;
   return level_above(*below, totals_of(*below, workspace, job), workspace, job);

@@ -26,8 +26,8 @@ TileStore bucket_scan(PointSource& scan, const TilePlan& plan, const Eigen::Alig
 
 // Several tasks may do so, in two steps: they scatter the points of parts of the scan, and then store tiles.
 
-// Points on their way to a place: a tile of the plan, or, from the number of tiles on, a group of points that
-// are set aside.
+// Points on their way to a place. Places are the tiles of the plan, and then its groups of points that are set
+// aside.
 struct ScatteredPoints {
   std::vector<StoredPoint> points;
   std::vector<StoredNormal> normals;

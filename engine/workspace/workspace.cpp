@@ -267,6 +267,11 @@ std::vector<fs::path> workspace_files(const fs::path& folder) {
   return files;
 }
 
+void fail_replaced(const Workspace& workspace) {
+  throw Error(workspace.folder.string() +
+              ": another process has replaced parts of it; the same command goes on from there");
+}
+
 void remove_part(const fs::path& file) {
   std::error_code error;
   fs::remove(file, error);

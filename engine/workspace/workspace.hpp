@@ -107,6 +107,9 @@ std::optional<std::size_t> level_of_outputs(const std::filesystem::path& file);
 // Returns the files of a workspace, without others in the folder. Returns nothing where it is no workspace.
 std::vector<std::filesystem::path> workspace_files(const std::filesystem::path& folder);
 
+// Fails because a part is gone that this process has sealed.
+[[noreturn]] void fail_replaced(const Workspace& workspace);
+
 // Removes one of the files.
 void remove_part(const std::filesystem::path& file);
 

@@ -28,6 +28,9 @@ RESULTS = ["holes.json", "holes.csv", "loops.ply", "boundary.ply", "sample.ply",
 LONGEST = 90  # seconds of a run, beyond which it hangs
 SIGNALS = [signal.SIGKILL, signal.SIGTERM, signal.SIGINT]
 TASKS = 3
+# Level 1 has so few points that one task makes it.
+STEPS = {"survey": TASKS, "tiles": 1, "bucket": TASKS, "level-0": TASKS, "evaluate-0": TASKS, "level-1": 1,
+         "evaluate-1": TASKS}
 BOX = "1.2,1.2,-9,1.45,1.45,9"
 UPDATES = ["add", "leave-out", "replace"]
 
@@ -138,13 +141,10 @@ class Slot:
         self.clear()
         self.do(self.plan(), "plan")
         self.keep("planned")
-        for level in range(2):
-            for task in range(TASKS if level > 0 else 1):
-                self.do(self.work("level-%d" % level, task), "level-%d" % level)
-            self.keep("level-%d" % level)
-            for task in range(TASKS):
-                self.do(self.work("evaluate-%d" % level, task), "evaluate-%d" % level)
-            self.keep("evaluate-%d" % level)
+        for step, tasks in STEPS.items():
+            for task in range(tasks):
+                self.do(self.work(step, task), step)
+            self.keep(step)
         self.do(self.finish(), "finish")
         self.must_be("detect")
 
@@ -239,12 +239,12 @@ def case_of(slot, name, draw):
     if name.startswith("update"):
         kind = name.partition(" ")[2] or draw.choice(UPDATES)
         return Case("update --" + kind, "done", slot.update(kind), kind, slot.seconds["update " + kind])
-    before = {"level-0": "planned", "evaluate-0": "level-0", "level-1": "evaluate-0", "evaluate-1": "level-1"}
-    return Case("work " + name, before[name], slot.work(name, draw.randrange(TASKS) if "eval" in name else 0),
-                "detect", slot.seconds[name], True)
+    before = dict(zip(STEPS, ["planned", *STEPS]))
+    return Case("work " + name, before[name], slot.work(name, draw.randrange(STEPS[name])), "detect",
+                slot.seconds[name], True)
 
 
-COMMANDS = ["detect", "plan", "level-0", "evaluate-0", "level-1", "evaluate-1", "finish", "update"]
+COMMANDS = ["detect", "plan", *STEPS, "finish", "update"]
 
 
 class Count:
@@ -345,8 +345,8 @@ def kill_once(setting, arguments, seconds, sent, draw):
 
 def kills(share, count, add_job):
     """SIGKILL, SIGTERM and SIGINT come at random moments, at times several in a row."""
-    share_of = {"detect": 120, "plan": 20, "level-0": 50, "evaluate-0": 60, "level-1": 60, "evaluate-1": 50,
-                "finish": 80, "update": 120}
+    share_of = {"detect": 120, "plan": 20, "survey": 20, "tiles": 10, "bucket": 30, "level-0": 40, "evaluate-0": 50,
+                "level-1": 50, "evaluate-1": 40, "finish": 80, "update": 120}
     for name in COMMANDS:
         for i in range(max(1, round(share_of[name] * share / 1.9))):
             def job(slot, draw, name=name):
@@ -642,7 +642,7 @@ def damage(share, count, add_job):
             note = "%s: %s" % (case.name, done)
             count.add(row, tried=1)
             if what == "work, then finish":
-                step = draw.choice(["level-0", "evaluate-0", "level-1", "evaluate-1"])
+                step = draw.choice(list(STEPS))
                 note = "work %s: %s" % (step, done)
                 run = slot.setting.run(slot.work(step))
                 if run.code != 0 and not run.is_clear_failure():
@@ -686,8 +686,7 @@ def damaged_counts(share, count, add_job):
 def two_at_once(share, count, add_job):
     """Two of each command on one workspace, and work while finish runs."""
     pairs = [("detect", "detect")] * 2 + [("update", "update"), ("update", "detect"), ("finish", "finish")]
-    pairs += [(step, step) for step in ("level-0", "evaluate-0", "level-1", "evaluate-1")]
-    pairs += [(step, "finish") for step in ("level-0", "evaluate-0", "level-1", "evaluate-1")]
+    pairs += [(step, step) for step in STEPS] + [(step, "finish") for step in STEPS]
     for names in pairs:
         for i in range(max(1, round(5 * share))):
             def job(slot, draw, names=names):

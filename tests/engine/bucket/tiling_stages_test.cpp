@@ -106,6 +106,35 @@ TEST_CASE("cells merge while they need more memory than allowed, and no point is
   CHECK(before > 8);
 }
 
+TEST_CASE("surveys of parts of a scan add up to the survey of the scan, in whatever memory each was made") {
+  const Cloud cloud = scattered(20'000, 6).with_outliers(40, 30, 2).with_unusable(10, 1).shuffled(3);
+  for (const std::size_t parts : {1, 2, 7}) {
+    for (const std::uint64_t memory : {std::uint64_t{1} << 30, std::uint64_t{1} << 20}) {
+      Survey merged(1 << 30, cloud.size());
+      MemoryScan scan(cloud);
+      PointBatch first;
+      scan.next(first);
+      for (std::size_t part = 0; part < parts; ++part) {
+        Survey survey(part % 2 == 0 ? memory : 1 << 30, cloud.size());
+        survey.choose_size(first);
+        MemoryScan own(cloud);
+        PointBatch points;
+        for (std::size_t batch = 0; own.next(points); ++batch) {
+          points.first = PointId{value(points.first) % 1000};  // ids of a part count from 0
+          if (batch * parts / 21 == part) survey.add(points);
+        }
+        merged.add(survey.counts());
+      }
+      const SurveyedScan found = merged.finish();
+      INFO(parts << " parts, " << memory << " bytes");
+      CHECK(found.points == cloud.size());
+      CHECK(found.dropped == survey(cloud).dropped);
+      CHECK(found.bounds.isApprox(survey(cloud).bounds, 0));
+      check_counts(cloud, found);
+    }
+  }
+}
+
 TEST_CASE("cells hold about sixteen points on average, save where they cannot merge") {
   const SurveyedScan scan = survey(scattered(20'000, 3).scaled(10));
   CHECK(scan.cells.size() * Survey::kPointsPerCell <= 20'000);
