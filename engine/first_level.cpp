@@ -28,14 +28,18 @@ Level level_of(SurveyedScan survey, std::uint64_t tile_points, TileStore store) 
 }
 
 // Brings all points of the scan into tiles on disk.
-Level bucket_points(PointSource& scan, StoreFiles files, Job& job) {
-  if (scan.reads_slowly()) {
-    KeptScan kept(scan, job.file("input"));
-    return bucket_points(kept, std::move(files), job);
-  }
+Level bucket_points(PointSource& given, StoreFiles files, Job& job) {
+  std::optional<KeptScan> kept;
+  if (given.reads_slowly()) kept.emplace(given, job.file("input"));
+  PointSource& scan = kept ? *kept : given;
   SurveyedScan survey = survey_scan(scan, job);
   const TilePlan plan = plan_tiles(survey, job);
-  TileStore store = bucket_scan(scan, plan, survey.bounds, survey.precision(), std::move(files), job);
+  const ScatteredPoints scattered = scatter_points(scan, plan, survey.precision(), job);
+  kept.reset();
+  TileStore store = store_tiles(
+      plan, {}, survey.bounds, {survey.precision(), given.has_normals()},
+      [&](std::size_t place, const VisitPoints& visit) { scattered.for_each(place, visit); },
+      std::move(files), job);
   return level_of(std::move(survey), plan.tile_points, std::move(store));
 }
 
@@ -92,14 +96,8 @@ PartReader shared_points(PointSource& scan, const SealedPlan& sealed, const Task
   if (std::optional<PartReader> part = open_scattered(share, sealed.seal, workspace)) return *std::move(part);
   const IndexRange parts = parts_of(scan, share);
   scan.select(parts.first, parts.last, PointId{sealed.first_ids[share.task]});
-  ScatteredLists lists(sealed.plan.tiles.size() + sealed.plan.groups(), job);
-  scatter_points(
-      scan, sealed.plan,
-      [&](std::size_t place, std::span<const StoredPoint> points, std::span<const StoredNormal> normals) {
-        lists.take(place, points, normals);
-      },
-      job);
-  lists.seal(share, sealed.seal, workspace);
+  seal_scattered(scatter_points(scan, sealed.plan, sealed.survey.precision(), job), share, sealed.seal,
+                 workspace);
   return found(open_scattered(share, sealed.seal, workspace), workspace);
 }
 
@@ -127,11 +125,12 @@ void store_share(PointSource& scan, const TaskShare& share, const Workspace& wor
   std::vector<PartReader> parts;
   for (std::size_t task = 0; task < share.tasks; ++task)
     parts.push_back(shared_points(scan, sealed, {task, share.tasks}, workspace, job));
+  const PointForm form{sealed.survey.precision(), scan.has_normals()};
   const auto for_each = [&](std::size_t place, const VisitPoints& visit) {
-    for (const PartReader& part : parts) visit_scattered(part, place, visit);
+    for (const PartReader& part : parts) visit_scattered(part, place, form, visit);
   };
-  TileStore store = store_tiles(sealed.plan, share, sealed.survey.bounds, sealed.survey.precision(),
-                                scan.has_normals(), for_each, level_files(0, workspace, job), job);
+  TileStore store = store_tiles(sealed.plan, share, sealed.survey.bounds, form, for_each,
+                                level_files(0, workspace, job), job);
   Level level = level_of(sealed.survey, sealed.plan.tile_points, std::move(store));
   level.input = sealed.pass_counts;
   seal_part(level, share, workspace.made_from, workspace, job);

@@ -44,20 +44,20 @@ struct Destinations {
 };
 
 // The finite points of one batch, sorted by destination.
-struct Scattered {
+struct SortedBatch {
   PointBatch batch;
   std::vector<StoredPoint> points;
   std::vector<StoredNormal> normals;
   std::vector<std::uint32_t> ends;  // of each destination's points
 
-  void scatter(const Destinations& to);
+  void sort(const Destinations& to);
 
  private:
   std::vector<std::uint32_t> destinations;  // of each point of the batch; its cell at first
 };
 
 // Sorts by counting. Points that are not finite go behind the last destination, and are then removed.
-void Scattered::scatter(const Destinations& to) {
+void SortedBatch::sort(const Destinations& to) {
   destinations.resize(batch.size());
   to.index.find(batch.positions, destinations);
   ends.assign(to.end + 2, 0);
@@ -83,24 +83,17 @@ void Scattered::scatter(const Destinations& to) {
   ends.resize(to.end);
 }
 
-// Hands the points for places [first, last) over.
-void hand_over(const Scattered& batch, std::uint32_t first, std::uint32_t last, const TakePoints& take) {
-  std::uint32_t begin = first == 0 ? 0 : batch.ends[first - 1];
-  for (std::uint32_t place = first; place < last; ++place) {
+void append(const SortedBatch& batch, std::uint32_t places, ScatteredPoints& scattered) {
+  std::uint32_t begin = 0;
+  for (std::uint32_t place = 0; place < places; ++place) {
     const std::uint32_t count = batch.ends[place] - begin;
     if (count > 0) {
-      take(place, std::span(batch.points).subspan(begin, count),
-           batch.normals.empty() ? std::span<const StoredNormal>()
-                                 : std::span(batch.normals).subspan(begin, count));
+      scattered.add(place, std::span(batch.points).subspan(begin, count),
+                    batch.normals.empty() ? std::span<const StoredNormal>()
+                                          : std::span(batch.normals).subspan(begin, count));
     }
     begin += count;
   }
-}
-
-void set_aside(std::size_t group, std::span<const StoredPoint> points, std::span<const StoredNormal> normals,
-               SetAside& aside) {
-  for (std::size_t i = 0; i < points.size(); ++i)
-    aside.add(static_cast<std::uint32_t>(group), points[i], normals.empty() ? StoredNormal{} : normals[i]);
 }
 
 template <class Record>
@@ -125,46 +118,6 @@ std::vector<std::uint32_t> cells_of(std::span<const StoredPoint> points, const C
   return cells;
 }
 
-void scatter(PointSource& scan, const Destinations& to, const TakePoints& take, Job& job, Phase& phase) {
-  const MemoryLedger::Lease reading = job.ledger.take(job.memory.reading);
-  std::vector<Scattered> batches(kBatches);
-  scan.rewind();
-  job.arena.pipeline([&](std::size_t slot) { return scan.next(batches[slot].batch); },
-                     [&](std::size_t slot) {
-                       batches[slot].scatter(to);
-                       hand_over(batches[slot], 0, to.aside, take);
-                     },
-                     [&](std::size_t slot) {
-                       hand_over(batches[slot], to.aside, to.end, take);
-                       phase.advance(batches[slot].points.size());
-                     },
-                     kBatches);
-}
-
-// Stores the points of a tile in cell order. `cells`: the tile's cells in the plan, from the first of
-// `index`.
-void put_in_order(TileStore& store, TileIndex tile, const ScatteredPoints& raw, const CellIndex& index,
-                  const Tile& cells, const TilePlan& plan) {
-  OrderedTile ordered = order_tile(raw.points, cells_of(raw.points, index, cells),
-                                   cells.last_cell - cells.first_cell, plan.grid, plan.cell_points);
-  store.put(tile, pick(raw.points, ordered.order),
-            store.has_normals() ? pick(raw.normals, ordered.order) : raw.normals, std::move(ordered.cells));
-  store.add_duplicates(tile, ordered.duplicates);
-}
-
-std::vector<std::uint64_t> needs_of(std::span<const Tile> tiles) {
-  std::vector<std::uint64_t> needs;
-  for (const Tile& tile : tiles) needs.push_back(tile.raw * 120);
-  return needs;
-}
-
-std::uint64_t counted_points(const TilePlan& plan) {
-  std::uint64_t points = 0;
-  for (const CountedCell& cell : plan.cells) points += cell.points;
-  for (const CountedCell& cell : plan.aside) points += cell.points;
-  return points;
-}
-
 // Returns the least bytes of the store. Raw points of tiles are all written. Points that are set aside may be
 // copies of a few.
 std::uint64_t least_store_bytes(const TilePlan& plan, Precision precision) {
@@ -183,46 +136,24 @@ TilePlan plan_tiles(SurveyedScan& survey, const Job& job) {
   return plan;
 }
 
-TileStore bucket_scan(PointSource& scan, const TilePlan& plan, const Eigen::AlignedBox3d& bounds,
-                      Precision precision, StoreFiles files, Job& job) {
-  Phase phase(job, "bucket", 2 * counted_points(plan));
-  TileStore store(std::move(files), plan.tiles, plan.most_tiles(), precision, scan.has_normals(), job.lists);
-  const std::uint64_t half = (job.memory.work - job.memory.reading) / 2;
-  const MemoryLedger::Lease sorting = job.ledger.take(half);
-  SetAside aside(plan, bounds, job.file("aside"), sorting.bytes());
-  const Destinations to(plan);
-  {
-    const MemoryLedger::Lease filling = job.ledger.take(half);
-    TileStore::Filler filler(store, filling.bytes());
-    const auto take = [&](std::size_t place, std::span<const StoredPoint> points,
-                          std::span<const StoredNormal> normals) {
-      if (place < to.aside) {
-        filler.append(static_cast<TileIndex>(place), points, normals);
-      } else {
-        set_aside(place - to.aside, points, normals, aside);
-      }
-    };
-    scatter(scan, to, take, job, phase);
-    filler.finish();
-  }
-  aside.store(store, plan.cell_points);
-  job.for_each_within(job.memory.tiles, needs_of(plan.tiles), [&](std::size_t t) {
-    const auto tile = static_cast<TileIndex>(t);
-    const ScatteredPoints raw{store.raw_points(tile), store.raw_normals(tile)};
-    put_in_order(store, tile, raw, to.index, plan.tiles[t], plan);
-    phase.advance(raw.points.size());
-  });
-  store.finish();
-  return store;
-}
-
-void scatter_points(PointSource& scan, const TilePlan& plan, const TakePoints& take, Job& job) {
+ScatteredPoints scatter_points(PointSource& scan, const TilePlan& plan, Precision precision, Job& job) {
   Phase phase(job, "bucket", 0);
-  scatter(scan, Destinations(plan), take, job, phase);
+  const Destinations to(plan);
+  ScatteredPoints scattered(to.end, {precision, scan.has_normals()}, job);
+  const MemoryLedger::Lease reading = job.ledger.take(job.memory.reading);
+  std::vector<SortedBatch> batches(kBatches);
+  scan.rewind();
+  job.arena.pipeline([&](std::size_t slot) { return scan.next(batches[slot].batch); },
+                     [&](std::size_t slot) {
+                       batches[slot].sort(to);
+                       append(batches[slot], to.end, scattered);
+                     },
+                     [&](std::size_t slot) { phase.advance(batches[slot].points.size()); }, kBatches);
+  return scattered;
 }
 
 TileStore store_tiles(const TilePlan& plan, const TaskShare& share, const Eigen::AlignedBox3d& bounds,
-                      Precision precision, bool with_normals,
+                      const PointForm& form,
                       const std::function<void(std::size_t, const VisitPoints&)>& for_each, StoreFiles files,
                       Job& job) {
   std::vector<std::uint64_t> weights;
@@ -230,21 +161,24 @@ TileStore store_tiles(const TilePlan& plan, const TaskShare& share, const Eigen:
   const IndexRange range = share_of(weights, share);
   const std::span<const Tile> mine = std::span(plan.tiles).subspan(range.first, range.last - range.first);
   std::vector<Tile> tiles;
+  std::vector<std::uint64_t> needs;
   std::uint64_t row = 0;
   for (const Tile& tile : mine) {
     tiles.push_back({.first_row = Row{row}, .raw = tile.raw});
+    needs.push_back(tile.raw * 120);
     row = aligned_row(row + tile.raw);
   }
-  Phase phase(job, "bucket", row);
+  Phase phase(job, "order", row);
   const std::uint64_t most_tiles = plan.most_tiles() - plan.tiles.size() + tiles.size();
-  TileStore store(std::move(files), std::move(tiles), most_tiles, precision, with_normals, job.lists);
+  TileStore store(std::move(files), std::move(tiles), most_tiles, form.precision, form.with_normals,
+                  job.lists);
   const std::uint32_t first_cell = mine.empty() ? 0 : mine.front().first_cell;
   const std::uint32_t last_cell = mine.empty() ? 0 : mine.back().last_cell;
   const CellIndex index(plan.grid, std::span(plan.cells).subspan(first_cell, last_cell - first_cell));
-  job.for_each_within(job.memory.tiles, needs_of(mine), [&](std::size_t t) {
-    ScatteredPoints raw;
+  job.for_each_within(job.memory.tiles, needs, [&](std::size_t t) {
+    PointsAndNormals raw;
     raw.points.reserve(mine[t].raw);
-    for_each(range.first + t, [&](const ScatteredPoints& some) {
+    for_each(range.first + t, [&](const PointsAndNormals& some) {
       raw.points.insert(raw.points.end(), some.points.begin(), some.points.end());
       raw.normals.insert(raw.normals.end(), some.normals.begin(), some.normals.end());
     });
@@ -252,15 +186,23 @@ TileStore store_tiles(const TilePlan& plan, const TaskShare& share, const Eigen:
     Tile cells = mine[t];
     cells.first_cell -= first_cell;
     cells.last_cell -= first_cell;
-    put_in_order(store, static_cast<TileIndex>(t), raw, index, cells, plan);
+    const auto tile = static_cast<TileIndex>(t);
+    OrderedTile ordered = order_tile(raw.points, cells_of(raw.points, index, cells),
+                                     cells.last_cell - cells.first_cell, plan.grid, plan.cell_points);
+    store.put(tile, pick(raw.points, ordered.order),
+              form.with_normals ? pick(raw.normals, ordered.order) : raw.normals, std::move(ordered.cells));
+    store.add_duplicates(tile, ordered.duplicates);
     phase.advance(raw.points.size());
   });
   if (share.task + 1 == share.tasks && plan.groups() > 0) {
     const MemoryLedger::Lease sorting = job.ledger.take(job.memory.work / 2);
     SetAside aside(plan, bounds, job.file("aside"), sorting.bytes());
-    for (std::size_t group = 0; group < plan.groups(); ++group)
-      for_each(plan.tiles.size() + group,
-               [&](const ScatteredPoints& some) { set_aside(group, some.points, some.normals, aside); });
+    for (std::uint32_t group = 0; group < plan.groups(); ++group) {
+      for_each(plan.tiles.size() + group, [&](const PointsAndNormals& some) {
+        for (std::size_t i = 0; i < some.points.size(); ++i)
+          aside.add(group, some.points[i], some.normals.empty() ? StoredNormal{} : some.normals[i]);
+      });
+    }
     aside.store(store, plan.cell_points);
   }
   store.finish();

@@ -2,6 +2,7 @@
 // bucket: sorts the points into tiles on disk.
 #pragma once
 
+#include "engine/bucket/scattered_points.hpp"
 #include "engine/bucket/split.hpp"
 #include "engine/model/points.hpp"
 #include "engine/run/job.hpp"
@@ -10,8 +11,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <span>
-#include <vector>
 
 namespace lacuna {
 
@@ -19,30 +18,15 @@ namespace lacuna {
 // Throws `Error` where the points do not fit on the disk.
 TilePlan plan_tiles(SurveyedScan& survey, const Job& job);
 
-// Streams the scan and stores every distinct finite point in its tile, in cell order. `bounds`: of all
-// points. `files`: empty ones for the store.
-TileStore bucket_scan(PointSource& scan, const TilePlan& plan, const Eigen::AlignedBox3d& bounds,
-                      Precision precision, StoreFiles files, Job& job);
+// Streams the scan, and brings every finite point to its place: a tile of the plan, or, from the number of
+// tiles on, a group of points that are set aside.
+ScatteredPoints scatter_points(PointSource& scan, const TilePlan& plan, Precision precision, Job& job);
 
-// Several tasks may do so, in two steps: they scatter the points of parts of the scan, and then store tiles.
-
-// Points on their way to a place. Places are the tiles of the plan, and then its groups of points that are set
-// aside.
-struct ScatteredPoints {
-  std::vector<StoredPoint> points;
-  std::vector<StoredNormal> normals;
-};
-// Streams the scan, and hands points to their places: take(place, points, normals). Places of tiles get
-// points from any thread, and others from one thread at a time.
-using TakePoints =
-    std::function<void(std::size_t, std::span<const StoredPoint>, std::span<const StoredNormal>)>;
-void scatter_points(PointSource& scan, const TilePlan& plan, const TakePoints& take, Job& job);
-
-// Stores a task's tiles. The last task stores the points that are set aside, too. for_each(place, visit)
-// calls visit(scattered) once or several times with all points of a place.
-using VisitPoints = std::function<void(const ScatteredPoints&)>;
+// Stores every distinct point of a task's tiles, in cell order. The last task stores the points that are set
+// aside, too. `bounds`: of all points. for_each(place, visit) calls visit(points) once or several times with
+// all points of a place. `files`: empty ones for the store.
 TileStore store_tiles(const TilePlan& plan, const TaskShare& share, const Eigen::AlignedBox3d& bounds,
-                      Precision precision, bool with_normals,
+                      const PointForm& form,
                       const std::function<void(std::size_t, const VisitPoints&)>& for_each, StoreFiles files,
                       Job& job);
 

@@ -14,6 +14,10 @@ constexpr std::size_t kPart = 4096;
 
 }  // namespace
 
+void fail_digits() {
+  fail_changed("a coordinate has more digits than before");
+}
+
 PointColumn::PointColumn(StoreFile file, Precision precision)
     : column_(precision == Precision::kSingle
                   ? Columns(std::in_place_type<Column<SinglePoint>>, std::move(file))
@@ -50,13 +54,10 @@ void PointColumn::write_single(Column<SinglePoint>& column, std::uint64_t row,
     const std::size_t count = std::min(kPart, points.size() - first);
     bool is_exact = true;
     for (std::size_t i = 0; i < count; ++i) {
-      const StoredPoint& p = points[first + i];
-      const SinglePoint s{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z),
-                          static_cast<std::uint32_t>(value(p.id))};
-      is_exact &= (s.x == p.x) & (s.y == p.y) & (s.z == p.z) & (s.id == value(p.id));
-      part[i] = s;
+      part[i] = SinglePoint(points[first + i]);
+      is_exact &= part[i].is(points[first + i]);
     }
-    if (!is_exact) fail_changed("a coordinate has more digits than before");
+    if (!is_exact) fail_digits();
     column.write(row + first, std::span(part).first(count));
   }
 }
@@ -71,10 +72,7 @@ void PointColumn::read(std::uint64_t row, std::span<StoredPoint> points) const {
   for (std::size_t first = 0; first < points.size(); first += kPart) {
     const std::size_t count = std::min(kPart, points.size() - first);
     single.read(row + first, std::span(part).first(count));
-    for (std::size_t i = 0; i < count; ++i) {
-      const SinglePoint& s = part[i];
-      points[first + i] = {s.x, s.y, s.z, PointId{s.id}};
-    }
+    for (std::size_t i = 0; i < count; ++i) points[first + i] = part[i].point();
   }
 }
 

@@ -24,6 +24,23 @@ struct StoredPoint {
 // Single: every coordinate is a number of single precision, and every id is below 2^32.
 enum class Precision : std::uint8_t { kSingle, kDouble };
 
+// A point in single precision.
+struct SinglePoint {
+  float x, y, z;
+  std::uint32_t id;
+
+  SinglePoint() = default;
+  explicit SinglePoint(const StoredPoint& p)
+      : x(static_cast<float>(p.x)),
+        y(static_cast<float>(p.y)),
+        z(static_cast<float>(p.z)),
+        id(static_cast<std::uint32_t>(value(p.id))) {}
+  StoredPoint point() const { return {x, y, z, PointId{id}}; }
+  bool is(const StoredPoint& p) const { return (x == p.x) & (y == p.y) & (z == p.z) & (id == value(p.id)); }
+};
+// Fails because the scan has more digits than the survey found.
+[[noreturn]] void fail_digits();
+
 // Reads and writes may come from several threads.
 class PointColumn {
  public:
@@ -42,10 +59,6 @@ class PointColumn {
   const StoreFile& file() const;
 
  private:
-  struct SinglePoint {
-    float x, y, z;
-    std::uint32_t id;
-  };
   void write_single(Column<SinglePoint>& column, std::uint64_t row, std::span<const StoredPoint> points);
 
   using Columns = std::variant<Column<SinglePoint>, Column<StoredPoint>>;

@@ -14,13 +14,6 @@ namespace {
 
 constexpr const char* kOtherPoints = "not the points that were counted";
 
-std::vector<std::uint64_t> first_rows(const Tiling& tiling) {
-  std::vector<std::uint64_t> rows;
-  rows.reserve(tiling.tiles.size());
-  for (const Tile& tile : tiling.tiles) rows.push_back(value(tile.first_row));
-  return rows;
-}
-
 }  // namespace
 
 TileStore::TileStore(StoreFiles files, std::vector<Tile> tiles, std::uint64_t most_tiles, Precision precision,
@@ -156,17 +149,6 @@ void TileStore::read_cells(std::span<const std::uint32_t> cells, std::vector<Sto
   }
 }
 
-std::vector<StoredPoint> TileStore::raw_points(TileIndex index) const {
-  const Tile& tile = tiling_.tiles[index];
-  return read_points(value(tile.first_row), tile.raw);
-}
-
-std::vector<StoredNormal> TileStore::raw_normals(TileIndex index) const {
-  if (!has_normals_) return {};
-  const Tile& tile = tiling_.tiles[index];
-  return columns_.front().normals.read(value(tile.first_row), tile.raw);
-}
-
 void TileStore::put(TileIndex index, std::span<const StoredPoint> points,
                     std::span<const StoredNormal> normals, std::vector<Cell> cells) {
   Tile& tile = tiling_.tiles[index];
@@ -205,34 +187,6 @@ void TileStore::finish() {
   }
   tiling_.build_tree();
   assert(tiling_.check());
-}
-
-TileStore::Filler::Filler(TileStore& store, std::uint64_t memory)
-    : tiling_(store.tiling_),
-      filled_(tiling_.tiles.size()),
-      points_(store.columns_.front().points, first_rows(tiling_),
-              store.has_normals_ ? memory / 7 * 4 : memory) {
-  if (store.has_normals_)
-    normals_.emplace(store.columns_.front().normals, first_rows(tiling_), memory / 7 * 3);
-}
-
-void TileStore::Filler::append(TileIndex tile, std::span<const StoredPoint> points,
-                               std::span<const StoredNormal> normals) {
-  Filled& filled = filled_[tile];
-  // One lock for both: points and normals of a tile stay in the same order.
-  const std::lock_guard lock(filled.mutex);
-  filled.points += points.size();
-  if (filled.points > tiling_.tiles[tile].raw) fail_changed(kOtherPoints);
-  points_.append(tile, points);
-  if (normals_) normals_->append(tile, normals);
-}
-
-void TileStore::Filler::finish() {
-  for (std::size_t tile = 0; tile < filled_.size(); ++tile) {
-    if (filled_[tile].points != tiling_.tiles[tile].raw) fail_changed(kOtherPoints);
-  }
-  points_.finish();
-  if (normals_) normals_->finish();
 }
 
 }  // namespace lacuna

@@ -6,7 +6,6 @@
 #include "engine/model/tiling.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/column.hpp"
-#include "engine/store/column_filler.hpp"
 #include "engine/store/digest.hpp"
 #include "engine/store/point_column.hpp"
 
@@ -15,7 +14,6 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -46,11 +44,11 @@ struct StoreFiles {
   std::filesystem::path duplicates;  // a temporary file
 };
 
-// The store is filled, and bucketing puts it in order tile by tile. From then on it is read only. Reads may
-// come from several threads.
+// The tiles are put, in any order. From then on the store is read only. Reads may come from several threads.
 class TileStore {
  public:
-  // `tiles`: where raw points go at first; `most_tiles`: the number of tiles with those that are added later.
+  // `tiles`: with space for `raw` points each; `most_tiles`: the number of tiles with those that are added
+  // later.
   TileStore(StoreFiles files, std::vector<Tile> tiles, std::uint64_t most_tiles, Precision precision,
             bool with_normals, std::shared_ptr<BufferPool> lists);
   // Opens a store that was finished before, to be joined. `files`: sealed ones. Reading a tile throws
@@ -81,13 +79,8 @@ class TileStore {
   void read_cells(std::span<const std::uint32_t> cells, std::vector<StoredPoint>& points,
                   std::vector<Row>& rows) const;
 
-  // Bucketing fills the store first with all points of every tile, in any order. It then reads back the raw
-  // points of a tile.
-  class Filler;
-  std::vector<StoredPoint> raw_points(TileIndex tile) const;
-  std::vector<StoredNormal> raw_normals(TileIndex tile) const;
-  // Puts distinct points of a tile in place of its raw points, in the order of its cells. It sets the rows of
-  // the cells. From several threads, for different tiles.
+  // Puts the distinct points of a tile, in the order of its cells. It sets the rows of the cells. From
+  // several threads, for different tiles.
   void put(TileIndex tile, std::span<const StoredPoint> points, std::span<const StoredNormal> normals,
            std::vector<Cell> cells);
   // Adds copies of a tile's points, once or in several goes. From any thread.
@@ -146,27 +139,5 @@ void TileStore::for_each_point(TileIndex index, Visit&& visit) const {
     done += count;
   }
 }
-
-// Points on their way to their tiles, from any thread.
-class TileStore::Filler {
- public:
-  Filler(TileStore& store, std::uint64_t memory);
-
-  // Adds points to a tile. Normals: one per point where the store has them, else an empty span. Throws
-  // `Error` where the tile is full.
-  void append(TileIndex tile, std::span<const StoredPoint> points, std::span<const StoredNormal> normals);
-  // Ends the filling once all points are there. Throws `Error` where a tile is not full.
-  void finish();
-
- private:
-  struct Filled {
-    std::mutex mutex;
-    std::uint64_t points = 0;
-  };
-  const Tiling& tiling_;
-  std::vector<Filled> filled_;  // of each tile
-  ColumnFiller<StoredPoint, PointColumn> points_;
-  std::optional<ColumnFiller<StoredNormal>> normals_;
-};
 
 }  // namespace lacuna

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kScattered = "points", kWithNormals = "points with normals";
+constexpr std::string_view kScattered = "points";
 
 struct StoredCount {
   CellCoord coord;
@@ -129,30 +129,12 @@ std::optional<SealedPlan> open_plan(const std::string& made_from, const Workspac
   return sealed;
 }
 
-ScatteredLists::ScatteredLists(std::size_t places, const Job& job)
-    : points_(job.file("scattered"), places, job.lists),
-      with_normals_(job.file("scattered-normals"), places, job.lists) {}
-
-void ScatteredLists::take(std::size_t place, std::span<const StoredPoint> points,
-                          std::span<const StoredNormal> normals) {
-  if (normals.empty()) {
-    points_.append(place, points);
-    return;
-  }
-  std::vector<PointWithNormal> both;
-  both.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) both.push_back({points[i], normals[i]});
-  with_normals_.append(place, both);
-}
-
-void ScatteredLists::seal(const TaskShare& share, const std::string& made_from,
-                          const Workspace& workspace) const {
+void seal_scattered(const ScatteredPoints& points, const TaskShare& share, const std::string& made_from,
+                    const Workspace& workspace) {
   PartWriter part(scattered_path(workspace, share.task));
-  for (std::size_t place = 0; place < points_.lists(); ++place) {
-    add_in_blocks<StoredPoint>(part, kScattered, place,
-                               [&](auto&& visit) { points_.for_each(place, visit); });
-    add_in_blocks<PointWithNormal>(part, kWithNormals, place,
-                                   [&](auto&& visit) { with_normals_.for_each(place, visit); });
+  for (std::size_t place = 0; place < points.places(); ++place) {
+    points.for_each_packed(place,
+                           [&](std::span<const std::byte> packed) { part.add(kScattered, place, packed); });
   }
   part.seal(digest_of(made_from, share));
 }
@@ -162,18 +144,10 @@ std::optional<PartReader> open_scattered(const TaskShare& share, const std::stri
   return PartReader::open(scattered_path(workspace, share.task), digest_of(made_from, share));
 }
 
-void visit_scattered(const PartReader& part, std::size_t place, const VisitPoints& visit) {
-  part.for_each<StoredPoint>(kScattered, place, [&](std::span<const StoredPoint> some) {
-    visit({{some.begin(), some.end()}, {}});
-  });
-  part.for_each<PointWithNormal>(kWithNormals, place, [&](std::span<const PointWithNormal> some) {
-    ScatteredPoints points;
-    for (const PointWithNormal& p : some) {
-      points.points.push_back(p.point);
-      points.normals.push_back(p.normal);
-    }
-    visit(points);
-  });
+void visit_scattered(const PartReader& part, std::size_t place, const PointForm& form,
+                     const VisitPoints& visit) {
+  part.for_each<std::byte>(kScattered, place,
+                           [&](std::span<const std::byte> packed) { visit(form.unpack(packed)); });
 }
 
 void remove_scan_parts(const Workspace& workspace) {

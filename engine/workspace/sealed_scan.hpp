@@ -3,27 +3,20 @@
 // scan: first it surveys them, and then it scatters their points to the tiles of a common plan.
 #pragma once
 
-#include "engine/bucket/bucket_scan.hpp"
+#include "engine/bucket/scattered_points.hpp"
 #include "engine/bucket/split.hpp"
 #include "engine/model/task_share.hpp"
 #include "engine/run/job.hpp"
-#include "engine/store/point_column.hpp"
 #include "engine/survey/survey.hpp"
 #include "engine/workspace/workspace.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 namespace lacuna {
-
-struct PointWithNormal {
-  StoredPoint point;
-  StoredNormal normal;
-};
 
 // What a task has surveyed.
 struct SealedSurvey {
@@ -48,22 +41,13 @@ struct SealedPlan {
 void seal_plan(SealedPlan& plan, const std::string& made_from, const Workspace& workspace);
 std::optional<SealedPlan> open_plan(const std::string& made_from, const Workspace& workspace);
 
-// Collects the points of a task by their places, and seals them.
-class ScatteredLists {
- public:
-  ScatteredLists(std::size_t places, const Job& job);
-
-  // As `TakePoints`. From any thread.
-  void take(std::size_t place, std::span<const StoredPoint> points, std::span<const StoredNormal> normals);
-  void seal(const TaskShare& share, const std::string& made_from, const Workspace& workspace) const;
-
- private:
-  AppendLists<StoredPoint> points_;  // without normals
-  AppendLists<PointWithNormal> with_normals_;
-};
+// The points of a task by their places.
+void seal_scattered(const ScatteredPoints& points, const TaskShare& share, const std::string& made_from,
+                    const Workspace& workspace);
 std::optional<PartReader> open_scattered(const TaskShare& share, const std::string& made_from,
                                          const Workspace& workspace);
-void visit_scattered(const PartReader& part, std::size_t place, const VisitPoints& visit);
+void visit_scattered(const PartReader& part, std::size_t place, const PointForm& form,
+                     const VisitPoints& visit);
 
 // Removes all these parts, once the first level is whole.
 void remove_scan_parts(const Workspace& workspace);

@@ -15,9 +15,13 @@ namespace {
 
 Level make_level(PointSource& scan, Job& job) {
   SurveyedScan survey = survey_scan(scan, job);
-  TilePlan plan = plan_tiles(survey, job);
-  TileStore store =
-      bucket_scan(scan, std::move(plan), survey.bounds, survey.precision(), temporary_files(job), job);
+  const TilePlan plan = plan_tiles(survey, job);
+  const PointForm form{survey.precision(), scan.has_normals()};
+  const ScatteredPoints scattered = scatter_points(scan, plan, form.precision, job);
+  TileStore store = store_tiles(
+      plan, {}, survey.bounds, form,
+      [&](std::size_t place, const VisitPoints& visit) { scattered.for_each(place, visit); },
+      temporary_files(job), job);
   const double extent = extent_of(survey.bounds);
   return {.survey = std::move(survey), .extent = extent, .store = std::move(store), .represented = {}};
 }

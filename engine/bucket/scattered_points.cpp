@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/bucket/scattered_points.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <type_traits>
+
+namespace lacuna {
+namespace {
+
+template <class Record>
+void pack_as(std::span<const StoredPoint> points, std::size_t step, std::byte* to) {
+  bool is_exact = true;
+  for (const StoredPoint& p : points) {
+    const Record record(p);
+    if constexpr (std::is_same_v<Record, SinglePoint>) is_exact &= record.is(p);
+    std::memcpy(to, &record, sizeof record);
+    to += step;
+  }
+  if (!is_exact) fail_digits();
+}
+
+template <class Record>
+Record record_at(const std::byte* from) {
+  Record record;
+  std::memcpy(&record, from, sizeof record);
+  return record;
+}
+
+}  // namespace
+
+std::size_t PointForm::record_bytes() const {
+  return (precision == Precision::kSingle ? sizeof(SinglePoint) : sizeof(StoredPoint)) +
+         (with_normals ? sizeof(StoredNormal) : 0);
+}
+
+std::vector<std::byte> PointForm::pack(std::span<const StoredPoint> points,
+                                       std::span<const StoredNormal> normals) const {
+  const std::size_t step = record_bytes();
+  std::vector<std::byte> records(points.size() * step);
+  if (precision == Precision::kSingle) {
+    pack_as<SinglePoint>(points, step, records.data());
+  } else {
+    pack_as<StoredPoint>(points, step, records.data());
+  }
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    std::memcpy(&records[(i + 1) * step - sizeof(StoredNormal)], &normals[i], sizeof(StoredNormal));
+  return records;
+}
+
+PointsAndNormals PointForm::unpack(std::span<const std::byte> records) const {
+  const std::size_t step = record_bytes(), count = records.size() / step;
+  PointsAndNormals all;
+  all.points.reserve(count);
+  all.normals.reserve(with_normals ? count : 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::byte* const record = &records[i * step];
+    all.points.push_back(precision == Precision::kSingle ? record_at<SinglePoint>(record).point()
+                                                         : record_at<StoredPoint>(record));
+    if (with_normals) all.normals.push_back(record_at<StoredNormal>(record + step - sizeof(StoredNormal)));
+  }
+  return all;
+}
+
+ScatteredPoints::ScatteredPoints(std::size_t places, PointForm form, const Job& job)
+    : form_(form), lists_(std::make_unique<AppendBytes>(job.file("scattered"), places, job.lists)) {}
+
+void ScatteredPoints::add(std::size_t place, std::span<const StoredPoint> points,
+                          std::span<const StoredNormal> normals) {
+  lists_->append(place, form_.pack(points, normals));
+}
+
+void ScatteredPoints::for_each_packed(std::size_t place,
+                                      const std::function<void(std::span<const std::byte>)>& visit) const {
+  constexpr std::size_t kTogether = 1 << 13;
+  std::vector<std::byte> part(std::min<std::uint64_t>(kTogether * form_.record_bytes(), lists_->size(place)));
+  lists_->for_each_part(place, part, [&](std::size_t bytes) { visit(std::span(part).first(bytes)); });
+}
+
+void ScatteredPoints::for_each(std::size_t place, const VisitPoints& visit) const {
+  for_each_packed(place, [&](std::span<const std::byte> records) { visit(form_.unpack(records)); });
+}
+
+}  // namespace lacuna

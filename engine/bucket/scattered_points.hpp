@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points on their way to a place: a tile, or a group of points that are set aside.
+#pragma once
+
+#include "engine/run/job.hpp"
+#include "engine/store/append_lists.hpp"
+#include "engine/store/point_column.hpp"
+#include "engine/store/tile_store.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace lacuna {
+
+struct PointsAndNormals {
+  std::vector<StoredPoint> points;
+  std::vector<StoredNormal> normals;  // one for each point, or none
+};
+using VisitPoints = std::function<void(const PointsAndNormals&)>;
+
+// How points are kept on disk: 16 or 32 bytes each, and 24 for a normal.
+struct PointForm {
+  Precision precision = Precision::kDouble;
+  bool with_normals = false;
+
+  std::size_t record_bytes() const;
+  // Throws `Error` where the precision would lose a digit.
+  std::vector<std::byte> pack(std::span<const StoredPoint> points,
+                              std::span<const StoredNormal> normals) const;
+  PointsAndNormals unpack(std::span<const std::byte> records) const;
+};
+
+// The points of all places. What does not fit in memory is on disk.
+class ScatteredPoints {
+ public:
+  ScatteredPoints(std::size_t places, PointForm form, const Job& job);
+
+  // From any thread.
+  void add(std::size_t place, std::span<const StoredPoint> points, std::span<const StoredNormal> normals);
+  std::size_t places() const { return lists_->lists(); }
+  // Call visit(packed), or visit(points), with all points of a place, some thousands at a time, in any order.
+  void for_each_packed(std::size_t place, const std::function<void(std::span<const std::byte>)>& visit) const;
+  void for_each(std::size_t place, const VisitPoints& visit) const;
+
+ private:
+  PointForm form_;
+  std::unique_ptr<AppendBytes> lists_;
+};
+
+}  // namespace lacuna
