@@ -18,8 +18,8 @@ namespace lacuna {
 // Throws `Error` where the points do not fit on the disk.
 TilePlan plan_tiles(SurveyedScan& survey, const Job& job);
 
-// Streams the scan, and brings every finite point to its place: a tile of the plan, or, from the number of
-// tiles on, a group of points that are set aside.
+// Streams the scan, and brings every finite point to its place. Places are the tiles of the plan, and then its
+// groups of points that are set aside.
 ScatteredPoints scatter_points(PointSource& scan, const TilePlan& plan, Precision precision, Job& job);
 
 // Stores every distinct point of a task's tiles, in cell order. The last task stores the points that are set
