@@ -139,7 +139,7 @@ void add_plan_command(const Command& program) {
   const Command command = program.add_command("plan", "Prepare a run that several processes share");
   const auto arguments = std::make_shared<PlanArguments>(command);
   add_scans(command, arguments->scans).required();
-  command.add_option("--tasks", arguments->tasks, "Tasks that evaluate the tiles of a level at the same time")
+  command.add_option("--tasks", arguments->tasks, "Tasks of each step that is shared")
       .required()
       .whole_number(1, kMostTasks)
       .type("N");
