@@ -6,8 +6,7 @@
 // - A scan larger than memory: derive from `PointSource` (engine/model/points.hpp), and call `detect`
 //   (engine/pipeline.hpp). It returns the same results as streams (engine/model/detection.hpp).
 // - Parameters: `Config` (engine/config/config.hpp), one struct per stage with its defaults. `parameters`
-// lists
-//   them by name, `read_config` (engine/config/config_file.hpp) reads them from a file.
+//   lists them by name, `read_config` (engine/config/config_file.hpp) reads them from a file.
 // - Errors: `Error` (engine/run/error.hpp), one line of text for the user.
 //
 // Results are the same bytes for every number of threads and every memory limit. The program calls the same

@@ -91,8 +91,8 @@ class PartReader {
   std::vector<std::uint64_t> keys() const;  // ascending
   std::vector<std::string> streams(std::uint64_t key) const;
   std::uint64_t size(std::string_view stream, std::uint64_t key) const;  // bytes; 0 where there is no entry
-  // Reads an entry. `to` has `size` bytes. Reading throws `DamagedFile` where the bytes are not those of the
-  // table.
+  // Reads an entry. `to` has `size` bytes. Reading throws `DamagedFile` where the bytes have another
+  // digest than the table says.
   void read(std::string_view stream, std::uint64_t key, std::span<std::byte> to) const;
   // Returns the records of an entry, and an empty vector where there is no entry. Throws `Error` where the
   // bytes are no whole number of records.

@@ -99,7 +99,7 @@ class OccupiedCells {
 
   Lattice lattice_;
   double edge_;
-  std::vector<StoredPoint> points_;  // of the tile, and then those of others that represent a cell
+  std::vector<StoredPoint> points_;  // of the tile, and then others that represent a cell
   LocalIndex owned_;
   std::vector<Cell> cells_;
   std::vector<std::uint32_t> slots_;  // one more than a cell's index; 0: no cell. A power of two

@@ -94,7 +94,7 @@ std::optional<TaskPlan> read_plan(const std::filesystem::path& folder);
 
 bool is_workspace(const std::filesystem::path& folder);
 
-// Return how names of files begin: those of the points of a level, and those of the outputs of its tiles.
+// Return how names of files begin, for the points of a level, and for the outputs of its tiles.
 std::filesystem::path level_prefix(const std::filesystem::path& folder, std::size_t level);
 std::filesystem::path tiles_prefix(const std::filesystem::path& folder, std::size_t level);
 
