@@ -34,7 +34,7 @@ Level bucket_points(PointSource& given, StoreFiles files, Job& job) {
   PointSource& scan = kept ? *kept : given;
   SurveyedScan survey = survey_scan(scan, job);
   const TilePlan plan = plan_tiles(survey, job);
-  const ScatteredPoints scattered = scatter_points(scan, plan, survey.precision(), job);
+  const ScatteredPoints scattered = scatter_points(scan, plan, survey.precision(), plan.points, job);
   kept.reset();
   TileStore store = store_tiles(
       plan, {}, survey.bounds, {survey.precision(), given.has_normals()},
@@ -96,7 +96,7 @@ PartReader shared_points(PointSource& scan, const SealedPlan& sealed, const Task
   if (std::optional<PartReader> part = open_scattered(share, sealed.seal, workspace)) return *std::move(part);
   const IndexRange parts = parts_of(scan, share);
   scan.select(parts.first, parts.last, PointId{sealed.first_ids[share.task]});
-  seal_scattered(scatter_points(scan, sealed.plan, sealed.survey.precision(), job), share, sealed.seal,
+  seal_scattered(scatter_points(scan, sealed.plan, sealed.survey.precision(), 0, job), share, sealed.seal,
                  workspace);
   return found(open_scattered(share, sealed.seal, workspace), workspace);
 }

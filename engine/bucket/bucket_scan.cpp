@@ -136,8 +136,9 @@ TilePlan plan_tiles(SurveyedScan& survey, const Job& job) {
   return plan;
 }
 
-ScatteredPoints scatter_points(PointSource& scan, const TilePlan& plan, Precision precision, Job& job) {
-  Phase phase(job, "bucket", 0);
+ScatteredPoints scatter_points(PointSource& scan, const TilePlan& plan, Precision precision,
+                               std::uint64_t expected_points, Job& job) {
+  Phase phase(job, "bucket", expected_points);
   const Destinations to(plan);
   ScatteredPoints scattered(to.end, {precision, scan.has_normals()}, job);
   const MemoryLedger::Lease reading = job.ledger.take(job.memory.reading);

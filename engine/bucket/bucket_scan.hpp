@@ -10,6 +10,7 @@
 #include "engine/survey/survey.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 
 namespace lacuna {
@@ -18,9 +19,10 @@ namespace lacuna {
 // Throws `Error` where the points do not fit on the disk.
 TilePlan plan_tiles(SurveyedScan& survey, const Job& job);
 
-// Streams the scan, and brings every finite point to its place. Places are the tiles of the plan, and then its
-// groups of points that are set aside.
-ScatteredPoints scatter_points(PointSource& scan, const TilePlan& plan, Precision precision, Job& job);
+// Streams the scan, and brings every finite point to its place. Places are the tiles of the plan, and then
+// its groups of points that are set aside. `expected_points`: for the progress; 0 where not known.
+ScatteredPoints scatter_points(PointSource& scan, const TilePlan& plan, Precision precision,
+                               std::uint64_t expected_points, Job& job);
 
 // Stores every distinct point of a task's tiles, in cell order. The last task stores the points that are set
 // aside, too. `bounds`: of all points. for_each(place, visit) calls visit(points) once or several times with
