@@ -2,6 +2,7 @@
 #include "engine/first_level.hpp"
 
 #include "engine/bucket/bucket_scan.hpp"
+#include "engine/evaluate/check_normals.hpp"
 #include "engine/halo/eps_balls.hpp"
 #include "engine/run/error.hpp"
 #include "engine/store/kept_scan.hpp"
@@ -101,6 +102,37 @@ PartReader shared_points(PointSource& scan, const SealedPlan& sealed, const Task
   return found(open_scattered(share, sealed.seal, workspace), workspace);
 }
 
+// Leaves out normals that are not wanted, or do not fit. Levels and outputs have no normals of theirs then.
+void choose_normals(Level& level, const Job& job) {
+  if (!level.store.has_normals()) return;
+  const NormalsUse use = job.config.normals.use;
+  if (use != NormalsUse::kEstimated)
+    level.given_normals = check_normals(level.store, job.config, job.arena);
+  if (use == NormalsUse::kEstimated || (use == NormalsUse::kFitting && !level.given_normals.fit()))
+    level.store.leave_out_normals();
+}
+
+Level level_of_points(PointSource& scan, const Workspace& workspace, Job& job) {
+  std::optional<Level> kept = open_level(0, workspace.made_from, workspace, job);
+  if (!kept && workspace.plan.reads) {
+    for (std::size_t task = 0; task < workspace.plan.tasks; ++task)
+      store_share(scan, {task, workspace.plan.tasks}, workspace, job);
+    scan.select(0, scan.parts().size(), PointId{0});
+    kept = open_level(0, workspace.made_from, workspace, job);
+  }
+  if (kept) {
+    scan.set_pass_counts(kept->input);
+    if (workspace.plan.reads) remove_scan_parts(workspace);
+    return *std::move(kept);
+  }
+  const bool is_thinned = first_edge(job.config.scale) > 0;
+  Level all = bucket_points(scan, is_thinned ? temporary_files(job) : level_files(0, workspace, job), job);
+  Level level = is_thinned ? thin_to_first(all, level_files(0, workspace, job), job) : std::move(all);
+  level.input = scan.pass_counts();
+  seal_part(level, {}, workspace.made_from, workspace, job);
+  return level;
+}
+
 }  // namespace
 
 bool can_share_reading(const PointSource& scan, const Config& config) {
@@ -137,23 +169,8 @@ void store_share(PointSource& scan, const TaskShare& share, const Workspace& wor
 }
 
 Level first_level(PointSource& scan, const Workspace& workspace, Job& job) {
-  std::optional<Level> kept = open_level(0, workspace.made_from, workspace, job);
-  if (!kept && workspace.plan.reads) {
-    for (std::size_t task = 0; task < workspace.plan.tasks; ++task)
-      store_share(scan, {task, workspace.plan.tasks}, workspace, job);
-    scan.select(0, scan.parts().size(), PointId{0});
-    kept = open_level(0, workspace.made_from, workspace, job);
-  }
-  if (kept) {
-    scan.set_pass_counts(kept->input);
-    if (workspace.plan.reads) remove_scan_parts(workspace);
-    return *std::move(kept);
-  }
-  const bool is_thinned = first_edge(job.config.scale) > 0;
-  Level all = bucket_points(scan, is_thinned ? temporary_files(job) : level_files(0, workspace, job), job);
-  Level level = is_thinned ? thin_to_first(all, level_files(0, workspace, job), job) : std::move(all);
-  level.input = scan.pass_counts();
-  seal_part(level, {}, workspace.made_from, workspace, job);
+  Level level = level_of_points(scan, workspace, job);
+  choose_normals(level, job);
   return level;
 }
 

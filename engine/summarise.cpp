@@ -29,6 +29,7 @@ Summary summarise(const Level& level, const Job& job) {
   summary.counts.dropped = survey.dropped;
   summary.bounds = survey.bounds;
   summary.resolution = level.edge;
+  summary.given_normals = level.given_normals;
   if (level.edge > 0) summary.counts.thinned_out = survey.points - survey.dropped - store.tiling().points();
   summary.strays = find_strays(store);
   if (summary.strays.points == 0) summary.strays.rest = summary.bounds;
@@ -51,7 +52,6 @@ void add_findings(const Totals& totals, const FoundLoops& found, std::span<const
     counts.raw_loops += level.loops.size();
     summary.levels.push_back({level.edge, level.points, level.loops.size()});
   }
-  summary.given_normals = totals.given_normals;
   summary.mean_neighbours = totals.mean_neighbours();
   summary.mean_edge_length = totals.mean_edge_length();
   summary.median_distance = totals.median_distance();

@@ -28,8 +28,16 @@ struct NeighbourhoodConfig {
   double eps_fraction = 0.0;  // the same as a fraction of the bounding box's diagonal; at most one is set
 };
 
+// Which normals points have: those that they came with, or estimated ones. A point without one has an estimated
+// normal.
+enum class NormalsUse : std::uint8_t {
+  kFitting,    // given ones, unless too many are off from the surface
+  kGiven,      // given ones
+  kEstimated,  // estimated ones alone
+};
+
 struct NormalsConfig {
-  bool estimate = false;          // all of them; else a point keeps the normal that it came with
+  NormalsUse use = NormalsUse::kFitting;
   double crease_threshold = 0.5;  // angle probability above which an estimated normal is turned, [0, 1]
   bool orient = false;            // orient consistently, by minimum spanning tree
 };

@@ -28,12 +28,22 @@ NamedValue named(Enum& value, std::span<const std::string_view> names) {
   return {reinterpret_cast<std::uint8_t*>(&value), names};
 }
 
+// What a parameter changes of the data that a run keeps, so that another run may take them over.
+enum class Changes : std::uint8_t {
+  kPoints,       // the points of a level: a run with another value is another run
+  kEvaluation,   // what is found at each point
+  kOutputs,      // which results of evaluated points are kept
+  kNothingKept,  // results that are made from kept data
+  kProcess,      // no result: threads, memory and temporary files of one process
+};
+
 // One line of a list: `[section] key = value`, on the command line `--key` with dashes.
 struct Parameter {
   using Value = std::variant<std::int64_t*, double*, bool*, std::string*, std::uint64_t*,
                              std::vector<double>*, NamedValue>;
   std::string_view section;
   std::string_view key;
+  Changes changes;
   Value value;  // points into the config it was listed from; uint64_t: a size in bytes
   double min;   // of lists: of each number
   double max;

@@ -135,8 +135,6 @@ void fit_plane(const Slice& slice, double sigma_factor, Surface<V>& surface) {
 Mask use_given_normals(const Slice& slice, Surface<V>& surface) {
   const Vector<V> given = slice.get(slice.batch.given_normals);
   const Mask is_given = given.x == given.x;
-  const V cosine = hn::Abs(dot(given, surface.normal));
-  surface.given_cosine = hn::IfThenElse(hn::And(is_given, surface.has_normal), cosine, all<V>(kUndefined));
   surface.normal = select(is_given, given, surface.normal);
   surface.has_normal = hn::Or(surface.has_normal, is_given);
   return is_given;
@@ -224,7 +222,6 @@ void combine(const Slice& slice, const CriteriaParameters& parameters, const Sur
   slice.set(values.mean_distance, surface.mean_distance);
   slice.set(values.mean_offset, surface.mean_offset);
   slice.set(values.normal, select(surface.has_normal, surface.normal, vectors(kUndefined)));
-  slice.set(values.given_cosine, surface.given_cosine);
   slice.set(values.surface_share, surface.shape.surface);
   slice.set(values.gap_near, surface.gap.near);
   slice.set(values.gap_far, surface.gap.far);

@@ -20,7 +20,6 @@ struct CriteriaValues {
   Batch<double> mean_distance;            // r_p
   Batch<double> mean_offset[3];           // mu_p - p
   Batch<double> normal[3];                // NaN: no normal
-  Batch<double> given_cosine;             // |given . estimated normal|; NaN where there are not both
   Batch<double> surface_share;            // of the boundary and the interior shape (4.4)
   Batch<double> gap_near;                 // ranks of the gap neighbours, nearer first; -1: no gap
   Batch<double> gap_far;

@@ -18,8 +18,6 @@ struct Evaluation {
   LocalIndex gap_near = kNoIndex;        // gap neighbours, nearer first; kNoIndex: no gap
   LocalIndex gap_far = kNoIndex;
   float surface_share = 0;  // how much the neighbourhood resembles a surface (paper, 4.4), [0, 1]
-  // |cos| of the angle between the given normal and the plane's; NaN where there are not both.
-  float given_cosine = std::numeric_limits<float>::quiet_NaN();
 };
 
 }  // namespace lacuna

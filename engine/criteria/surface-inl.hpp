@@ -50,7 +50,6 @@ struct Surface {
   Vector<V> eigenvalues;  // of C_p up to a common factor, largest first
   MaskOf<V> has_normal;
   Vector<V> normal;  // unit
-  V given_cosine;    // of the given normal to the plane's, without sign; NaN where there are not both
   Gap<V> gap;
   ShapeShares<V> shape;
 };

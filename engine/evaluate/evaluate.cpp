@@ -121,7 +121,6 @@ Evaluation evaluation(const CriteriaValues& values, std::size_t lane,
   }
   e.probability = values.probability.at[lane];
   e.mean_distance = values.mean_distance.at[lane];
-  e.given_cosine = static_cast<float>(values.given_cosine.at[lane]);
   e.surface_share = static_cast<float>(values.surface_share.at[lane]);
   if (values.gap_near.at[lane] >= 0) {
     e.gap_near = neighbours[static_cast<std::size_t>(values.gap_near.at[lane])];

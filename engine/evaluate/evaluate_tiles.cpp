@@ -153,8 +153,7 @@ void evaluate_tiles(const Level& level, std::span<const TileIndex> tiles, Append
     halo.drop(index);
     const TilePoints points = gather(store, index, inbox, halo_cells(tiling, tile, eps));
     std::vector<HaloEdge>().swap(inbox);
-    const std::vector<Eigen::Vector3d> normals =
-        job.config.normals.estimate ? std::vector<Eigen::Vector3d>() : store.normals(index);
+    const std::vector<Eigen::Vector3d> normals = store.normals(index);
     const Neighbourhoods neighbourhoods =
         find_neighbourhoods(points, static_cast<std::size_t>(job.config.neighbourhood.k), eps);
     std::vector<double> values(job.config.results.points ? points.owned * criteria().size() : 0);

@@ -18,7 +18,6 @@ double length_unit(double extent) {
 // The sums of a tile, as plain data.
 struct TileSums {
   std::uint64_t points, neighbours, candidates, undefined_normals;
-  GivenNormals given_normals;
   ProbabilityBins probabilities;
   std::uint64_t edge_length_low;
   std::int64_t edge_length_high;
@@ -29,14 +28,6 @@ struct DistanceBin {
 
 constexpr RecordStream<TileSums> kSums{"sums"};
 constexpr RecordStream<DistanceBin> kDistances{"distances"};
-
-// Only where the neighbourhood resembles a surface is the estimated normal worth more than the given one.
-void check_given_normal(const Evaluation& e, GivenNormals& normals) {
-  constexpr float kLeastSurface = 0.5f, kCosine45 = std::numbers::sqrt2_v<float> / 2;
-  if (std::isnan(e.given_cosine) || e.surface_share < kLeastSurface) return;
-  ++normals.checked;
-  normals.off += e.given_cosine < kCosine45;
-}
 
 }  // namespace
 
@@ -67,7 +58,6 @@ Totals sum_up(std::span<const Evaluation> evaluations, const Neighbourhoods& nei
     ++totals.probabilities[std::min(kProbabilityBins - 1,
                                     static_cast<std::size_t>(e.probability * kProbabilityBins))];
     totals.undefined_normals += !e.normal.allFinite();
-    check_given_normal(e, totals.given_normals);
     if (e.mean_distance > 0 && std::isfinite(e.mean_distance))
       ++distances[LengthBins::bin_of(e.mean_distance)];
     const double length =
@@ -87,7 +77,6 @@ void emit_totals(const Totals& sums, TileOutput& output) {
                     .neighbours = sums.neighbours,
                     .candidates = sums.candidates,
                     .undefined_normals = sums.undefined_normals,
-                    .given_normals = sums.given_normals,
                     .probabilities = sums.probabilities,
                     .edge_length_low = static_cast<std::uint64_t>(sums.edge_length),
                     .edge_length_high = static_cast<std::int64_t>(sums.edge_length >> 64)};
@@ -105,8 +94,6 @@ Totals read_totals(const TileOutputs& outputs, const Tiling& tiling, double exte
       totals.neighbours += sums.neighbours;
       totals.candidates += sums.candidates;
       totals.undefined_normals += sums.undefined_normals;
-      totals.given_normals.checked += sums.given_normals.checked;
-      totals.given_normals.off += sums.given_normals.off;
       totals.edge_length += (Int128{sums.edge_length_high} << 64) + sums.edge_length_low;
       for (std::size_t bin = 0; bin < kProbabilityBins; ++bin)
         totals.probabilities[bin] += sums.probabilities[bin];

@@ -26,7 +26,6 @@ struct Totals {
   std::uint64_t neighbours = 0;  // of |N_p|
   std::uint64_t candidates = 0;  // Pi above the threshold
   std::uint64_t undefined_normals = 0;
-  GivenNormals given_normals;
   ProbabilityBins probabilities{};
   Int128 edge_length = 0;  // over N_p of all p, in units of `length_unit`
   double length_unit = 1;

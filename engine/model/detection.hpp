@@ -31,10 +31,12 @@ struct Counts {
   std::uint64_t undefined_normals = 0;
 };
 
-// Normals that came with the points, held against the planes of the neighbourhoods.
+// Normals that came with the points, compared with estimated ones at a sample of the surface.
 struct GivenNormals {
-  std::uint64_t checked = 0;  // where the neighbourhood resembles a surface; distinct points
-  std::uint64_t off = 0;      // of these, by more than 45 degrees
+  std::uint64_t checked = 0;
+  std::uint64_t off = 0;  // of these, by more than 45 degrees
+
+  bool fit() const { return off == 0 || 10 * off < checked; }
 };
 
 struct PhaseTime {
@@ -64,7 +66,7 @@ struct Strays {
 
 struct Summary {
   Counts counts;
-  GivenNormals given_normals;
+  GivenNormals given_normals;  // none: `normals` is "estimated", or no point has one
   ProbabilityBins probabilities{};  // distinct points by their boundary probability
   Eigen::AlignedBox3d bounds;       // of the finite points; empty without any
   Strays strays;                    // without any, `rest` is `bounds`

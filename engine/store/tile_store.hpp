@@ -62,6 +62,8 @@ class TileStore {
 
   const Tiling& tiling() const { return tiling_; }
   bool has_normals() const { return has_normals_; }
+  // From now on the store is one of points without normals.
+  void leave_out_normals() { has_normals_ = false; }
 
   std::vector<StoredPoint> points(TileIndex tile) const;
   // Goes through the points without an array of them: visit(point).

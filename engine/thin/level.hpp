@@ -5,6 +5,7 @@
 // place is evaluated evenly at some level, from its own spacing upward.
 #pragma once
 
+#include "engine/model/detection.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/tile_store.hpp"
 #include "engine/survey/survey.hpp"
@@ -26,6 +27,7 @@ struct Level {
   std::uint64_t tile_points = 0;     // the most in a tile
   TileStore store;                   // distinct points
   std::string seal;                  // the checksums of its parts, a line each; empty: no workspace is kept
+  GivenNormals given_normals;        // of the first level
   std::vector<std::uint64_t> input;  // of the first level: `PointSource::pass_counts`
   // Which point represents which. Only for a first level on a lattice, with results.points.
   std::optional<AppendLists<Represented>> represented;

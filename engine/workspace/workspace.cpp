@@ -9,7 +9,6 @@
 #include <array>
 #include <optional>
 #include <regex>
-#include <set>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -27,13 +26,12 @@ constexpr std::string_view kLevel = "level-", kTiles = "tiles-";
 
 using Lines = std::vector<std::string>;
 
-// Returns "key = value" of the parameters that are wanted.
-template <class Wanted>
-Lines parameter_lines(const Config& config, Wanted&& is_wanted) {
+// Returns "key = value" of the parameters that change this.
+Lines parameter_lines(const Config& config, Changes changed) {
   Config copy = config;
   Lines lines;
   for (const Parameter& parameter : parameters(copy)) {
-    if (is_wanted(parameter)) lines.push_back(std::string(parameter.key) + " = " + parameter.print());
+    if (parameter.changes == changed) lines.push_back(std::string(parameter.key) + " = " + parameter.print());
   }
   return lines;
 }
@@ -44,26 +42,16 @@ std::string joined(const Lines& lines) {
   return text;
 }
 
-bool is_of_input(const Parameter& p) {
-  const std::set<std::string_view> sections = {"scale", "neighbourhood", "criteria"};
-  return sections.contains(p.section) || p.key == "crease_threshold";
-}
-
-bool is_of_evaluation(const Parameter& p) {
-  const std::set<std::string_view> sections = {"coherence", "loops", "spanning", "tangential"};
-  return sections.contains(p.section);
-}
-
-bool is_of_outputs(const Parameter& p) {
-  const std::set<std::string_view> keys = {"points", "vdb", "sample_points", "orient_normals"};
-  return keys.contains(p.key);
-}
-
 Lines made_from(const Lines& identity, const Config& config) {
   Lines lines = {kProgram};
   for (const std::string& part : identity) lines.push_back("input: " + part);
-  for (const std::string& line : parameter_lines(config, is_of_input)) lines.push_back(line);
+  for (const std::string& line : parameter_lines(config, Changes::kPoints)) lines.push_back(line);
   return lines;
+}
+
+// Says whether the first level has a list of the points that each of its points represents.
+std::string represented_line(const Config& config) {
+  return first_edge(config.scale) > 0 && config.results.points ? "with the represented points\n" : "";
 }
 
 // Returns the first line of `lines` that the others do not have.
@@ -101,6 +89,13 @@ std::optional<PartReader> open_run(const fs::path& folder) {
   return PartReader::open(folder / kRun, digest_of(kRun));
 }
 
+// A process that is given no note keeps the one that is there.
+bool is_other_note(const fs::path& folder, const std::string& note) {
+  if (note.empty()) return false;
+  const std::optional<PartReader> part = open_run(folder);
+  return !part || text_of(*part, "note") != note;
+}
+
 bool is_workspace_name(const std::string& name) {
   static const std::regex parts(
       "(run|tasks|results|tiles|(survey|bucket|level-[0-9]{1,3})-[0-9]{1,5}|tiles-[0-9]{1,3}-[0-9a-f]{16})("
@@ -125,11 +120,11 @@ void refuse_others(const fs::path& folder) {
 }  // namespace
 
 std::string evaluation_parameters(const Config& config) {
-  return joined(parameter_lines(config, is_of_evaluation));
+  return joined(parameter_lines(config, Changes::kEvaluation));
 }
 
 std::string output_parameters(const Config& config) {
-  return joined(parameter_lines(config, is_of_outputs));
+  return joined(parameter_lines(config, Changes::kOutputs));
 }
 
 void write_note(const fs::path& folder, WorkspaceNote note, const std::string& text) {
@@ -296,7 +291,7 @@ Workspace open_workspace(const PointSource& scan, const Config& given, bool is_u
   for (const fs::path& file : workspace_files(folder)) {
     if (!is_unit && file.extension() == kUnsealed) remove_part(file);
   }
-  if (!before) {
+  if (!before || is_other_note(folder, given.run.note)) {
     std::string inputs;
     for (const std::string& name : scan.names()) inputs += name + '\0';
     PartWriter part(folder / kRun);
@@ -307,7 +302,7 @@ Workspace open_workspace(const PointSource& scan, const Config& given, bool is_u
     part.seal(digest_of(kRun));
   }
   return {.folder = folder,
-          .made_from = joined(now),
+          .made_from = joined(now) + represented_line(given),
           .plan = read_plan(folder).value_or(TaskPlan()),
           .is_unit = is_unit};
 }

@@ -48,7 +48,7 @@ enum class PointsFormat : std::uint8_t { kInput, kPly, kCsv };
 
 struct OutputConfig {
   PointsFormat points_format = PointsFormat::kInput;
-  bool normals = false;                // with nx ny nz where they were estimated
+  bool points_normals = false;         // with nx ny nz where they were estimated
   bool obj = false;                    // write the loops for CAD
   bool gpkg = false, geojson = false;  // for GIS: GeoPackage, GeoJSON
   bool lids = false;                   // triangulated lids of the holes

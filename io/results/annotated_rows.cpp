@@ -40,7 +40,7 @@ std::vector<ResultColumn> result_columns(const FileScan& scan, const OutputConfi
   add("scalar_boundary", Scalar::kUint8, &sample.boundary);
   add("scalar_coherent", Scalar::kUint8, &sample.coherent);
   add("scalar_loop", Scalar::kInt32, &sample.loop);
-  if (config.normals && !scan.has_normals()) {
+  if (config.points_normals && !scan.has_normals()) {
     add("nx", Scalar::kFloat32, &sample.normal.x());
     add("ny", Scalar::kFloat32, &sample.normal.y());
     add("nz", Scalar::kFloat32, &sample.normal.z());

@@ -27,7 +27,7 @@ struct ResultColumn {
 };
 
 // Returns scalar_probability, the criteria, scalar_boundary, scalar_coherent and scalar_loop; with
-// config.normals also nx ny nz, unless a file of the scan has normals.
+// config.points_normals also nx ny nz, unless a file of the scan has normals.
 std::vector<ResultColumn> result_columns(const FileScan& scan, const OutputConfig& config);
 // PLY files have `quality` directly behind scalar_loop, too: the probability for MeshLab.
 inline constexpr std::string_view kQuality = "quality", kBeforeQuality = "scalar_loop";

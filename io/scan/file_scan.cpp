@@ -267,8 +267,9 @@ std::vector<std::string> FileScan::identity() const {
   FilesConfig config;
   config.input = config_;
   for (const Parameter& p : file_parameters(config)) {
-    if (p.section == "input") lines.push_back(std::string(p.key) + " = " + p.print());
+    if (p.changes == Changes::kPoints) lines.push_back(std::string(p.key) + " = " + p.print());
   }
+  if (!stated_.crs.empty()) lines.push_back("coordinate reference system = " + quote(stated_.crs));
   return lines;
 }
 

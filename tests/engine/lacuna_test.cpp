@@ -60,7 +60,7 @@ TEST_CASE("given normals count for the library", "[library]") {
   CHECK(bytes_of(found) != bytes_of(find_holes(cloud.positions, with_points())));
 }
 
-TEST_CASE("given normals are held against the surface, and may be left out", "[library]") {
+TEST_CASE("given normals that do not fit the surface are estimated, unless the user says otherwise", "[library]") {
   Cloud cloud = punched_sheet();
   cloud.normals.assign(cloud.size(), {0, 0, 1});
   const Holes right = find_holes(cloud.positions, cloud.normals, with_points());
@@ -70,11 +70,15 @@ TEST_CASE("given normals are held against the surface, and may be left out", "[l
   const Holes wrong = find_holes(cloud.positions, cloud.normals, with_points());
   CHECK(wrong.summary.given_normals.checked == right.summary.given_normals.checked);
   CHECK(wrong.summary.given_normals.off == wrong.summary.given_normals.checked);
+  const std::string without = bytes_of(find_holes(cloud.positions, with_points()));
+  CHECK(bytes_of(wrong) == without);
   Config config = with_points();
-  config.normals.estimate = true;
+  config.normals.use = NormalsUse::kEstimated;
   const Holes estimated = find_holes(cloud.positions, cloud.normals, config);
   CHECK(estimated.summary.given_normals.checked == 0);
-  CHECK(bytes_of(estimated) == bytes_of(find_holes(cloud.positions, with_points())));
+  CHECK(bytes_of(estimated) == without);
+  config.normals.use = NormalsUse::kGiven;
+  CHECK(bytes_of(find_holes(cloud.positions, cloud.normals, config)) != without);
 }
 
 TEST_CASE("the library finds the holes that the program writes", "[library]") {

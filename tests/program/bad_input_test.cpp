@@ -156,7 +156,7 @@ TEST_CASE("few points, equal points and collinear ones have results") {
     for (const std::string tile_points : {"1", "1000"}) {
       const ProgramResult result = detect_quietly(
           file, out,
-          {"--points", "--normals", "--orient-normals", "--tile-points", tile_points, "--threads", "3"});
+          {"--points", "--points-normals", "--orient-normals", "--tile-points", tile_points, "--threads", "3"});
       INFO("scan " << i << ": " << result.err);
       REQUIRE(result.exit_code == 0);
       CHECK(test::read_json(out / "holes.json").at("counts").at("points") == scans[i].first.size());
@@ -235,7 +235,7 @@ TEST_CASE("a disk that is full, in whatever phase, ends the run with one line an
     const fs::path out = scratch / ("out " + size);
     const ProgramResult result =
         detect_quietly(scan, out,
-                       {"--scratch", disk.path().string(), "--points", "--normals", "--orient-normals",
+                       {"--scratch", disk.path().string(), "--points", "--points-normals", "--orient-normals",
                         "--tile-points", "500", "--memory-limit", "64MiB"});
     CHECK(count_entries(disk.path()) == 0);
     if (result.exit_code == 0) {
@@ -291,7 +291,7 @@ TEST_CASE("the disk that info names is enough for the run, and not twice too muc
   const std::string scan =
       scratch.write("scan.ply", binary_ply(plane(300).punched({150, 150}, 8).jittered(0.2, 1)));
   for (const std::vector<std::string>& options :
-       {std::vector<std::string>{}, {"--points", "--normals"}, {"--vdb"}, {"--orient-normals"}}) {
+       {std::vector<std::string>{}, {"--points", "--points-normals"}, {"--vdb"}, {"--orient-normals"}}) {
     const bool is_usual = options.empty() || options[0] == "--points";
     for (const std::string limit : {"64MiB", "1GiB"}) {
       if (!is_usual && limit == "1GiB") continue;

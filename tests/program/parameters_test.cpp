@@ -161,13 +161,13 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
   // with points is none without.
   const auto follows = [](const Parameter& parameter, LoopMethod method, bool with_points, bool has_effect) {
     const bool needs_points =
-        parameter.key == "points_format" || parameter.key == "normals" || parameter.key == "orient_normals";
+        parameter.key == "points_format" || parameter.key == "points_normals" || parameter.key == "orient_normals";
     return method == LoopMethod::kTangential && !needs_points && has_effect == with_points;
   };
   for (const auto& [method, with_points] : kSettings) {
     io::FilesConfig config;
     config.loops.method = method;
-    config.results.points = config.output.normals = with_points;
+    config.results.points = config.output.points_normals = with_points;
     const std::string before = runs.results(config);
     const std::size_t count = parameters(config).size();
     for (std::size_t i = 0; i < count; i += count / draws(count)) {
@@ -175,7 +175,7 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
       Parameter parameter = parameters(changed)[i];
       // This scan has neither lines nor normals. The others say which files are read, and the unit of z needs
       // the unit of x and y. An area needs a void size; area_test.sh has it.
-      const std::string_view passed[] = {"method",    "every_point",  "estimate_normals",
+      const std::string_view passed[] = {"method",    "every_point",  "normals",
                                          "recursive", "skip_damaged", "unit_z",
                                          "trust",     "area"};
       if (std::find(std::begin(passed), std::end(passed), parameter.key) != std::end(passed)) continue;

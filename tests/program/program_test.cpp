@@ -439,7 +439,7 @@ TEST_CASE("info prints the size of the annotated scan, whatever the files hold")
       "3 4 0 0 0 1 7\n");
   for (const std::vector<std::string>& scans : {std::vector<std::string>{text}, {ply}, {text, ply}}) {
     for (const std::string format : {"ply", "csv"}) {
-      std::vector<std::string> arguments = {"info",   "--points",        "--normals",
+      std::vector<std::string> arguments = {"info",   "--points",        "--points-normals",
                                             "--json", "--points-format", format};
       arguments.insert(arguments.end(), scans.begin(), scans.end());
       const auto told = nlohmann::json::parse(run_program(arguments).out);

@@ -13,7 +13,7 @@ using Strings = std::vector<std::string>;
 
 // Every kind of result that needs no GDAL, but for the page: it shows the parameters.
 Strings with_all_results(const Strings& more) {
-  Strings options = {"--points", "--points-format",  "ply",        "--normals", "--vdb",           "--lids",
+  Strings options = {"--points", "--points-format",  "ply",        "--points-normals", "--vdb",           "--lids",
                      "--obj",    "--orient-normals", "--cut-outs", "0.1",       "--sample-points", "3000"};
   options.insert(options.end(), more.begin(), more.end());
   return options;

@@ -41,7 +41,7 @@ struct Shared {
 TEST_CASE("plan, work and finish give the files of detect") {
   const Shared run;
   const ProgramResult planned =
-      run.plan({"--tsv", "--points", "--normals", "--k", "14", "--bounds", "0,0,290,290"});
+      run.plan({"--tsv", "--points", "--points-normals", "--k", "14", "--bounds", "0,0,290,290"});
   REQUIRE(planned.exit_code == 0);
   std::istringstream lines(planned.out);
   std::vector<std::string> steps;
@@ -65,7 +65,7 @@ TEST_CASE("plan, work and finish give the files of detect") {
   INFO(finished.err);
   REQUIRE(finished.exit_code == 0);
   const fs::path alone = run.folder / "alone";
-  REQUIRE(run_program({"detect", run.list(), "--out", alone.string(), "--points", "--normals", "--k", "14",
+  REQUIRE(run_program({"detect", run.list(), "--out", alone.string(), "--points", "--points-normals", "--k", "14",
                        "--bounds", "0,0,290,290", "--quiet"})
               .exit_code == 0);
   CHECK(fs::exists(alone / "points" / "a.csv"));

@@ -76,7 +76,7 @@ TEST_CASE("workspace and results on one disk need space for both") {
   const FileScan scan({folder.write("scan.ply", ply())}, {});
   io::FilesConfig config = with_limit();
   config.results.points = true;
-  config.output.normals = true;
+  config.output.points_normals = true;
   const std::uint64_t workspace = workspace_bytes(scan, config);
   const std::uint64_t results = result_bytes(scan, config, kPoints, kPoints).all();
   const std::uint64_t larger = std::max(workspace, results);

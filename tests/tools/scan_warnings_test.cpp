@@ -85,11 +85,12 @@ TEST_CASE("files in different units are a warning, and the scan has no unit") {
 }
 
 TEST_CASE("normals that do not fit the surface are a warning from a tenth on") {
-  CHECK(normals_warning({.checked = 0, .off = 0}).empty());
-  CHECK(normals_warning({.checked = 1000, .off = 99}).empty());
-  CHECK_THAT(normals_warning({.checked = 1000, .off = 970}),
-             Contains("off by more than 45 degrees from the surface at 97 % of the points") &&
-                 Contains("--estimate-normals"));
+  CHECK(normals_warning({.checked = 0, .off = 0}, NormalsUse::kFitting).empty());
+  CHECK(normals_warning({.checked = 1000, .off = 99}, NormalsUse::kGiven).empty());
+  CHECK_THAT(normals_warning({.checked = 1000, .off = 970}, NormalsUse::kFitting),
+             Contains("at 97 % of a sample") && Contains("--normals given uses those"));
+  CHECK_THAT(normals_warning({.checked = 1000, .off = 100}, NormalsUse::kGiven),
+             Contains("at 10 % of a sample") && Contains("--normals estimated leaves them out"));
 }
 
 TEST_CASE("z in another unit is brought into the unit of x and y, but for the annotated scan") {

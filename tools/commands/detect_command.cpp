@@ -95,7 +95,7 @@ std::string readers_note(const FileScan& scan, const OutputConfig& config) {
 
 }  // namespace
 
-RunArguments::RunArguments(const Command& command) : parameters(command) {
+RunArguments::RunArguments(const Command& command, ParameterScope scope) : parameters(command, scope) {
   const auto choose = [this](std::size_t style) { progress = static_cast<ProgressStyle>(style); };
   command
       .add_choice("--progress", kProgressStyles, choose,
@@ -129,7 +129,8 @@ std::unique_ptr<FileScan> open_inputs(const std::vector<ScanInput>& inputs, cons
   return scan;
 }
 
-ResultArguments::ResultArguments(const Command& command) : RunArguments(command) {
+ResultArguments::ResultArguments(const Command& command, ParameterScope scope)
+    : RunArguments(command, scope) {
   command.add_option("--out", out, "Folder for the results; created if missing").type("DIR");
   command
       .add_flag("--overwrite", overwrite,
@@ -139,7 +140,7 @@ ResultArguments::ResultArguments(const Command& command) : RunArguments(command)
 
 std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
                       const ResultArguments& arguments, const WorkspaceSteps& steps) {
-  config.run.note = print_config(config);
+  if (config.run.note.empty()) config.run.note = print_config(config);
   const Clock::time_point start = Clock::now();
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
   const std::unique_ptr<FileScan> opened = open_inputs(inputs, config);

@@ -18,7 +18,7 @@ namespace lacuna::tools {
 
 // The options that all commands share that run the engine.
 struct RunArguments {
-  explicit RunArguments(const Command& command);
+  explicit RunArguments(const Command& command, ParameterScope scope = ParameterScope::kRun);
 
   // Returns the parameters over the ones in `base`. Sets up the log, and warns of parameters without effect.
   io::FilesConfig start(io::FilesConfig base = {}) const;
@@ -32,7 +32,7 @@ struct RunArguments {
 
 // The options of commands that also write results.
 struct ResultArguments : RunArguments {
-  explicit ResultArguments(const Command& command);
+  explicit ResultArguments(const Command& command, ParameterScope scope = ParameterScope::kRun);
 
   std::filesystem::path out;
   bool overwrite = false;

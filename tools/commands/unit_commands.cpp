@@ -86,7 +86,7 @@ void run_plan(const PlanArguments& arguments) {
 }
 
 struct WorkArguments {
-  explicit WorkArguments(const Command& command) : run(command) {}
+  explicit WorkArguments(const Command& command) : run(command, ParameterScope::kProcess) {}
 
   fs::path workspace;
   std::string step;
@@ -113,7 +113,7 @@ void run_work(const WorkArguments& arguments) {
 }
 
 struct FinishArguments {
-  explicit FinishArguments(const Command& command) : run(command) {}
+  explicit FinishArguments(const Command& command) : run(command, ParameterScope::kProcess) {}
 
   fs::path workspace;
   ResultArguments run;
@@ -123,6 +123,7 @@ void run_finish(const FinishArguments& arguments) {
   const StoredRun stored = read_run(arguments.workspace);
   FilesConfig config = arguments.run.start(config_of(stored, arguments.workspace));
   config.run.workspace = arguments.workspace.string();
+  config.run.note = stored.note;
   const std::string summary = detect_to(inputs_of(stored.names), config, arguments.run);
   if (!arguments.run.quiet) std::cout << summary;
 }

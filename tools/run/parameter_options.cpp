@@ -39,16 +39,19 @@ std::string type_name(const Parameter& parameter) {
 
 }  // namespace
 
-ParameterOptions::ParameterOptions(const Command& command) {
-  command
-      .add_option(
-          "--config", config_file_,
-          "Config file (TOML), or the name of one that is installed; options of the command line override it")
-      .type("CONFIG");
+ParameterOptions::ParameterOptions(const Command& command, ParameterScope scope) {
+  const bool is_run = scope == ParameterScope::kRun;
+  if (is_run)
+    command
+        .add_option(
+            "--config", config_file_,
+            "Config file (TOML), or the name of one that is installed; options of the command line override "
+            "it")
+        .type("CONFIG");
   FilesConfig defaults;
   for (const Parameter& parameter : parameters(defaults)) {
     Given& given = given_.emplace_back();
-    if (parameter.is_constant) continue;
+    if (parameter.is_constant || (!is_run && parameter.changes != Changes::kProcess)) continue;
     const bool is_flag = std::holds_alternative<bool*>(parameter.value);
     const std::string help(parameter.help);
     const Option option =

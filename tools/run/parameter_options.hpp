@@ -20,10 +20,16 @@ struct EffectiveConfig {
   std::vector<std::string> warnings;
 };
 
+// Which parameters a command takes.
+enum class ParameterScope {
+  kRun,      // all, and `--config`
+  kProcess,  // threads, memory and temporary files: a plan has the others
+};
+
 class ParameterOptions {
  public:
-  // Adds `--config` and an option for every parameter, grouped by section in --help.
-  explicit ParameterOptions(const Command& command);
+  // Adds an option for each parameter, grouped by section in --help.
+  explicit ParameterOptions(const Command& command, ParameterScope scope = ParameterScope::kRun);
 
   // `config`, then the config file, then the command line. Throws `UsageError` for what is wrong in the file
   // and `WrongOption` for what is wrong on the command line.

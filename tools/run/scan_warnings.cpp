@@ -272,15 +272,15 @@ std::string stray_warning(const Strays& strays, double resolution) {
   return text.str();
 }
 
-std::string normals_warning(const GivenNormals& normals) {
-  constexpr double kMostOff = 0.1;
-  const double share =
-      static_cast<double>(normals.off) / static_cast<double>(std::max<std::uint64_t>(normals.checked, 1));
-  if (share < kMostOff) return "";
+std::string normals_warning(const GivenNormals& normals, NormalsUse use) {
+  if (normals.fit()) return "";
+  const double share = static_cast<double>(normals.off) / static_cast<double>(normals.checked);
   std::ostringstream text;
   text << "the normals of the scan are off by more than 45 degrees from the surface at "
-       << std::lround(100 * share)
-       << " % of the points, so that holes can be missed; --estimate-normals leaves them out";
+       << std::lround(100 * share) << " % of a sample of the points"
+       << (use == NormalsUse::kGiven
+               ? ", so that holes can be missed; --normals estimated leaves them out"
+               : "; they are estimated from the points instead; --normals given uses those of the scan");
   return text.str();
 }
 
@@ -289,7 +289,7 @@ std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summ
   std::vector<std::string> warnings;
   if (std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
     warnings.push_back(std::move(strays));
-  if (std::string normals = normals_warning(summary.given_normals); !normals.empty())
+  if (std::string normals = normals_warning(summary.given_normals, config.normals.use); !normals.empty())
     warnings.push_back(std::move(normals));
   const Counts& counts = summary.counts;
   const std::uint64_t points = counts.points - counts.dropped - counts.thinned_out - counts.duplicates;

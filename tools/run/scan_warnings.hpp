@@ -36,8 +36,8 @@ std::string print_bounds(const Eigen::AlignedBox3d& box, double margin);
 // such points.
 std::string stray_warning(const Strays& strays, double resolution);
 
-// Returns the share of given normals that do not fit the surface, where it is a tenth or more; else nothing.
-std::string normals_warning(const GivenNormals& normals);
+// Returns the share of given normals that do not fit, and what the run has done; empty if they fit.
+std::string normals_warning(const GivenNormals& normals, NormalsUse use);
 
 // Names stations that do not count, because they cannot have measured all of their points.
 std::vector<std::string> station_warnings(const std::vector<io::StationSummary>& stations);

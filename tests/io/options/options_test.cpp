@@ -139,7 +139,7 @@ TEST_CASE("every key is unique and gives its option") {
   CHECK(options.count("--orient-normals") == 1);
   CHECK(options.count("--tile-points") == 1);
   CHECK(options.count("--points") == 1);
-  CHECK(options.count("--normals") == 1);
+  CHECK(options.count("--points-normals") == 1);
 }
 
 TEST_CASE("the least and the largest value of each number are possible, the next ones are not") {
