@@ -17,7 +17,6 @@ int run(int argc, char** argv) {
   add_report_command(program);
   add_render_command(program);
   add_compare_command(program);
-  add_update_command(program);
   add_stations_command(program);
   add_find_stations_command(program);
   add_plan_command(program);

@@ -6,7 +6,6 @@
 #include "engine/store/sealed_part.hpp"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <regex>
 #include <sstream>
@@ -20,8 +19,8 @@ namespace fs = std::filesystem;
 
 // The number changes with the records in the parts.
 constexpr const char* kProgram = "lacuna " LACUNA_VERSION ", parts of form 5";
-constexpr const char* kRun = "run";  // the part that says whose workspace it is
-constexpr std::array<const char*, 2> kNotes = {"tasks", "results"};  // by `WorkspaceNote`
+constexpr const char* kRun = "run";      // the part that says whose workspace it is
+constexpr const char* kTasks = "tasks";  // the part that has the plan
 constexpr std::string_view kLevel = "level-", kTiles = "tiles-";
 
 using Lines = std::vector<std::string>;
@@ -98,7 +97,7 @@ bool is_other_note(const fs::path& folder, const std::string& note) {
 
 bool is_workspace_name(const std::string& name) {
   static const std::regex parts(
-      "(run|tasks|results|tiles|(survey|bucket|level-[0-9]{1,3})-[0-9]{1,5}|tiles-[0-9]{1,3}-[0-9a-f]{16})("
+      "(run|tasks|tiles|(survey|bucket|level-[0-9]{1,3})-[0-9]{1,5}|tiles-[0-9]{1,3}-[0-9a-f]{16})("
       "\\.[0-9a-f]{16}\\."
       "partial)?"
       "|level-[0-9]{1,3}-[0-9a-f]{16}\\.(points|normals)(\\.partial)?");
@@ -127,19 +126,6 @@ std::string output_parameters(const Config& config) {
   return joined(parameter_lines(config, Changes::kOutputs));
 }
 
-void write_note(const fs::path& folder, WorkspaceNote note, const std::string& text) {
-  const char* const name = kNotes.at(static_cast<std::size_t>(note));
-  PartWriter part(folder / name);
-  part.add("text", 0, std::span<const char>(text));
-  part.seal(digest_of(name));
-}
-
-std::optional<std::string> read_note(const fs::path& folder, WorkspaceNote note) {
-  const char* const name = kNotes.at(static_cast<std::size_t>(note));
-  const std::optional<PartReader> part = PartReader::open(folder / name, digest_of(name));
-  return part ? text_of(*part, "text") : std::nullopt;
-}
-
 Digest digest_of(const std::string& made_from, const TaskShare& share) {
   return digest_of(made_from + "part " + std::to_string(share.task) + " of " + std::to_string(share.tasks));
 }
@@ -151,11 +137,14 @@ std::string line_of(const Digest& checksum) {
 void write_plan(const fs::path& folder, const TaskPlan& plan) {
   std::ostringstream text;
   text << plan.tasks << " " << plan.levels << " " << plan.tile_points << " " << plan.reads;
-  write_note(folder, WorkspaceNote::kTasks, text.str());
+  PartWriter part(folder / kTasks);
+  part.add("text", 0, std::span<const char>(text.str()));
+  part.seal(digest_of(kTasks));
 }
 
 std::optional<TaskPlan> read_plan(const fs::path& folder) {
-  std::istringstream text(read_note(folder, WorkspaceNote::kTasks).value_or(""));
+  const std::optional<PartReader> part = PartReader::open(folder / kTasks, digest_of(kTasks));
+  std::istringstream text(part ? text_of(*part, "text").value_or("") : "");
   TaskPlan plan;
   if (!(text >> plan.tasks >> plan.levels >> plan.tile_points >> plan.reads)) return std::nullopt;
   return plan;
@@ -166,44 +155,6 @@ Config with_planned_tiles(Config config) {
   if (!folder.empty() && config.run.tile_points == 0)
     config.run.tile_points = static_cast<std::int64_t>(read_plan(folder).value_or(TaskPlan()).tile_points);
   return config;
-}
-
-fs::path earlier_run(const fs::path& folder) {
-  return folder / "before";
-}
-
-fs::path earlier_results(const fs::path& folder) {
-  return earlier_run(folder) / "compared";
-}
-
-void begin_update(const fs::path& folder) {
-  const fs::path earlier = earlier_run(folder);
-  if (is_workspace(earlier)) return;
-  std::error_code error;
-  fs::create_directory(earlier, error);
-  const auto move = [&](const char* name) {
-    if (!error && fs::exists(folder / name)) fs::rename(folder / name, earlier / name, error);
-  };
-  for (const char* note : kNotes) move(note);
-  for (const fs::path& file : workspace_files(folder)) {
-    if (file.filename() != kRun) remove_part(file);
-  }
-  move(kRun);  // last: with it, the folder is a workspace
-  if (error)
-    throw Error(earlier.string() + ": the data of the run cannot be moved there: " + error.message());
-}
-
-void end_update(const fs::path& folder) {
-  const fs::path earlier = earlier_run(folder);
-  std::error_code error;
-  if (!fs::is_directory(earlier, error)) return;
-  // The part of the run goes first: without it, the update is at its end.
-  if (is_workspace(earlier)) remove_part(earlier / kRun);
-  for (const fs::directory_entry& entry : fs::directory_iterator(earlier)) {
-    if (is_workspace_name(entry.path().filename().string())) remove_part(entry.path());
-  }
-  fs::remove_all(earlier_results(folder), error);
-  fs::remove(earlier, error);  // unless it has other files
 }
 
 std::optional<std::vector<std::string>> made_from_of(const fs::path& folder) {

@@ -60,11 +60,6 @@ std::string evaluation_parameters(const Config& config);
 // Returns the parameters that say which outputs of a tile are wanted.
 std::string output_parameters(const Config& config);
 
-enum class WorkspaceNote {
-  kTasks,    // `TaskPlan`
-  kResults,  // the folder that has the results of the last complete run
-};
-
 // The data of a run in its workspace, from which another process can do a part of the run.
 struct StoredRun {
   std::vector<std::string> names;  // `PointSource::names`
@@ -75,18 +70,6 @@ StoredRun read_run(const std::filesystem::path& folder);
 // Returns what the parts are made from, a line each. Returns nothing where the part of the run is damaged:
 // the run makes it again.
 std::optional<std::vector<std::string>> made_from_of(const std::filesystem::path& folder);
-
-// Write and read a line of text as a part of its own. The result is empty where there is no such part.
-void write_note(const std::filesystem::path& folder, WorkspaceNote note, const std::string& text);
-std::optional<std::string> read_note(const std::filesystem::path& folder, WorkspaceNote note);
-
-// Begins an update: moves the data of the run into a folder of the workspace, and removes the other parts. If
-// a stopped update has left such a folder, this is done. `end_update` removes the folder.
-void begin_update(const std::filesystem::path& folder);
-void end_update(const std::filesystem::path& folder);
-std::filesystem::path earlier_run(const std::filesystem::path& folder);  // where its data are, if they are
-// Returns a folder for results of the run before. `end_update` removes it, too.
-std::filesystem::path earlier_results(const std::filesystem::path& folder);
 
 // Write and read the plan of a run. The result is empty where none was made.
 void write_plan(const std::filesystem::path& folder, const TaskPlan& plan);

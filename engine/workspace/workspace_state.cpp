@@ -25,8 +25,7 @@ struct LevelParts {
 std::optional<WorkspaceState> state_of_workspace(const fs::path& folder) {
   const std::vector<fs::path> files = workspace_files(folder);
   if (files.empty()) return std::nullopt;
-  WorkspaceState state{.made_from = made_from_of(folder).value_or(std::vector<std::string>{}),
-                       .is_update = !workspace_files(earlier_run(folder)).empty()};
+  WorkspaceState state{.made_from = made_from_of(folder).value_or(std::vector<std::string>{})};
   std::map<std::size_t, LevelParts> levels;
   for (const fs::path& file : files) {
     std::error_code error;

@@ -22,7 +22,6 @@ struct WorkspaceState {
   std::vector<std::string> made_from;  // a line each
   std::vector<LevelState> levels;
   std::uint64_t bytes = 0;  // of all files
-  bool is_update = false;   // which was stopped
 };
 
 // Reads the tables of the parts, and does not check that the parts are whole. Returns nothing where the

@@ -93,9 +93,7 @@ const std::vector<ResultFile>& all_results() {
       {"report.html", kReportMark,
        [](D, S, C, OutputFile& out) { write_report(read_scene(out.place().parent_path()), out); },
        [](C c) { return c.output.report; }, Writer::kThis, true},
-      // lacuna update writes it afterwards, and lacuna stations writes the next one. They do not belong to
-      // the results of another run.
-      {kChangesFile, kJsonMark, [](D, S, C, OutputFile&) {}, [](C) { return false; }},
+      // lacuna stations writes it afterwards. It does not belong to the results of another run.
       {kNextStationsFile, kNextStationsMark, [](D, S, C, OutputFile&) {}, [](C) { return false; }},
       {"holes.csv", table_header(), [](D d, S, C, OutputFile& out) { write_table(d, out); }, always},
       {"run.json", kJsonMark, [](D d, S s, C c, OutputFile& out) { write_run(d, s, c, out); }, always},

@@ -34,9 +34,6 @@ LACUNA_API std::vector<std::filesystem::path> write_results(const ExplainedDetec
 // How a file of JSON begins: an earlier one is recognised by it.
 inline constexpr std::string_view kJsonMark = "{\n  \"lacuna\": \"";
 
-// What an update has changed; lacuna update writes it.
-inline constexpr std::string_view kChangesFile = "changes.json";
-
 // holes.json: the parameters that change results, the inputs, counts, and one line for each loop, in order.
 // Runs with the same answer write the same bytes. docs/holes.schema.json describes it; the form has a number,
 // kHolesSchema. What is not finite is null.

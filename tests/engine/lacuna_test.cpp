@@ -55,12 +55,15 @@ TEST_CASE("points in memory, a source of batches and the streams of detect have 
 
 TEST_CASE("given normals count for the library", "[library]") {
   const Cloud cloud = punched_sheet().with_random_normals(3);
-  const Holes found = find_holes(cloud.positions, cloud.normals, with_points());
-  CHECK(bytes_of(found) == bytes_without_boundary(run_engine(cloud, {})));
+  Config config = with_points();
+  config.normals.use = NormalsUse::kGiven;
+  const Holes found = find_holes(cloud.positions, cloud.normals, config);
+  CHECK(bytes_of(found) == bytes_without_boundary(run_engine(cloud, config)));
   CHECK(bytes_of(found) != bytes_of(find_holes(cloud.positions, with_points())));
 }
 
-TEST_CASE("given normals that do not fit the surface are estimated, unless the user says otherwise", "[library]") {
+TEST_CASE("given normals that do not fit the surface are estimated, unless the user says otherwise",
+          "[library]") {
   Cloud cloud = punched_sheet();
   cloud.normals.assign(cloud.size(), {0, 0, 1});
   const Holes right = find_holes(cloud.positions, cloud.normals, with_points());

@@ -22,6 +22,7 @@ using test::ScratchFolder;
 
 // Another value than the default, for all but flags and the method.
 const std::map<std::string_view, std::string_view> kOtherValues = {
+    {"normals", "estimated"},
     {"k", "9"},
     {"eps", "4"},
     {"eps_fraction", "0.05"},
@@ -96,14 +97,38 @@ std::string scan_text() {
 
 class Runs {
  public:
-  Runs() : scan_(scratch_.write("scan.txt", scan_text())) {}
+  explicit Runs(const std::string& text = scan_text()) : scan_(scratch_.write("scan.txt", text)) {}
 
   // All bytes of the results. Some files have parameters or times in them. Of these it takes the loops of
   // holes.json with their system and unit, and the names of the others.
   std::string results(const io::FilesConfig& config) {
     const std::string file = scratch_.write("c.toml", print_config(config));
-    const fs::path out =
-        test::detect(scan_, scratch_ / ("out-" + std::to_string(runs_++)), {"--config", file});
+    return bytes_of(test::detect(scan_, scratch_ / ("out-" + std::to_string(runs_++)), {"--config", file}));
+  }
+
+  // The same of a run in the workspace, or its error.
+  std::string kept_results(const io::FilesConfig& config) {
+    const std::string file = scratch_.write("c.toml", print_config(config));
+    const fs::path out = scratch_ / ("out-" + std::to_string(runs_++));
+    const auto run = test::run_program(
+        {"detect", scan_, "--out", out.string(), "--config", file, "--workspace", workspace(), "--quiet"});
+    return run.exit_code == 0 ? bytes_of(out) : run.err;
+  }
+  void forget() const { fs::remove_all(workspace()); }
+
+  // What the program says of these options.
+  std::string warnings(std::vector<std::string> options) {
+    options.insert(options.begin(), {"detect", scan_, "--out", (scratch_ / "out").string(), "--quiet"});
+    const auto run = test::run_program(options);
+    CHECK(run.exit_code == 0);
+    return run.err;
+  }
+
+  std::string workspace() const { return (scratch_ / "workspace").string(); }
+  std::string write(const std::string& config) const { return scratch_.write("given.toml", config); }
+
+ private:
+  static std::string bytes_of(const fs::path& out) {
     std::string bytes;
     std::set<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(out)) {
@@ -120,18 +145,6 @@ class Runs {
     return bytes;
   }
 
-  // What the program says of these options.
-  std::string warnings(std::vector<std::string> options) {
-    options.insert(options.begin(), {"detect", scan_, "--out", (scratch_ / "out").string(), "--quiet"});
-    const auto run = test::run_program(options);
-    CHECK(run.exit_code == 0);
-    return run.err;
-  }
-
-  std::string workspace() const { return (scratch_ / "workspace").string(); }
-  std::string write(const std::string& config) const { return scratch_.write("given.toml", config); }
-
- private:
   ScratchFolder scratch_;
   std::string scan_;
   int runs_ = 0;
@@ -160,8 +173,8 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
   // With points there are more results. So an effect without points is one with points, too, and no effect
   // with points is none without.
   const auto follows = [](const Parameter& parameter, LoopMethod method, bool with_points, bool has_effect) {
-    const bool needs_points =
-        parameter.key == "points_format" || parameter.key == "points_normals" || parameter.key == "orient_normals";
+    const bool needs_points = parameter.key == "points_format" || parameter.key == "points_normals" ||
+                              parameter.key == "orient_normals";
     return method == LoopMethod::kTangential && !needs_points && has_effect == with_points;
   };
   for (const auto& [method, with_points] : kSettings) {
@@ -175,9 +188,8 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
       Parameter parameter = parameters(changed)[i];
       // This scan has neither lines nor normals. The others say which files are read, and the unit of z needs
       // the unit of x and y. An area needs a void size; area_test.sh has it.
-      const std::string_view passed[] = {"method",    "every_point",  "normals",
-                                         "recursive", "skip_damaged", "unit_z",
-                                         "trust",     "area"};
+      const std::string_view passed[] = {"method",       "every_point", "normals", "recursive",
+                                         "skip_damaged", "unit_z",      "trust",   "area"};
       if (std::find(std::begin(passed), std::end(passed), parameter.key) != std::end(passed)) continue;
       set_other(parameter, runs.workspace());
       parameter = parameters(changed)[i];
@@ -188,6 +200,46 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
       CAPTURE(before.size(), after.size(), parameter.print());
       CHECK((after != before) == has_effect);
     }
+  }
+}
+
+TEST_CASE("a kept run with another parameter gives the results of a fresh run, or is refused") {
+  std::string text = scan_text();
+  for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos; at += 9) text.insert(at, " 0 0.6 1");
+  text.replace(text.find(" 0 0.6 1"), 8, " nx ny nz");
+  Runs runs(text);
+  std::vector<io::FilesConfig> configs(3);
+  configs[1].loops.method = LoopMethod::kPaper;
+  configs[1].results.points = true;
+  configs[2].scale.min_hole = 4;
+  for (const io::FilesConfig& config : configs) {
+    const std::size_t count = parameters(configs[0]).size();
+    std::size_t refused = 0, same = 0;
+    for (std::size_t i = 0; i < count; i += count / draws(count)) {
+      io::FilesConfig changed = config;
+      const Parameter parameter = parameters(changed)[i];
+      const std::string_view passed[] = {"workspace", "recursive", "skip_damaged", "unit_z", "area"};
+      if (std::find(std::begin(passed), std::end(passed), parameter.key) != std::end(passed)) continue;
+      if (parameter.key == "method") {
+        changed.loops.method =
+            config.loops.method == LoopMethod::kPaper ? LoopMethod::kTangential : LoopMethod::kPaper;
+      } else {
+        set_other(parameter, runs.workspace() + "-scratch");
+      }
+      if (!changed.input.columns.empty()) changed.input.columns += " nx ny nz";
+      INFO(name_of(config.loops.method) << ", min_hole " << config.scale.min_hole << ": " << parameter.key);
+      const std::string fresh = runs.results(changed);
+      runs.forget();
+      const std::string first = runs.kept_results(config);
+      REQUIRE_THAT(first, !Contains("lacuna: error"));
+      const std::string kept = runs.kept_results(changed);
+      const bool is_refused = kept.find("the workspace of another run") != kept.npos;
+      CHECK((is_refused || kept == fresh));
+      is_refused ? ++refused : ++same;
+      if (is_refused) continue;
+      CHECK(runs.kept_results(config) == first);  // and back
+    }
+    CHECK(same > refused);
   }
 }
 

@@ -371,7 +371,8 @@ Config random_config(std::uint64_t seed, double spacing) {
   Random random(seed);
   const auto varied = [&] { return random.chance(0.5); };
   Config config;
-  config.scale.every_point = true;  // clouds of points at random places have lines here and there
+  config.scale.every_point = true;          // clouds of points at random places have lines here and there
+  config.normals.use = NormalsUse::kGiven;  // random ones do not fit
   if (varied()) config.neighbourhood.k = random.whole(1, 30);
   if (random.chance(0.3)) config.neighbourhood.eps = random.uniform(0.5, 4) * spacing;
   if (config.neighbourhood.eps == 0 && random.chance(0.15)) {

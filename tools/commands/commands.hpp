@@ -22,7 +22,6 @@ void add_stations_command(const Command& program);
 void add_find_stations_command(const Command& program);
 
 // Runs that go on from a workspace.
-void add_update_command(const Command& program);
 void add_status_command(const Command& program);
 void add_clean_command(const Command& program);
 

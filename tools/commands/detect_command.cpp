@@ -139,7 +139,7 @@ ResultArguments::ResultArguments(const Command& command, ParameterScope scope)
 }
 
 std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
-                      const ResultArguments& arguments, const WorkspaceSteps& steps) {
+                      const ResultArguments& arguments) {
   if (config.run.note.empty()) config.run.note = print_config(config);
   const Clock::time_point start = Clock::now();
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
@@ -158,7 +158,6 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   if (workspace) {
     const fs::path& folder = workspace->folder.path();
     watch_workspace(folder);
-    if (steps.begin) steps.begin();
     if (const std::optional<WorkspaceState> state = state_of_workspace(folder))
       spdlog::info("goes on in {}: {}", folder.string(), print_state(*state));
   }
@@ -177,11 +176,6 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   progress->begin("write", 0);
   const std::vector<fs::path> written = write_results(detection, scan, with_min_hole(config), out, overwrite);
   note_complete_results();
-  const std::string more = steps.end ? steps.end() : "";
-  if (workspace) {
-    write_note(workspace->folder.path(), WorkspaceNote::kResults, full_name(out).string());
-    end_update(workspace->folder.path());
-  }
   progress->end();
   for (const std::string& warning : station_warnings(detection.stations)) spdlog::warn("{}", warning);
   for (const std::string& warning : scan_warnings(scan, detection.summary, config))
@@ -197,7 +191,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   if (workspace)
     summary += "kept: " + visible(config.run.workspace) +
                ", from which the same command goes on; lacuna clean removes it\n";
-  return summary + more;
+  return summary;
 }
 
 namespace {

@@ -9,7 +9,6 @@
 #include "tools/run/parameter_options.hpp"
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,14 +44,8 @@ io::FilesConfig config_of(const StoredRun& run, const std::filesystem::path& wor
 std::unique_ptr<io::FileScan> open_inputs(const std::vector<io::ScanInput>& inputs,
                                           const io::FilesConfig& config);
 
-// The other work of a command, with the workspace that this run alone uses.
-struct WorkspaceSteps {
-  std::function<void()> begin;       // before the run
-  std::function<std::string()> end;  // once the results are complete; returns a text for the summary
-};
-
 // Finds the holes and writes the results; returns their summary.
 std::string detect_to(const std::vector<io::ScanInput>& inputs, io::FilesConfig config,
-                      const ResultArguments& arguments, const WorkspaceSteps& steps = {});
+                      const ResultArguments& arguments);
 
 }  // namespace lacuna::tools

@@ -44,14 +44,12 @@ void print_status(const fs::path& folder) {
                 << " tiles evaluated, " << level.tiles - level.evaluated << " left\n";
     }
   }
-  if (state.is_update) std::cout << "  an update was stopped: parts of the run before are kept\n";
   std::cout << "The same command goes on from here; lacuna finish does, too.\n";
 }
 
 void clean(const fs::path& folder) {
   const WorkspaceState state = state_of(folder);
   const FolderLock alone(folder);
-  end_update(folder);
   for (const fs::path& file : workspace_files(folder)) remove_part(file);
   std::error_code error;
   const bool is_gone = fs::remove(folder, error);  // unless it has other files

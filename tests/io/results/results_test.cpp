@@ -154,7 +154,7 @@ TEST_CASE("points.ply keeps every property of the input and adds the results", "
   FileScan scan({file}, {});
   FilesConfig config;
   config.results.points = true;
-  config.output = {.points_format = PointsFormat::kPly, .normals = true};
+  config.output = {.points_format = PointsFormat::kPly, .points_normals = true};
   write_results(FakeDetection().with_results(3), scan, config, folder.path());
   const Table table = read_table(folder / "points.ply");
   CHECK(table.names == Names{"red", "x", "y", "z", "scalar_probability", "scalar_angle", "scalar_halfdisc",
@@ -207,7 +207,7 @@ TEST_CASE("normals of the input stay, and are not written a second time", "[io]"
   FileScan scan({file}, {});
   FilesConfig config;
   config.results.points = true;
-  config.output = {.points_format = PointsFormat::kPly, .normals = true};
+  config.output = {.points_format = PointsFormat::kPly, .points_normals = true};
   write_results(FakeDetection().with_results(1), scan, config, folder.path());
   const Table table = read_table(folder / "points.ply");
   CHECK(table.names.size() == 6 + 8);
