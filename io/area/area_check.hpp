@@ -58,10 +58,12 @@ struct AreaCheck {
   double area = 0;                    // of the project
   double voids_area = 0;              // of all voids
   double missing_area = 0;            // of the voids that count, without what lies in exceptions
-  std::uint64_t points = 0;           // in the area
-  std::vector<Void> voids;            // those that count first; then by area, the largest first
-  double tile_edge = 0;               // 0: no table
-  std::vector<AreaTile> tiles;        // with a part of the area; from south to north, then from west to east
+  // These are as in PlanOfPoints.
+  std::uint64_t points = 0, later_returns = 0, synthetic = 0, repeated = 0;
+  bool counts_once = true, all_synthetic = false;
+  std::vector<Void> voids;      // those that count first; then by area, the largest first
+  double tile_edge = 0;         // 0: no table
+  std::vector<AreaTile> tiles;  // with a part of the area; from south to north, then from west to east
 
   std::size_t counting() const {
     std::size_t count = 0;

@@ -6,12 +6,18 @@
 
 #include <cmath>
 #include <memory>
+#include <sstream>
+#include <string_view>
 
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
 namespace lacuna::io {
 namespace {
+
+bool is_of_degrees(const OGREnvelope& box) {
+  return box.MinX >= -360 && box.MaxX <= 360 && box.MinY >= -90 && box.MaxY <= 90;
+}
 
 // The polygons of one file.
 class Reader {
@@ -22,7 +28,8 @@ class Reader {
     const char* const drivers[] = {"GPKG", "GeoJSON", "ESRI Shapefile", nullptr};
     const Dataset dataset(GDALDataset::Open(to_.file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers));
     if (!dataset) fail("cannot be read as GeoPackage, GeoJSON or Shapefile");
-    for (OGRLayer* const layer : dataset->GetLayers()) read(*layer);
+    const std::string_view format = dataset->GetDriverName();
+    for (OGRLayer* const layer : dataset->GetLayers()) read(*layer, format == "GeoJSON");
     if (to_.polygons.empty()) fail("has no polygon");
   }
 
@@ -32,12 +39,30 @@ class Reader {
     throw Error(to_.file + ": " + reason + (text.empty() ? "" : " (GDAL: " + text + ")"));
   }
 
-  void read(OGRLayer& layer) {
+  // Degrees that are none come from a file that states no system, mostly.
+  [[noreturn]] void fail_at_degrees(const OGREnvelope& box, bool is_geojson) const {
+    std::ostringstream text;
+    text.precision(10);
+    text << to_.file << ": its coordinates, such as " << box.MinX << " " << box.MinY
+         << ", are read as degrees "
+         << (is_geojson
+                 ? "by RFC 7946, unless a member `crs` of the file names their system; a GeoPackage "
+                   "states one, too, as with `ogr2ogr -a_srs EPSG:N OUT.gpkg IN.geojson`"
+                 : "of " + to_.file_crs + ", and are far beyond; `ogr2ogr -a_srs EPSG:N OUT.gpkg IN` " +
+                       "states their system");
+    throw Error(text.str());
+  }
+
+  void read(OGRLayer& layer, bool is_geojson) {
     const auto conversion = conversion_of(layer);
+    const bool from_degrees = conversion && layer.GetSpatialRef()->IsGeographic() != 0;
     layer.ResetReading();
     while (const OGRFeatureUniquePtr feature{layer.GetNextFeature()}) {
       OGRGeometry* const geometry = feature->GetGeometryRef();
       if (geometry == nullptr || geometry->getDimension() != 2) continue;
+      OGREnvelope box;
+      geometry->getEnvelope(&box);
+      if (from_degrees && !is_of_degrees(box)) fail_at_degrees(box, is_geojson);
       if (conversion && geometry->transform(conversion.get()) != OGRERR_NONE)
         fail("cannot be converted to the coordinate reference system of the scan");
       // Curved polygons become polygons of straight edges.

@@ -9,6 +9,7 @@
 #include "io/area/plan_raster.hpp"
 #include "io/area/trace_voids.hpp"
 #include "io/crs/gis_module.hpp"
+#include "io/scan/plan_system.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -219,6 +220,7 @@ std::vector<TracedVoid> trace(const Plan& plan, const PlanGrid& grid) {
 
 std::optional<Area> read_area(const FileScan& scan, const FilesConfig& config) {
   if (config.area.area.empty()) return std::nullopt;
+  require_plan(scan, "--area");
   Area area;
   area.polygons = read_polygons(config.area.area, scan);
   if (!config.area.except.empty()) area.exceptions = read_polygons(config.area.except, scan);
@@ -236,6 +238,14 @@ AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config
   tiles.add_area(inside);
   const PlanOfPoints points = find_empty_places(
       grid, inside, Memory::share(config.run.memory_limit).limit / 8, scan, tiles, progress);
+  if (points.hull.empty() && points.later_returns + points.synthetic > 0) {
+    std::string others;
+    if (points.later_returns > 0)
+      others += ", but " + std::to_string(points.later_returns) + " later returns";
+    if (points.synthetic > 0) others += ", but " + std::to_string(points.synthetic) + " synthetic points";
+    throw Error(config.area.area + ": no first returns that were measured are in it" + others +
+                ", which cover nothing; the files with the first returns are needed, too");
+  }
   if (points.hull.empty())
     throw Error(config.area.area + ": no point of the scan is in its bounds; are both in the same system?");
 
@@ -245,7 +255,12 @@ AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config
   AreaCheck check{.polygons = area.polygons,
                   .void_size = config.area.void_size,
                   .area = grid.area(inside.count()),
-                  .points = points.points};
+                  .points = points.points,
+                  .later_returns = points.later_returns,
+                  .synthetic = points.synthetic,
+                  .repeated = points.repeated,
+                  .counts_once = points.counts_once,
+                  .all_synthetic = points.all_synthetic};
   for (TracedVoid& traced : trace(plan, grid)) {
     const Void& found = check.voids.emplace_back(plan.measure(std::move(traced), tiles));
     check.voids_area += found.area;

@@ -33,8 +33,9 @@ LACUNA_API std::optional<Area> read_area(const FileScan& scan, const FilesConfig
 // the area cuts voids.
 //
 // A void counts unless all of its empty cells lie in exceptions. Where a file of the scan has return
-// numbers, only first returns are points. (Data voids in the Lidar Base Specification of the U.S. Geological
-// Survey: its least void has four nominal pulse spacings.)
+// numbers, only first returns are points. Points of the flag synthetic cover nothing, unless the scan has no
+// others. Points of the same x, y, z and time count once. (Data voids in the Lidar Base Specification of the
+// U.S. Geological Survey: its least void has four nominal pulse spacings.)
 //
 // Reads the scan once or twice. Memory: 3 or 4 bits for each cell in the bounds of the area, and the
 // outlines. Cost: linear in points and in cells. Throws `Error` where outlines do not fit in memory.

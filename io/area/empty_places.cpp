@@ -2,11 +2,13 @@
 #include "io/area/empty_places.hpp"
 
 #include "engine/run/error.hpp"
+#include "io/area/repeated_points.hpp"
 #include "io/rows/vectors.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -17,73 +19,119 @@ namespace {
 constexpr double kToCorner = std::numbers::sqrt2 / 2;  // from the middle of a cell
 constexpr double kToNeighbours = 1.5;                  // to the middles of the eight cells around
 
-// Passes on the first returns of a scan, in cells.
+// Copies a column; leaves `values` empty where the rows have none of this name.
+void load_if_any(const RowBatch& rows, const RowLayout& layout, const char* name,
+                 std::vector<double>& values) {
+  const Property* const column = layout.find_alike(name);
+  values.clear();
+  if (column != nullptr) load_column(rows, layout.stride, *column, values);
+}
+
+// Passes on the first returns of a scan that were measured, in cells.
 class PlanObserver : public RowObserver {
  public:
-  PlanObserver(const PlanGrid& grid, Progress& progress) : grid_(grid), progress_(progress) {}
+  PlanObserver(const PlanGrid& grid, bool takes_synthetic, Progress& progress)
+      : grid_(grid), takes_synthetic_(takes_synthetic), progress_(progress) {}
 
   void take(std::size_t, const ScanReader& reader, const RowBatch& rows, std::span<const Eigen::Vector3d>,
             std::span<const Eigen::Vector3d> kept) final {
-    const Property* const returns = reader.layout().find_alike("return_number");
-    if (returns != nullptr) load_column(rows, reader.layout().stride, *returns, returns_);
+    load_if_any(rows, reader.layout(), "return_number", returns_);
+    load_if_any(rows, reader.layout(), "synthetic", synthetic_);
+    load_if_any(rows, reader.layout(), "gps_time", times_);
     for (std::size_t i = 0; i < kept.size(); ++i) {
-      const bool is_first = returns == nullptr || returns_[i] <= 1;
-      if (is_first && kept[i].allFinite()) add(grid_.to_cells(kept[i].head<2>()));
+      if (!kept[i].allFinite()) continue;
+      const Eigen::Vector2d at = grid_.to_cells(kept[i].head<2>());
+      const bool is_synthetic = !synthetic_.empty() && synthetic_[i] != 0;
+      has_measured_ = has_measured_ || !is_synthetic;
+      if (!returns_.empty() && returns_[i] > 1) {
+        leave_out(at, &PlanOfPoints::later_returns);
+      } else if (is_synthetic && !takes_synthetic_) {
+        leave_out(at, &PlanOfPoints::synthetic);
+      } else {
+        add(at, kept[i], times_.empty() ? 0 : times_[i]);
+      }
     }
     progress_.advance(kept.size());
   }
 
+  bool has_measured() const { return has_measured_; }
+
  protected:
-  virtual void add(const Eigen::Vector2d& at) = 0;
+  virtual void add(const Eigen::Vector2d& at, const Eigen::Vector3d& place, double time) = 0;
+  virtual void leave_out(const Eigen::Vector2d&, std::uint64_t PlanOfPoints::*) {}
   const PlanGrid& grid() const { return grid_; }
 
  private:
   const PlanGrid& grid_;
+  bool takes_synthetic_, has_measured_ = false;
   Progress& progress_;
-  std::vector<double> returns_;
+  std::vector<double> returns_, synthetic_, times_;
+};
+
+// How the points of an area are counted.
+struct Counting {
+  bool takes_synthetic = false;
+  bool once = true;  // points that are there more than once
 };
 
 // Finds the cells whose middles are empty, and those where no more than a corner may be.
 class MarkingObserver : public PlanObserver {
  public:
-  MarkingObserver(const PlanGrid& grid, const PlanRaster& inside, AreaTiles& tiles, Progress& progress)
-      : PlanObserver(grid, progress),
+  MarkingObserver(const PlanGrid& grid, const PlanRaster& inside, const AreaTiles& tiles, Counting counting,
+                  std::uint64_t memory, Progress& progress)
+      : PlanObserver(grid, counting.takes_synthetic, progress),
         plan{.empty = inside, .density = PointDensity(grid)},
         maybe(inside),
+        tiles(tiles),
+        repeated(std::pow(10, std::floor(std::log10(grid.size)) - 6), memory),
         inside_(inside),
-        tiles_(tiles) {}
+        once_(counting.once) {}
 
   PlanOfPoints plan;
   PlanRaster maybe;
   ConvexHull hull;
+  AreaTiles tiles;
+  RepeatedPoints repeated;
 
  private:
-  void add(const Eigen::Vector2d& at) final {
+  bool is_inside(const Eigen::Vector2d& at) const {
+    return grid().contains(at) &&
+           inside_.has(static_cast<std::size_t>(at.x()), static_cast<std::size_t>(at.y()));
+  }
+
+  void add(const Eigen::Vector2d& at, const Eigen::Vector3d& place, double time) final {
     clear_disc(at, kEmptyRadius, plan.empty);
     clear_disc(at, kEmptyRadius - kToCorner, maybe);
     if (!grid().contains(at)) return;
     hull.add(at);
+    if (!is_inside(at) || (repeated.add(place, time) && once_)) return;
     const auto column = static_cast<std::size_t>(at.x()), row = static_cast<std::size_t>(at.y());
-    if (!inside_.has(column, row)) return;
     ++plan.points;
     plan.density.add(column, row);
-    tiles_.add_point(column, row);
+    tiles.add_point(column, row);
+  }
+
+  void leave_out(const Eigen::Vector2d& at, std::uint64_t PlanOfPoints::*count) final {
+    if (is_inside(at)) ++(plan.*count);
   }
 
   const PlanRaster& inside_;
-  AreaTiles& tiles_;
+  bool once_;
 };
 
 // Collects the points that are near a cell of a raster.
 class NearObserver : public PlanObserver {
  public:
-  NearObserver(const PlanGrid& grid, const PlanRaster& cells, std::uint64_t memory, Progress& progress)
-      : PlanObserver(grid, progress), cells_(cells), most_(memory / sizeof(Eigen::Vector2d)) {}
+  NearObserver(const PlanGrid& grid, const PlanRaster& cells, bool takes_synthetic, std::uint64_t memory,
+               Progress& progress)
+      : PlanObserver(grid, takes_synthetic, progress),
+        cells_(cells),
+        most_(memory / sizeof(Eigen::Vector2d)) {}
 
   std::vector<Eigen::Vector2d> near;
 
  private:
-  void add(const Eigen::Vector2d& at) final {
+  void add(const Eigen::Vector2d& at, const Eigen::Vector3d&, double) final {
     if (!has_in_disc(at, kEmptyRadius + kToCorner, cells_)) return;
     if (near.size() >= most_)
       throw Error("void_size: the points are so far apart that " + std::to_string(near.size()) +
@@ -141,16 +189,30 @@ class NearPoints {
 
 PlanOfPoints find_empty_places(const PlanGrid& grid, const PlanRaster& inside, std::uint64_t memory,
                                FileScan& scan, AreaTiles& tiles, Progress& progress) {
-  MarkingObserver marking(grid, inside, tiles, progress);
-  progress.begin("area", scan.expected_points().value_or(0));
-  scan.read_all(marking);
-  PlanOfPoints plan = std::move(marking.plan);
-  plan.hull = marking.hull.corners();
+  // All is synthetic, or not all points can be held: that shows in the end alone.
+  Counting counting;
+  std::optional<MarkingObserver> marking;
+  for (bool is_again = true; is_again;) {
+    marking.reset();
+    marking.emplace(grid, inside, tiles, counting, memory, progress);
+    progress.begin("area", scan.expected_points().value_or(0));
+    scan.read_all(*marking);
+    const Counting next = {.takes_synthetic = !marking->has_measured(), .once = marking->repeated.is_exact()};
+    is_again = (next.takes_synthetic && !counting.takes_synthetic) || (!next.once && counting.once);
+    counting = next;
+  }
+  PlanOfPoints plan = std::move(marking->plan);
+  plan.hull = marking->hull.corners();
+  plan.repeated = marking->repeated.count();
+  plan.counts_once = counting.once;
+  plan.all_synthetic = counting.takes_synthetic;
+  PlanRaster undecided = std::move(marking->maybe);
+  tiles = std::move(marking->tiles);
+  marking.reset();
 
-  PlanRaster& undecided = marking.maybe;
   undecided.subtract(plan.empty);
   if (undecided.count() > 0) {
-    NearObserver collecting(grid, undecided, memory, progress);
+    NearObserver collecting(grid, undecided, plan.all_synthetic, memory, progress);
     progress.begin("voids", scan.expected_points().value_or(0));
     scan.read_all(collecting);
     const NearPoints near(std::move(collecting.near));

@@ -22,14 +22,20 @@ struct PlanOfPoints {
   // Cells of the area whose middles are empty, and cells with another empty place without such a neighbour.
   PlanRaster empty;
   PointDensity density;
-  Ring2 hull;                // convex, of the points in the bounds of the area; in cells
-  std::uint64_t points = 0;  // in the area
+  Ring2 hull;  // convex, of the points in the bounds of the area; in cells
+  // In the area: first returns that were measured, later returns, and others that were not measured.
+  std::uint64_t points = 0, later_returns = 0, synthetic = 0;
+  std::uint64_t repeated = 0;  // points that are there once more; about so many where they do not count once
+  bool counts_once = true;     // false: `points` has them as often as they are there
+  bool all_synthetic = false;  // so that the whole scan has no other points, and these count
 };
 
-// Reads the scan. The first pass decides all cells but those whose middle is nearly empty. Where such cells
-// are, a second pass collects the points near them. A cell is divided until its parts are decided, or 64
-// times smaller. So the size of a circle is exact to a five hundredth, whatever the grid. Adds the points to
-// `tiles`. Throws `Error` where the points near undecided cells need more than `memory` bytes.
+// Reads the scan, without later returns and synthetic points. The first pass decides all cells but those
+// whose middle is nearly empty. Where such cells are, a second pass collects the points near them. A cell is
+// divided until its parts are decided, or 64 times smaller. So the size of a circle is exact to a five
+// hundredth, whatever the grid. Adds the points to `tiles`. Repeated points count once, if `memory` bytes
+// hold all points; else the pass is made again. Throws `Error` where the points near undecided cells need
+// more than `memory` bytes.
 PlanOfPoints find_empty_places(const PlanGrid& grid, const PlanRaster& inside, std::uint64_t memory,
                                FileScan& scan, AreaTiles& tiles, Progress& progress);
 

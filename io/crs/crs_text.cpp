@@ -17,6 +17,8 @@ constexpr std::array<std::string_view, 13> kHorizontal = {
     "GEODCRS", "GEODETICCRS", "GEOCCS",       "LOCAL_CS",       "ENGCRS", "ENGINEERINGCRS"};
 constexpr std::array<std::string_view, 3> kVertical = {"VERT_CS", "VERTCRS", "VERTICALCRS"};
 constexpr std::array<std::string_view, 1> kAxes = {"CS"};
+constexpr std::array<std::string_view, 2> kUnitKeywords = {"UNIT", "LENGTHUNIT"};
+constexpr std::array<std::string_view, 1> kGeocentric = {"GEOCCS"};
 
 bool is_equal(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char left, unsigned char right) {
@@ -38,29 +40,38 @@ std::string_view keyword_of(std::string_view node) {
   return node.substr(0, static_cast<std::size_t>(end - node.begin()));
 }
 
-// Returns the first `KEYWORD[...]` with one of the keywords, wherever it is. Names in quotes do not count.
-std::string_view find_node(std::string_view text, std::span<const std::string_view> keywords) {
-  std::size_t begin = text.npos, word = 0;
+// Returns the first `KEYWORD[...]` with one of the keywords, wherever it is, or the last one. Names in quotes
+// do not count. Blanks may come before the bracket.
+std::string_view find_node(std::string_view text, std::span<const std::string_view> keywords,
+                           bool is_last = false) {
+  std::size_t begin = text.npos, end = text.npos, word = 0, word_end = 0;
   int depth = 0, depth_of_node = 0;
   bool is_quoted = false;
   for (std::size_t at = 0; at < text.size(); ++at) {
     const char c = text[at];
     if (c == '"') is_quoted = !is_quoted;
     if (is_quoted) continue;
-    if (c == '[' || c == '(') {
-      if (begin == text.npos && is_one_of(text.substr(word, at - word), keywords)) {
+    if (is_of_keyword(c)) {
+      if (at == 0 || !is_of_keyword(text[at - 1])) word = at;
+      word_end = at + 1;
+    } else if (c == '[' || c == '(') {
+      const bool may_begin = begin == text.npos || (is_last && end != text.npos);
+      if (may_begin && is_one_of(text.substr(word, word_end - word), keywords)) {
         begin = word;
+        end = text.npos;
         depth_of_node = depth;
       }
       ++depth;
-    }
-    if (c == ']' || c == ')') {
+    } else if (c == ']' || c == ')') {
       --depth;
-      if (begin != text.npos && depth == depth_of_node) return text.substr(begin, at + 1 - begin);
+      if (begin == text.npos || end != text.npos || depth != depth_of_node) continue;
+      end = at + 1;
+      if (!is_last) break;
+    } else if (std::isspace(static_cast<unsigned char>(c)) == 0) {
+      word = word_end = at + 1;
     }
-    if (!is_of_keyword(c)) word = at + 1;
   }
-  return begin == text.npos ? std::string_view() : text.substr(begin);
+  return begin == text.npos ? std::string_view() : text.substr(begin, std::min(end, text.size()) - begin);
 }
 
 }  // namespace
@@ -99,13 +110,31 @@ std::string_view without_vertical(std::string_view crs) {
   return is_code(crs) ? crs.substr(0, crs.find('+')) : horizontal_system(crs);
 }
 
-bool is_geographic(std::string_view crs) {
-  const std::string_view system = horizontal_system(crs), keyword = keyword_of(system);
-  if (is_one_of(keyword, kGeographic)) return true;
-  constexpr std::string_view kEllipsoidal = "ellipsoidal";
+std::string_view unit_node(std::string_view system) {
+  return find_node(system, kUnitKeywords, true);
+}
+
+namespace {
+
+// Whether a geodetic system has axes of this kind.
+bool has_axes(std::string_view system, std::string_view kind) {
+  if (!is_one_of(keyword_of(system), kGeodetic)) return false;
   const std::string_view axes = find_node(system, kAxes);
-  return is_one_of(keyword, kGeodetic) && axes.size() > 3 &&
-         is_equal(axes.substr(3, kEllipsoidal.size()), kEllipsoidal);
+  const auto begin =
+      std::find_if(axes.begin() + std::min<std::ptrdiff_t>(2, std::ssize(axes)), axes.end(), is_of_keyword);
+  return is_equal(keyword_of({begin, axes.end()}), kind);
+}
+
+}  // namespace
+
+bool is_geographic(std::string_view crs) {
+  const std::string_view system = horizontal_system(crs);
+  return is_one_of(keyword_of(system), kGeographic) || has_axes(system, "ellipsoidal");
+}
+
+bool is_geocentric(std::string_view crs) {
+  const std::string_view system = horizontal_system(crs);
+  return is_one_of(keyword_of(system), kGeocentric) || has_axes(system, "Cartesian");
 }
 
 }  // namespace lacuna::io

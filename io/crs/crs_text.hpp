@@ -25,4 +25,11 @@ std::string_view without_vertical(std::string_view crs);
 // Whether positions are longitude and latitude. False where the text is a code.
 bool is_geographic(std::string_view crs);
 
+// Whether positions are from the centre of the Earth. False where the text is a code.
+bool is_geocentric(std::string_view crs);
+
+// Returns the last unit of length, as `UNIT["metre", 1]`. Units of angles, and of the geographic system below
+// a projected one, come before it. Returns an empty text if there is none.
+std::string_view unit_node(std::string_view system);
+
 }  // namespace lacuna::io

@@ -3,7 +3,9 @@
 
 #include "io/crs/crs_text.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
@@ -69,11 +71,25 @@ GdalSetting::~GdalSetting() {
   CPLSetThreadLocalConfigOption(key_, nullptr);
 }
 
+namespace {
+
+// SQLite repeats the whole statement that failed, and its reason comes last.
+std::string in_one_line(std::string text) {
+  constexpr std::size_t kBegin = 40, kEnd = 100;
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  if (text.size() <= kBegin + kEnd) return text;
+  const std::size_t failed = text.rfind(") failed: ");
+  const std::size_t end = std::max(failed == text.npos ? 0 : failed, text.size() - kEnd);
+  return text.substr(0, kBegin) + "..." + text.substr(end);
+}
+
+}  // namespace
+
 GdalFailures::GdalFailures() {
   CPLPushErrorHandlerEx(
       [](CPLErr level, CPLErrorNum, const char* text) {
         auto& first = *static_cast<std::string*>(CPLGetErrorHandlerUserData());
-        if (level >= CE_Failure && first.empty()) first = text;
+        if (level >= CE_Failure && first.empty()) first = in_one_line(text);
       },
       &first_);
 }

@@ -55,7 +55,7 @@ class GdalSetting {
   const char* key_;
 };
 
-// Keeps the first failure that GDAL reports in this thread, instead of printing it.
+// Keeps the first failure that GDAL reports in this thread, as one short line, instead of printing it.
 class GdalFailures {
  public:
   GdalFailures();

@@ -19,15 +19,13 @@ constexpr Unit kUnits[] = {{"m", 1},       {"km", 1000},   {"cm", 0.01},
                            {"mm", 0.001},  {"ft", 0.3048}, {"us-ft", 1200.0 / 3937},
                            {"in", 0.0254}, {"yd", 0.9144}};
 
-// Units of angles, and of the geographic system below it, come before the unit of length: the last counts.
 std::string last_unit(std::string_view system) {
-  const std::size_t unit = system.rfind("UNIT[\"");
-  if (unit == system.npos) return "";
-  const std::size_t comma = system.find("\",", unit);
-  if (comma == system.npos) return "";
-  std::string_view factor = system.substr(comma + 2);
-  factor = factor.substr(0, std::min(factor.size(), factor.find_first_of(",]")));
-  while (factor.starts_with(' ')) factor.remove_prefix(1);
+  const std::string_view unit = unit_node(system);
+  const std::size_t comma = unit.find(',', unit.find('"', unit.find('"') + 1));
+  if (unit.empty() || comma == unit.npos) return "";
+  constexpr std::string_view kBlanks = " \t\r\n";
+  std::string_view factor = unit.substr(std::min(unit.size(), unit.find_first_not_of(kBlanks, comma + 1)));
+  factor = factor.substr(0, factor.find_first_of(" \t\r\n,])"));
   double metres = 0;
   return parse_number(factor, metres) ? unit_of_metres(metres) : "";
 }

@@ -6,14 +6,17 @@
 #include "io/files/little_endian.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace lacuna::io {
 namespace {
 
-constexpr std::uint16_t kWellKnownText = 2112, kGeoKeys = 34735;  // numbers of records
+constexpr std::uint16_t kWellKnownText = 2112, kGeoKeys = 34735, kDoubles = 34736;  // numbers of records
 // Keys of GeoTIFF.
 constexpr std::uint16_t kModel = 1024, kGeographic = 2048, kProjected = 3072, kVertical = 4096,
-                        kLinearUnit = 3076, kGeocentricUnit = 2052, kVerticalUnit = 4099;
+                        kLinearUnit = 3076, kGeocentricUnit = 2052, kVerticalUnit = 4099, kLinearSize = 3077,
+                        kGeocentricSize = 2053;  // of a unit without a code
 // Values of kModel.
 constexpr std::uint16_t kModelProjected = 1, kModelGeographic = 2, kModelGeocentric = 3;
 constexpr std::uint16_t kUserDefined = 32767;  // codes from here on are not EPSG's
@@ -34,26 +37,35 @@ std::uint16_t geocentric_code(std::uint16_t code) {
 }
 
 std::string unit_of_code(std::uint16_t code) {
-  constexpr std::uint16_t kMetre = 9001, kFoot = 9002, kSurveyFoot = 9003;  // EPSG
-  return code == kMetre ? "m" : code == kFoot ? "ft" : code == kSurveyFoot ? "us-ft" : "";
+  constexpr std::pair<std::uint16_t, const char*> kCodes[] = {
+      // of EPSG
+      {9001, "m"}, {9036, "km"}, {1033, "cm"}, {1025, "mm"}, {9002, "ft"}, {9003, "us-ft"}, {9096, "yd"}};
+  const auto* const found = std::find_if(std::begin(kCodes), std::end(kCodes),
+                                         [&](const auto& known) { return known.first == code; });
+  return found == std::end(kCodes) ? "" : found->second;
 }
 
 }  // namespace
 
 void LasCrs::take(std::uint16_t record, std::span<const std::byte> data) {
   if (record == kGeoKeys) take_keys(data);
+  if (record == kDoubles) {
+    for (doubles_.clear(); data.size() >= sizeof(double); data = data.subspan(sizeof(double)))
+      doubles_.push_back(load<double>(data.data()));
+  }
   if (record != kWellKnownText) return;
   const auto* const first = reinterpret_cast<const char*>(data.data());
   well_known_text_.assign(first, std::find(first, first + data.size(), '\0'));
 }
 
-// A key has four numbers of 16 bits: the key, where its value is (0: here), a count, the value.
+// A key has four numbers of 16 bits: the key, where its value is (0: here), a count, the value or its index.
 void LasCrs::take_keys(std::span<const std::byte> data) {
   constexpr std::size_t kEntry = 8;
   for (data = data.subspan(std::min(kEntry, data.size())); data.size() >= kEntry;
        data = data.subspan(kEntry)) {
     const auto key = load<std::uint16_t>(&data[0]), place = load<std::uint16_t>(&data[2]);
     const auto code = load<std::uint16_t>(&data[6]);
+    if ((key == kLinearSize || key == kGeocentricSize) && place == kDoubles) unit_size_ = code;
     if (place != 0) continue;
     if (key == kModel) model_ = code;
     if (key == kProjected && code != 0) has_projected_ = true;
@@ -92,9 +104,18 @@ bool LasCrs::is_geographic() const {
   return !is_projected() && (model_ == kModelGeographic || (model_ == 0 && geographic_ != 0));
 }
 
-std::string LasCrs::length_unit() const {
-  if (!well_known_text_.empty()) return io::length_unit(well_known_text_);
+std::string LasCrs::unit_of_keys() const {
+  if (unit_ == 0 && unit_size_ < doubles_.size()) return unit_of_metres(doubles_[unit_size_]);
   return unit_ == 0 && is_geocentric() ? "m" : unit_of_code(unit_);
+}
+
+std::string LasCrs::length_unit() const {
+  return well_known_text_.empty() ? unit_of_keys() : io::length_unit(well_known_text_);
+}
+
+std::string LasCrs::other_unit() const {
+  const std::string unit = length_unit(), of_keys = unit_of_keys();
+  return unit.empty() || unit == of_keys ? "" : of_keys;
 }
 
 std::string LasCrs::vertical_unit() const {

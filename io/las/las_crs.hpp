@@ -5,9 +5,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lacuna::io {
 
@@ -22,6 +24,8 @@ class LasCrs {
   bool is_geographic() const;
   // Returns "m", "ft", "us-ft"; empty if the unit is not known (io/crs/length_unit.hpp).
   std::string length_unit() const;
+  // Returns the unit of the keys, where well-known text has another one; else nothing.
+  std::string other_unit() const;
   // Returns the unit of z likewise.
   std::string vertical_unit() const;
 
@@ -29,12 +33,15 @@ class LasCrs {
   void take_keys(std::span<const std::byte> data);
   bool is_projected() const;   // of the keys
   bool is_geocentric() const;  // likewise
+  std::string unit_of_keys() const;
 
   std::string well_known_text_;
   // Codes of EPSG; 0 if absent.
   std::uint16_t geographic_ = 0, projected_ = 0, vertical_ = 0, unit_ = 0, vertical_unit_ = 0;
-  std::uint16_t model_ = 0;     // 0: not stated
-  bool has_projected_ = false;  // with a code or without
+  std::vector<double> doubles_;                                      // to which keys refer
+  std::size_t unit_size_ = std::numeric_limits<std::size_t>::max();  // the unit in metres, one of them
+  std::uint16_t model_ = 0;                                          // 0: not stated
+  bool has_projected_ = false;                                       // with a code or without
 };
 
 }  // namespace lacuna::io

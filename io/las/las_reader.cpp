@@ -70,6 +70,7 @@ class LasReader final : public ScanReader {
   std::string crs() const override { return header_.crs.text(); }
   bool is_geographic() const override { return header_.crs.is_geographic(); }
   std::string length_unit() const override { return header_.crs.length_unit(); }
+  std::string other_unit() const override { return header_.crs.other_unit(); }
   std::string vertical_unit() const override { return header_.crs.vertical_unit(); }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {

@@ -320,7 +320,7 @@ class NumpyReader final : public ScanReader {
     }
   }
 
-  // Refuses columns without names that may not be x y z, and finds degrees.
+  // Refuses columns without names that may not be x y z.
   void check_values(const ReadOptions& options) {
     constexpr std::size_t kSampled = 4096;
     RowBatch batch;
@@ -343,10 +343,6 @@ class NumpyReader final : public ScanReader {
       in_.fail_at_byte(begin_, "no names of columns, and " + doubt +
                                    "; --columns says what the columns are, such as --columns id,x,y,z or "
                                    "--columns x,y,z,a");
-    const auto place = [&](const char* name) {
-      return static_cast<std::size_t>(layout_.find(name) - layout_.properties.data());
-    };
-    is_geographic_ = is_geographic_ || look_like_degrees(rows, place("x"), place("y"), place("z"));
   }
 
   InputFile in_;

@@ -15,7 +15,7 @@ constexpr std::string_view kTrust[] = {"neither", "header", "file"};
 constexpr std::string_view kUnitNames[] = {"input", "m", "km", "cm", "mm", "ft", "us-ft", "in", "yd"};
 constexpr std::string_view kPointsFormats[] = {"input", "ply", "csv"};
 
-bool is_gis(const OutputConfig& output) {
+bool has_loops_for_gis(const OutputConfig& output) {
   return output.gpkg || output.geojson;
 }
 
@@ -45,9 +45,9 @@ void check_boxes(const InputConfig& input) {
 
 // A report is put together in memory, and GDAL has memory of its own. Measured beyond the rest: 21 and 30
 // MiB.
-void check_memory_of_outputs(const OutputConfig& output, std::uint64_t memory_limit) {
+void check_memory_of_outputs(const OutputConfig& output, const AreaConfig& area, std::uint64_t memory_limit) {
   constexpr std::uint64_t kMiB = 1 << 20, kLeast = 64, kReport = 32, kGis = 48;
-  const bool has_gis = is_gis(output);
+  const bool has_gis = has_loops_for_gis(output) || !area.area.empty();
   const std::uint64_t least = kLeast + (output.report ? kReport : 0) + (has_gis ? kGis : 0);
   if (memory_limit == 0 || memory_limit >= least * kMiB) return;
   const std::string outputs = output.report && has_gis ? "a report and files for GIS"
@@ -80,7 +80,7 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
   const bool has_points = config.results.points;
   const std::string_view no_points = has_points ? "" : "--points";
   const std::string_view no_points_files = has_points || output.cut_outs > 0 ? "" : "--points or --cut-outs";
-  const std::string_view no_gis = is_gis(output) ? "" : "--gpkg or --geojson";
+  const std::string_view no_gis = has_loops_for_gis(output) ? "" : "--gpkg or --geojson";
   return {
       {"input", "columns", Changes::kPoints, &input.columns, 0, 0, "column names, separated by spaces",
        "Names of a text file's columns, such as x y z nx ny nz; empty: from its header line."},
@@ -176,7 +176,7 @@ void check_config(const FilesConfig& config) {
   check_ranges(file_parameters(checked));
   check_boxes(config.input);
   check_area_config(config.area);
-  check_memory_of_outputs(config.output, config.run.memory_limit);
+  check_memory_of_outputs(config.output, config.area, config.run.memory_limit);
 }
 
 }  // namespace lacuna::io

@@ -41,7 +41,8 @@ class LoopsWriter {
 
   GisCrs write() {
     GisCrs result = set_crs();
-    if (result == GisCrs::kWritten && task_.format == GisFormat::kGeoJson && !convert())
+    const bool is_geojson = task_.format == GisFormat::kGeoJson;
+    if (result == GisCrs::kWritten && (is_geojson || crs_.IsGeocentric() != 0) && !convert())
       result = GisCrs::kNotConverted;
     create();
     for (std::size_t id = 0; id < task_.detection.loops.size(); ++id) {
@@ -71,11 +72,16 @@ class LoopsWriter {
     return has_crs_ ? GisCrs::kWritten : GisCrs::kNotUnderstood;
   }
 
-  // Converts to longitude and latitude, if GDAL has a way that holds for all loops.
+  // Converts to longitude and latitude, if GDAL has a way that holds for all loops. A geocentric GeoPackage
+  // stays as it is without such a way.
   bool convert() {
     conversion_ = conversion_to_degrees(crs_);
     if (!converts_all()) conversion_.reset();
     failures_.forget();
+    if (task_.format == GisFormat::kGeoPackage) {
+      if (conversion_) crs_ = *conversion_->GetTargetCS();
+      return true;
+    }
     has_crs_ = false;  // a GeoJSON names none
     crs_.Clear();
     return conversion_ != nullptr;

@@ -14,6 +14,7 @@
 #include "io/results/loops_obj.hpp"
 #include "io/results/points.hpp"
 #include "io/results/voids.hpp"
+#include "io/scan/plan_system.hpp"
 #include "io/stations/next_stations.hpp"
 
 #include <algorithm>
@@ -123,6 +124,7 @@ void check_output_folder(const FileScan& scan, const FilesConfig& config, const 
   check_points(scan, config, folder, overwrite);
   check_cut_outs(scan, config, folder, overwrite);
   if (needs_gis_library(config)) check_gis_library();
+  if (config.output.coverage > 0) require_plan(scan, "--coverage");
   for (const ResultFile& result : results_of(config)) {
     check_not_input(folder / result.name, scan);
     check_output(folder / result.name, result.mark, overwrite);

@@ -188,22 +188,4 @@ std::string doubt_of_first_columns(const SampledRows& rows) {
   return {};
 }
 
-bool look_like_degrees(const SampledRows& rows, std::size_t x, std::size_t y, std::size_t z) {
-  constexpr double kMost = 180, kSteeper = 1000, kSteeperFarAway = 100;
-  if (rows.rows() < kFewestSampledRows) return false;
-  double x_steps = 0, y_steps = 0, z_steps = 0;
-  bool is_far_away = true;
-  for (std::size_t row = 0; row < rows.rows(); ++row) {
-    if (!(std::abs(rows.at(row, x)) <= kMost && std::abs(rows.at(row, y)) <= kMost)) return false;
-    is_far_away = is_far_away && std::abs(rows.at(row, z)) > kMost;
-    if (row == 0) continue;
-    x_steps += std::abs(rows.at(row, x) - rows.at(row - 1, x));
-    y_steps += std::abs(rows.at(row, y) - rows.at(row - 1, y));
-    z_steps += std::abs(rows.at(row, z) - rows.at(row - 1, z));
-  }
-  // A wall along an axis has no steps across it.
-  if (x_steps == 0 || y_steps == 0 || !std::isfinite(z_steps)) return false;
-  return z_steps > (is_far_away ? kSteeperFarAway : kSteeper) * (x_steps + y_steps);
-}
-
 }  // namespace lacuna::io

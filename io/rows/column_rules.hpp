@@ -37,8 +37,4 @@ struct SampledRows {
 // Fewer than ten rows say nothing.
 std::string doubt_of_first_columns(const SampledRows& rows);
 
-// Whether x and y can only be longitude and latitude. They lie within 180 degrees, and z changes at least a
-// thousand times as much from row to row. A hundred times is enough where z lies beyond 180.
-bool look_like_degrees(const SampledRows& rows, std::size_t x, std::size_t y, std::size_t z);
-
 }  // namespace lacuna::io

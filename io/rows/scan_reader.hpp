@@ -81,6 +81,8 @@ class LACUNA_API ScanReader {
   virtual bool is_geographic() const;
   // Returns the unit of length, as unit_of_metres (io/crs/length_unit.hpp); empty if not known.
   virtual std::string length_unit() const;
+  // Returns another unit of length that the file states as well; empty: none contradicts.
+  virtual std::string other_unit() const { return {}; }
   // Returns the unit of z likewise; empty if not known, and then it is the unit of x and y.
   virtual std::string vertical_unit() const;
   // Returns the scanners of the rows read so far, and maybe of others.

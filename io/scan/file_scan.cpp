@@ -7,6 +7,7 @@
 #include "io/formats.hpp"
 #include "io/rows/moved_reader.hpp"
 #include "io/rows/vectors.hpp"
+#include "io/scan/like_degrees.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -53,7 +54,6 @@ FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint6
     layouts_.push_back(reader->layout());
     crs_.push_back(reader->crs());
     add_units(*reader);
-    is_geographic_.push_back(reader->is_geographic());
     formats_.push_back(reader->format());
     reads_slowly_ = reads_slowly_ || reader->is_slow();
     has_normals_ = has_normals_ || has_vectors(layouts_.back(), kNormalNames);
@@ -65,27 +65,36 @@ FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint6
     } else {
       expected_points_.reset();
     }
+    is_geographic_.push_back(reader->is_geographic() || (crs_.back().empty() && look_like_degrees(*reader)));
   }
   choose_crs();
   choose_z_factors();
   last_file_ = files_.size();
 }
 
-// A code states the units that a file does not.
+// The system states the units that a file does not, or contradicts them.
 void FileScan::add_units(const ScanReader& reader) {
   units_.push_back(reader.length_unit());
   z_units_.push_back(reader.vertical_unit());
+  std::string& contradiction = contradictions_.emplace_back();
+  const auto settle = [&](std::string& unit, const std::string& other, const char* what, const char* option) {
+    if (unit.empty()) unit = other;
+    if (other.empty() || other == unit || !contradiction.empty()) return;
+    contradiction = std::string("its unit and its system contradict each other: ") + what + " are in " +
+                    unit + " or in " + other + "; " + unit + " holds, and " + option + " " + other +
+                    " states the other";
+  };
+  settle(units_.back(), reader.other_unit(), "lengths", "--unit");
   const std::string& crs = crs_.back();
+  if (reader.is_geographic()) return;
+  if (!is_code(crs)) return settle(units_.back(), io::length_unit(crs), "lengths", "--unit");
+  const bool has_z_code = crs.find('+') != crs.npos;
+  if (is_utm(crs) && !has_z_code) return settle(units_.back(), "m", "lengths", "--unit");
   // Files of one scan have one system, mostly, which is looked up once.
   if (crs_.size() < 2 || crs != crs_[crs_.size() - 2]) known_crs_.clear();
-  if (!is_code(crs) || reader.is_geographic()) return;
-  const bool has_z_code = crs.find('+') != crs.npos;
-  if (units_.back().empty() && is_utm(crs)) units_.back() = "m";
-  if (!units_.back().empty() && (!has_z_code || !z_units_.back().empty())) return;
   if (known_crs_.empty()) known_crs_ = known_text(crs);
-  const std::string& text = known_crs_;
-  if (units_.back().empty()) units_.back() = io::length_unit(text);
-  if (z_units_.back().empty()) z_units_.back() = vertical_unit(text);
+  settle(units_.back(), io::length_unit(known_crs_), "lengths", "--unit");
+  settle(z_units_.back(), vertical_unit(known_crs_), "heights", "--unit-z");
 }
 
 // A stated unit of x and y that is not a file's own is a word against its unit of z, too.
@@ -296,15 +305,17 @@ std::vector<ScanInput> inputs_of(std::span<const std::string> names) {
 std::vector<std::uint64_t> FileScan::pass_counts() const {
   std::vector<std::uint64_t> counts = rows_read_;
   for (const FilterCount& filter : kFilterCounts) counts.push_back(filtered_out_.*filter.count);
+  counts.push_back(filtered_out_.synthetic);
   return counts;
 }
 
 void FileScan::set_pass_counts(std::span<const std::uint64_t> counts) {
-  if (counts.size() != rows_read_.size() + std::size(kFilterCounts))
+  if (counts.size() != rows_read_.size() + std::size(kFilterCounts) + 1)
     fail_inconsistent("the workspace counts another number of files");
   std::copy_n(counts.begin(), rows_read_.size(), rows_read_.begin());
   auto left_out = counts.begin() + static_cast<std::ptrdiff_t>(rows_read_.size());
   for (const FilterCount& filter : kFilterCounts) filtered_out_.*filter.count = *left_out++;
+  filtered_out_.synthetic = *left_out;
 }
 
 bool FileScan::single_precision() const {

@@ -77,7 +77,7 @@ class LACUNA_API FileScan : public PointSource {
   std::vector<std::string> identity() const override;
   // Returns three texts for each file: its name as given, the absolute one, and its pose or nothing.
   std::vector<std::string> names() const override;
-  // Returns the rows that were read of each file, and the rows that the filters left out.
+  // Returns the rows that were read of each file, the rows that the filters left out, and synthetic ones.
   std::vector<std::uint64_t> pass_counts() const override;
   void set_pass_counts(std::span<const std::uint64_t> counts) override;
 
@@ -94,9 +94,12 @@ class LACUNA_API FileScan : public PointSource {
   const std::vector<std::string>& units() const { return units_; }
   // Returns the unit of z of each file, with what --unit-z states; empty if it is the unit of x and y.
   const std::vector<std::string>& z_units() const { return z_units_; }
+  // Returns how the units that each file states contradict each other; empty if they do not.
+  const std::vector<std::string>& contradictions() const { return contradictions_; }
   // Returns the factor that brings z of a file into the unit of x and y.
   double z_factor(std::size_t file) const { return z_factors_[file]; }
-  // Whether positions of a file are longitude and latitude, as it says.
+  // Whether positions of a file are longitude and latitude, as it says, or as its first rows show where it
+  // names no system.
   bool is_geographic(std::size_t file) const { return is_geographic_[file]; }
   // Returns the values of --crs and --unit in the config; empty if not stated.
   const StatedCrs& stated_crs() const { return stated_; }
@@ -145,7 +148,7 @@ class LACUNA_API FileScan : public PointSource {
   std::vector<FileState> states_;                 // of each file; nothing for arrays
   std::map<FileIdentity, std::size_t> first_of_;  // the first input of each file
   std::vector<RowLayout> layouts_;
-  std::vector<std::string> crs_, units_, z_units_, formats_;
+  std::vector<std::string> crs_, units_, z_units_, contradictions_, formats_;
   std::vector<double> z_factors_;
   std::vector<bool> is_geographic_;
   StatedCrs stated_;

@@ -35,8 +35,10 @@ RowFilter::RowFilter(const InputConfig& config, const std::filesystem::path& fil
   };
   if (!config.keep_withheld) withheld_ = column_if_any("withheld");
   if (!config.keep_noise) class_ = column_if_any("classification");
+  synthetic_ = column_if_any("synthetic");
   if (!config.where.empty()) where_.emplace(config.where, file.string(), reader.layout());
-  is_active_ = config.drop_origin || bounds_ || !boxes_.empty() || withheld_ || class_ || where_;
+  is_active_ =
+      config.drop_origin || bounds_ || !boxes_.empty() || withheld_ || class_ || synthetic_ || where_;
 }
 
 std::string describe_no_row_left(const InputConfig& config, const FilteredOut& filtered,
@@ -76,6 +78,7 @@ void RowFilter::apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions
   if (!is_active_) return;
   load(rows, withheld_);
   load(rows, class_);
+  load(rows, synthetic_);
   if (where_) where_->load(rows);
   for (std::size_t row = 0; row < positions.size(); ++row) {
     Eigen::Vector3d& position = positions[row];
@@ -83,6 +86,7 @@ void RowFilter::apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions
     std::uint64_t* const count = refusing(row, position, filtered, before);
     if (count == nullptr) {
       ++before.kept;
+      filtered.synthetic += synthetic_ && synthetic_->values[row] != 0;
       continue;
     }
     ++*count;

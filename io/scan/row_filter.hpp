@@ -26,6 +26,7 @@ struct FilteredOut {
   std::uint64_t withheld = 0;
   std::uint64_t noise = 0;
   std::uint64_t where = 0;
+  std::uint64_t synthetic = 0;  // not left out: flagged as synthetic, of the rows that take part
 
   std::uint64_t total() const;
 };
@@ -84,6 +85,7 @@ class RowFilter {
   std::optional<Eigen::AlignedBox3d> bounds_;
   std::vector<Eigen::AlignedBox3d> boxes_;  // whose points are left out
   std::optional<Values> withheld_, class_;  // where withheld points or noise are left out
+  std::optional<Values> synthetic_;         // where points have this flag
   std::optional<Condition> where_;
 };
 

@@ -193,9 +193,6 @@ class ColumnFinder {
                                          " first; --columns says what the columns are, such as --columns "
                                          "id,x,y,z or --columns x,y,z,a");
     }
-    columns_.are_degrees =
-        columns_.are_degrees ||
-        look_like_degrees(rows, place_of("x", names), place_of("y", names), place_of("z", names));
   }
 
   // Reads the sampled lines that have a value for each column, and marks columns with words as not read.

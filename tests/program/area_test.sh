@@ -28,7 +28,7 @@ open("mixed.xyz", "w").write("\n".join(rows[:1000]) + "\n")
 open("mixed2.xyz", "w").write("\n".join(rows[1000:]) + "\n")
 END
 options=(--area holes.geojson --except holes.except.geojson --void-size 4 --area-tile 20 --quiet)
-for other in "--threads 1" "--threads 3 --memory-limit 64MiB"; do
+for other in "--threads 1" "--threads 3 --memory-limit 112MiB"; do
   # shellcheck disable=SC2086
   "$program" check mixed.xyz mixed2.xyz --columns "x y z" "${options[@]}" $other --out other 2>other.err || true
   for file in voids.csv voids.json voids.gpkg; do cmp "holes/$file" "other/$file"; done
@@ -118,6 +118,61 @@ grep -q "degrees.geojson: is converted from WGS 84" converted.err
 "$program" check holes.xyz --columns "x y z" --area holes.geojson --void-size 30 >covered.txt
 head -n 1 covered.txt | grep -qx covered
 
+# ---- points that cover nothing, and points that are there twice
+python3 - <<'END'
+import random
+draw = random.Random(1)
+places = [(i / 2 + draw.uniform(-.1, .1), j / 2 + draw.uniform(-.1, .1)) for i in range(80) for j in range(80)]
+def write(name, rows):
+    with open(name, "w") as out:
+        print("x y z return_number synthetic gps_time", file=out)
+        for x, y, *more in rows:
+            print(f"{x:.3f} {y:.3f} 0", *more, file=out)
+def is_filled(x, y):
+    return max(abs(x - 20), abs(y - 20)) < 3
+write("filled.txt", [(x, y, 1, int(is_filled(x, y)), i) for i, (x, y) in enumerate(places)])
+write("synthetic.txt", [(x, y, 1, 1, i) for i, (x, y) in enumerate(places)])
+write("later.txt", [(x, y, 2, 0, i) for i, (x, y) in enumerate(places)])
+write("mixed.txt", [(x, y, 1 + i % 2, 0, i) for i, (x, y) in enumerate(places)])
+write("west.txt", [(x, y, 1, 0, i) for i, (x, y) in enumerate(places) if x < 25])
+write("east.txt", [(x, y, 1, 0, i) for i, (x, y) in enumerate(places) if x > 15])
+write("strip.txt", [(x, y, 1, 0, i + 1e5) for i, (x, y) in enumerate(places) if x > 15])
+with open("earth.txt", "w") as out:
+    for x, y in places:
+        print(4264423 + x, 690634 + y, 4678943, file=out)
+with open("many.txt", "w") as out:
+    print("x y z", file=out)
+    for i in range(700):
+        for j in range(700):
+            print(2 + i * .05, 2 + j * .05, 0, file=out)
+END
+echo '{"type":"Polygon","coordinates":[[[2,2],[38,2],[38,38],[2,38],[2,2]]]}' >some.geojson
+on=(--area some.geojson --void-size 2.4)
+check() {
+  "$program" check "$@" "${on[@]}" >checked.txt 2>checked.err || true
+}
+check filled.txt
+grep -q "not covered: 1 void" checked.txt
+grep -q "; 14[0-9] synthetic points take no part" checked.txt
+"$program" detect filled.txt --out filled >filled.out 2>filled.err
+grep -q "; 14[0-9] flagged as synthetic, which were not measured" filled.out
+check synthetic.txt --quiet
+grep -q "warning: all 5,[0-9]* points in the area are flagged as synthetic" checked.err
+check mixed.txt
+grep -q "; 2,[0-9]* later returns take no part" checked.txt
+check west.txt east.txt --area-tile 20 --out tiles
+grep -q "; 1,[0-9]* points that are there again count once" checked.txt
+check west.txt strip.txt --area-tile 20 --out strips
+python3 - <<'END'
+import json
+once, twice = ([tile["density"] for tile in json.load(open(name + "/voids.json"))["tiles"]] for name in ("tiles", "strips"))
+assert all(3.8 < density < 4.2 for density in once), once
+assert all(4.8 < density < 5.3 for density in twice), twice
+END
+# Too many to hold: a sample of them counts, and each as often as it is there.
+check many.txt many.txt --memory-limit 112MiB
+grep -q "warning: about 4[789][0-9],... points in the area are there twice" checked.err
+
 # ---- what is refused
 refuse() {
   local expected=$1
@@ -144,13 +199,23 @@ python3 - <<'END'
 import random
 draw = random.Random(1)
 with open("wide.xyz", "w") as out:
-    for i in range(40_000):
-        print(draw.uniform(0, 200), draw.uniform(0, 200), 0, file=out)
+    for i in range(90_000):
+        print(draw.uniform(0, 300), draw.uniform(0, 300), 0, file=out)
 END
-echo '{"type":"Polygon","coordinates":[[[0,0],[199,0],[199,199],[0,199],[0,0]]]}' >wide.geojson
+echo '{"type":"Polygon","coordinates":[[[0,0],[299,0],[299,299],[0,299],[0,0]]]}' >wide.geojson
 refuse "points are so far apart that outlines of voids have .* edges" check wide.xyz --columns "x y z" --area wide.geojson \
-  --void-size 1.5 --memory-limit 64MiB
+  --void-size 1.5 --memory-limit 112MiB
 refuse "--area is required" check "${some[@]}"
+refuse "no first returns that were measured are in it, but 5[0-9]* later returns, which" check later.txt "${on[@]}"
+refuse "earth.txt: its places are geocentric, as of EPSG:4978, and --area needs a plan; .*EPSG:32632" check earth.txt \
+  --columns "x y z" "${on[@]}"
+for system in EPSG:4978 EPSG:4936; do
+  refuse "is geocentric, and --area needs a plan; .*EPSG:32632" check earth.txt --columns "x y z" --crs $system "${on[@]}"
+  refuse "is geocentric, and --coverage needs a plan" detect earth.txt --columns "x y z" --crs $system --coverage 1 --out refused
+done
+refuse "utm.holes.json: its coordinates, such as 5.*, are read as degrees by RFC 7946, .*a GeoPackage" check utm.xyz \
+  --columns "x y z" --crs EPSG:25832 --area utm.holes.json --void-size 4
+refuse "memory_limit = 64MiB is too little for files for GIS" check west.txt "${on[@]}" --memory-limit 64MiB
 mkdir -p refused
 echo mine >refused/voids.csv
 refuse "refused/voids.csv: " check "${some[@]}" --area holes.geojson --void-size 4

@@ -219,6 +219,27 @@ TEST_CASE("without permission to read or to write there is one line that names t
   ::chmod(scan.c_str(), 0644);
 }
 
+TEST_CASE("a disk that is too small for a GeoPackage ends the check of an area with one short line") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("scan.xyz", plane(40).punched({20, 20}, 5).text());
+  const std::string area =
+      scratch.write("area.json", R"({"type":"Polygon","coordinates":[[[2,2],[38,2],[38,38],[2,38],[2,2]]]})");
+  std::size_t failed = 0;
+  for (int kib = 16; kib <= 128; kib += 8) {
+    const SmallDisk disk(scratch / "disk", std::to_string(kib) + "k");
+    if (!disk.mounted()) {
+      test::skip("cannot mount a small disk");
+      return;
+    }
+    const ProgramResult result = without_warnings(run_program(
+        {"check", scan, "--area", area, "--void-size", "4", "--out", disk.path().string(), "--quiet"}));
+    CHECK(result.exit_code == 1);  // the scan has a void
+    CHECK(result.err.size() < 300 + disk.path().string().size());
+    failed += result.err.find("full") != result.err.npos ? 1 : 0;
+  }
+  CHECK(failed >= 3);
+}
+
 TEST_CASE("a disk that is full, in whatever phase, ends the run with one line and leaves nothing behind") {
   const ScratchFolder scratch;
   const Cloud cloud = plane(120).punched({60, 60}, 8).jittered(0.2, 1);

@@ -117,4 +117,17 @@ TEST_CASE("z in another unit is brought into the unit of x and y, but for the an
   CHECK(input_warnings(stated).empty());
 }
 
+TEST_CASE("a unit that contradicts the system of its file is a warning, unless the user states it") {
+  const ScratchFolder folder;
+  const auto scan = folder.write("a.e57", e57(kFeet));  // E57 is in metres
+  const std::string warning =
+      scan +
+      ": Oregon: its unit and its system contradict each other: lengths are in m or in ft; "
+      "m holds, and --unit ft states the other";
+  CHECK(input_warnings(FileScan({scan}, {})) == Strings{warning});
+  InputConfig stated;
+  stated.unit = LengthUnit::kM;
+  CHECK(input_warnings(FileScan({scan}, stated)).empty());
+}
+
 }  // namespace lacuna::test

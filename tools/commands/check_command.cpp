@@ -17,6 +17,8 @@
 #include <optional>
 #include <vector>
 
+#include <spdlog/spdlog.h>
+
 namespace lacuna::tools {
 using namespace io;
 
@@ -48,6 +50,7 @@ void run_check(const CheckArguments& arguments) {
   const std::unique_ptr<Progress> progress =
       make_progress(arguments.run.quiet ? ProgressStyle::kNone : arguments.run.progress, {{"area", 1}});
   const AreaCheck check = check_area(area, *scan, config, *progress);
+  for (const std::string& warning : area_warnings(check)) spdlog::warn("{}", warning);
   const std::string_view unit = scan->length_unit();
   const std::string answer = print_is_covered(check, unit);
   std::string text = answer + "\n\n";

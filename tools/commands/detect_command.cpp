@@ -14,6 +14,7 @@
 #include "tools/commands/commands.hpp"
 #include "tools/commands/summary.hpp"
 #include "tools/commands/workspace_commands.hpp"
+#include "tools/console/area_text.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/overall_progress.hpp"
 #include "tools/console/shown_progress.hpp"
@@ -177,6 +178,8 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   const std::vector<fs::path> written = write_results(detection, scan, with_min_hole(config), out, overwrite);
   note_complete_results();
   progress->end();
+  if (detection.area)
+    for (const std::string& warning : area_warnings(*detection.area)) spdlog::warn("{}", warning);
   for (const std::string& warning : station_warnings(detection.stations)) spdlog::warn("{}", warning);
   for (const std::string& warning : scan_warnings(scan, detection.summary, config))
     spdlog::warn("{}", warning);

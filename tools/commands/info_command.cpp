@@ -84,7 +84,7 @@ FileInfo read_file_info(const FileScan& scan, std::size_t file, const ReadOption
           .format = reader->format(),
           .crs = reader->crs(),
           .unit = reader->length_unit(),
-          .is_geographic = reader->is_geographic(),
+          .is_geographic = scan.is_geographic(file),
           .layout = reader->layout(),
           .counts = counts_of_file(*reader, scan.batch_rows(file))};
 }

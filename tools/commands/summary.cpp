@@ -189,6 +189,7 @@ std::string print_left_out(const Counts& counts, const FilteredOut& filtered) {
   };
   add(counts.dropped - filtered.total(), "not finite, dropped");
   for (const FilterCount& filter : kFilterCounts) add(filtered.*filter.count, filter.points);
+  add(filtered.synthetic, "flagged as synthetic, which were not measured");
   return text;
 }
 

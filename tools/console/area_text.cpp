@@ -31,10 +31,37 @@ std::string print_is_covered(const AreaCheck& check, std::string_view unit) {
   return text;
 }
 
+namespace {
+
+std::string print_taking_no_part(const AreaCheck& check) {
+  std::string text;
+  if (check.later_returns > 0)
+    text += "; " + print_count(check.later_returns) + " later returns take no part";
+  if (check.synthetic > 0) text += "; " + print_count(check.synthetic) + " synthetic points take no part";
+  if (check.repeated > 0 && check.counts_once)
+    text += "; " + print_count(check.repeated) + " points that are there again count once";
+  return text;
+}
+
+}  // namespace
+
 std::string print_covered(const AreaCheck& check, std::string_view unit) {
   const double share = check.area > 0 ? 1 - check.missing_area / check.area : 1;
   return tools::print_area(check.area, unit) + ", " + print_share(share) + " of it covered; " +
-         print_count(check.points) + " points";
+         print_count(check.points) + " points" + print_taking_no_part(check);
+}
+
+std::vector<std::string> area_warnings(const AreaCheck& check) {
+  std::vector<std::string> warnings;
+  if (check.all_synthetic)
+    warnings.push_back("all " + print_count(check.points) +
+                       " points in the area are flagged as synthetic, and count as if they were measured; "
+                       "--where 'synthetic == 0' leaves such points out");
+  if (!check.counts_once && check.repeated > 0)
+    warnings.push_back("about " + print_count(check.repeated) +
+                       " points in the area are there twice, as in tiles that overlap, and count twice in "
+                       "densities and spacings; with a larger --memory-limit they count once");
+  return warnings;
 }
 
 std::string print_voids(const AreaCheck& check, std::string_view unit) {

@@ -6,6 +6,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lacuna::tools {
 
@@ -13,7 +14,11 @@ namespace lacuna::tools {
 std::string print_is_covered(const io::AreaCheck& check, std::string_view unit);
 
 // "12,300 m², 98.7 % of it covered; 45,600 points".
+// Points that take no part follow, if there are any.
 std::string print_covered(const io::AreaCheck& check, std::string_view unit);
+
+// Returns a line for each reason why densities, or the whole check, may be wrong.
+std::vector<std::string> area_warnings(const io::AreaCheck& check);
 
 // The ten largest voids as a table; empty without a void.
 std::string print_voids(const io::AreaCheck& check, std::string_view unit);

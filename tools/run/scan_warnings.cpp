@@ -7,7 +7,7 @@
 #include "io/crs/crs_text.hpp"
 #include "io/crs/stated_crs.hpp"
 #include "io/results/points.hpp"
-#include "io/rows/vectors.hpp"
+#include "io/scan/plan_system.hpp"
 #include "io/stations/station_views.hpp"
 #include "tools/console/measures_text.hpp"
 #include "tools/console/visible_text.hpp"
@@ -115,6 +115,13 @@ void warn_of_overridden(const FileScan& scan, const std::vector<std::string>& of
                        " is " + crs_name(of_files[*first]) + "; the stated one holds, " + crs_name(stated));
 }
 
+void warn_of_contradictions(const FileScan& scan, std::vector<std::string>& warnings) {
+  const auto contradicts = [&](std::size_t i) { return !scan.contradictions()[i].empty(); };
+  if (const auto first = find_file(scan, contradicts))
+    warnings.push_back(file_name(scan, *first) + and_more(scan, *first, contradicts) + ": " +
+                       crs_name(scan.crs()[*first]) + ": " + scan.contradictions()[*first]);
+}
+
 void warn_of_z_units(const FileScan& scan, std::vector<std::string>& warnings) {
   const auto is_scaled = [&](std::size_t i) { return scan.z_factor(i) != 1; };
   if (const auto first = find_file(scan, is_scaled))
@@ -133,25 +140,6 @@ std::string crs_name(const std::string& crs) {
 
 namespace {
 
-// Returns a position of a file that is likely to be one of its surface; nothing if its first rows have none.
-std::optional<Eigen::Vector3d> find_place(const FileScan& scan, std::size_t file) {
-  constexpr std::size_t kRows = 1000;
-  const auto reader = scan.open(file);
-  RowBatch rows;
-  std::vector<Eigen::Vector3d> positions;
-  if (reader->next(rows, kRows)) load_vectors(rows, reader->layout(), kPositionNames, positions);
-  const auto found = std::ranges::find_if(positions, [](const Eigen::Vector3d& position) {
-    return position.allFinite() && position != Eigen::Vector3d::Zero();
-  });
-  return found == positions.end() ? std::nullopt : std::optional(*found);
-}
-
-// The system in which the user can work instead.
-std::string utm_zone(const ScaleAtPlace& scale) {
-  const int zone = std::clamp(static_cast<int>(std::floor((scale.longitude + 180) / 6)) + 1, 1, 60);
-  return "EPSG:" + std::to_string((scale.latitude < 0 ? 32700 : 32600) + zone);
-}
-
 // Throws `Error` if lengths in the system are not those on the ground, where a file lies.
 void refuse_other_scale(const FileScan& scan, std::size_t file, const std::string& name,
                         const std::string& crs) {
@@ -169,7 +157,8 @@ void refuse_other_scale(const FileScan& scan, std::size_t file, const std::strin
   else
     text << " times";
   text << " those on the ground at latitude " << scale->latitude
-       << "; `pdal translate IN OUT reprojection --filters.reprojection.out_srs=" << utm_zone(*scale)
+       << "; `pdal translate IN OUT reprojection --filters.reprojection.out_srs="
+       << utm_zone(scale->longitude, scale->latitude)
        << "` brings them to scale; if its coordinates are true lengths, --crs can state their system";
   throw Error(text.str());
 }
@@ -203,12 +192,12 @@ void require_lengths(const FileScan& scan) {
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
     const std::string& crs = scan.crs()[i];
     // Names and values of columns say so, but the user may know better.
-    const bool is_guess = crs.empty() && (scan.formats()[i] == "text" || scan.formats()[i] == "NumPy");
-    if (scan.is_geographic(i) && is_guess && !scan.stated_crs().unit.empty()) continue;
-    if (scan.is_geographic(i) && is_guess)
+    if (scan.is_geographic(i) && crs.empty() && !scan.stated_crs().unit.empty()) continue;
+    if (scan.is_geographic(i) && crs.empty())
       throw Error(
           file_name(scan, i) +
-          ": x and y are longitude and latitude, by their names or values, and holes need lengths; "
+          ": x and y are longitude and latitude in degrees, by their names or values, and holes need "
+          "lengths; "
           "project them first, as with `gdaltransform`; if they are lengths, --unit m or another unit "
           "says so");
     if (scan.is_geographic(i)) refuse_longitudes(scan, i);
@@ -231,6 +220,7 @@ std::vector<std::string> input_warnings(const FileScan& scan) {
   }
   if (scan.stated_crs().unit.empty()) {
     warn_of_other_units(scan, warnings);
+    warn_of_contradictions(scan, warnings);
   } else {
     warn_of_overridden(scan, scan.units(), std::not_equal_to<>(), "unit", scan.stated_crs().unit, warnings);
   }

@@ -80,4 +80,25 @@ TEST_CASE("the unit of a system is that of its lengths, by its size") {
   CHECK(length_unit("EPSG:25832").empty());
 }
 
+TEST_CASE("well-known text may have blanks before and after brackets") {
+  const std::string text =
+      "PROJCS [ \"UTM\", GEOGCS [ \"WGS 84\", UNIT [ \"degree\", 0.01745] ],\n UNIT [ \"metres\" , 0.3048 ] "
+      ", "
+      "AXIS [\"E\", EAST] ]";
+  CHECK(length_unit(text) == "ft");
+  CHECK(length_unit("LOCAL_CS[\"UNIT[x]\",UNIT(\"m\",1.0)]") == "m");
+  CHECK(length_unit(
+            "PROJCRS[\"a\",CS[Cartesian,2],AXIS[\"x\",east],LENGTHUNIT [\"metre\", 1,ID[\"EPSG\",9001]]]") ==
+        "m");
+  CHECK(is_geographic("GEODCRS [\"WGS 84\", CS [ellipsoidal, 3]]"));
+}
+
+TEST_CASE("geocentric systems are those from the centre of the Earth") {
+  CHECK(is_geocentric("GEOCCS[\"WGS 84\",UNIT[\"metre\",1]]"));
+  CHECK(is_geocentric("GEODCRS[\"WGS 84\",CS[Cartesian,3]]"));
+  CHECK_FALSE(is_geocentric("GEODCRS[\"WGS 84\",CS[ellipsoidal,3]]"));
+  CHECK_FALSE(is_geocentric("PROJCRS[\"a\",BASEGEODCRS[\"b\"],CS[Cartesian,2]]"));
+  CHECK_FALSE(is_geocentric(""));
+}
+
 }  // namespace lacuna::test

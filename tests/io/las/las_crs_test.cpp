@@ -90,6 +90,31 @@ TEST_CASE("keys and well-known text state the unit of z") {
   CHECK(text.vertical_unit() == "ft");
 }
 
+TEST_CASE("the size of a unit without a code is among the doubles of the keys, in any order") {
+  const double sizes[] = {6378137, 1200. / 3937};
+  const std::string doubles(reinterpret_cast<const char*>(sizes), sizeof sizes);
+  const std::string keys = geo_keys({{3072, 0, 1, 32767}, {3076, 0, 1, 32767}, {3077, 34736, 1, 1}});
+  LasCrs first, last;
+  take(first, 34736, doubles);
+  take(first, 34735, keys);
+  take(last, 34735, keys);
+  CHECK(last.length_unit().empty());
+  take(last, 34736, doubles.substr(0, 12));  // cut
+  CHECK(last.length_unit().empty());
+  take(last, 34736, doubles);
+  CHECK(first.length_unit() == "us-ft");
+  CHECK(last.length_unit() == "us-ft");
+}
+
+TEST_CASE("a unit of the keys that well-known text contradicts is the other unit") {
+  LasCrs crs;
+  take(crs, 34735, geo_keys({{3072, 0, 1, 25832}, {3076, 0, 1, 9003}}));
+  CHECK(crs.other_unit().empty());
+  take(crs, 2112, "PROJCS[\"b\",UNIT[\"metre\",1]]");
+  CHECK(crs.length_unit() == "m");
+  CHECK(crs.other_unit() == "us-ft");
+}
+
 TEST_CASE("well-known text counts over keys, up to its first zero") {
   LasCrs crs;
   take(crs, 2112, std::string("PROJCS[\"A\"]\0\0", 13));
