@@ -4,6 +4,7 @@
 #include "engine/model/points.hpp"
 #include "engine/run/error.hpp"
 #include "io/crs/length_unit.hpp"
+#include "io/rows/column_rules.hpp"
 #include "io/rows/vectors.hpp"
 
 #include <algorithm>
@@ -19,9 +20,10 @@ constexpr double kConflict = 0.1;      // of the range
 constexpr double kLeastFilled = 0.85;  // of the quarters of cells with returns
 
 const Property* time_of(const RowLayout& layout) {
-  const auto found = std::find_if(layout.properties.begin(), layout.properties.end(),
-                                  [](const Property& property) { return is_time(property.name); });
-  return found == layout.properties.end() ? nullptr : &*found;
+  std::vector<std::string> names;
+  for (const Property& property : layout.properties) names.push_back(property.name);
+  const auto found = find_time(names);
+  return found ? &layout.properties[*found] : nullptr;
 }
 
 // Fills the directions between rays, as far as rays lie from each other. That is the edge of cells so coarse
