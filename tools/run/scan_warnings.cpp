@@ -18,6 +18,7 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <sstream>
 #include <system_error>
@@ -313,11 +314,21 @@ std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summ
 std::vector<std::string> station_warnings(const std::vector<StationSummary>& stations) {
   std::vector<std::string> warnings;
   for (const StationSummary& station : stations) {
-    if (station.certainty >= StationView::kLeastCertain) continue;
+    if (!(station.certainty < StationView::kLeastCertain)) continue;
+    const bool moved = station.path > 0;
     std::ostringstream message;
-    message.precision(3);
-    message << "station " << visible(station.name) << " does not count: at most " << 100 * station.certainty
-            << " % of its points can have been seen from there, as rays end at the first surface";
+    message.precision(2);
+    message << (moved ? "trajectory " : "station ") << visible(station.name) << " does not count: ";
+    if (station.certainty > 0) {
+      message.precision(3);
+      message << "at most " << 100 * station.certainty << " % of its points can have been seen from there"
+              << (moved ? " at their times" : "") << ", as rays end at the first surface";
+    } else {
+      message << "most of its points lie within " << std::max(2 * 180 / std::numbers::pi * station.spread, 0.01)
+              << " degrees of one direction, as from a place far off the scan";
+    }
+    message << "; its coordinates must have the unit and the system of the scan"
+            << (moved ? ", and its times their clock" : "");
     warnings.push_back(message.str());
   }
   return warnings;

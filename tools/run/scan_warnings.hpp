@@ -39,7 +39,7 @@ std::string stray_warning(const Strays& strays, double resolution);
 // Returns the share of given normals that do not fit the surface, where it is a tenth or more; else nothing.
 std::string normals_warning(const GivenNormals& normals);
 
-// Names stations that do not count, because they cannot have measured all of their points.
+// Names stations and trajectories that do not count, because they cannot have measured all of their points.
 std::vector<std::string> station_warnings(const std::vector<io::StationSummary>& stations);
 
 // Warns after a run of strays, given normals that do not fit, too few points for their neighbourhoods, and
