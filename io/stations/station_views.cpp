@@ -6,6 +6,7 @@
 #include "io/crs/length_unit.hpp"
 #include "io/rows/column_rules.hpp"
 #include "io/rows/vectors.hpp"
+#include "io/stations/list_lines.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -141,8 +142,13 @@ void StationViews::begin() {
 void StationViews::put(StationView& view, const Eigen::Vector3d& position, bool is_kept) {
   const Eigen::Vector3d arm = position - view.station.place;
   const double range = arm.norm();
-  if (!(range > 0) || !std::isfinite(range)) return;
-  view.spread.add(arm / range);
+  if (!(range > 0) || !arm.allFinite()) return;
+  view.spread.add(arm.stableNormalized());
+  if (range > kFarthest) {
+    ++view.points;
+    ++view.conflicts;
+    return;
+  }
   if (!is_kept && !view.left_out) view.left_out = empty_image();
   RangeImage& image = is_kept ? view.ranges : *view.left_out;
   ++view.points;

@@ -285,9 +285,37 @@ std::string normals_warning(const GivenNormals& normals) {
   return text.str();
 }
 
-std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summary,
+std::string nothing_warning(const Detection& detection, const SelectionConfig& selection) {
+  constexpr std::uint64_t kMany = 1000;
+  constexpr double kSurface = 0.9;
+  const Summary& summary = detection.summary;
+  const std::uint64_t points = summary.levels.empty() ? 0 : summary.levels.front().points;
+  const bool is_left_out = summary.counts.raw_loops > 0 && !(selection == SelectionConfig());
+  if (!detection.loops.empty() || points < kMany || is_left_out) return "";
+  // On a thin surface, all levels have the area that follows from the distances of the first one. Points that
+  // fill a volume, or lie in layers, have less of it at coarse levels.
+  const double distance = summary.median_distance;
+  const double area = 2.25 * std::numbers::pi * static_cast<double>(points) * distance * distance /
+                      (summary.mean_neighbours + 2.5);
+  const std::string found = "neither a hole nor an outer curve among " + print_count(points) + " points; ";
+  if (summary.surface_area > kSurface * area)
+    return found +
+           "they lie on a thin surface, so it is probably closed, as a sphere is; if it is open, a filter "
+           "may "
+           "have moved its points, and the scan before the filter shows its holes";
+  return found +
+         "they do not lie on one thin surface, as after noise, or a voxel filter that moves points into "
+         "layers; "
+         "the scan before the filter shows its holes (--resolution thins without moving), unless it is "
+         "closed";
+}
+
+std::vector<std::string> scan_warnings(const FileScan& scan, const Detection& detection,
                                        const FilesConfig& config) {
+  const Summary& summary = detection.summary;
   std::vector<std::string> warnings;
+  if (std::string nothing = nothing_warning(detection, with_min_hole(config).selection); !nothing.empty())
+    warnings.push_back(std::move(nothing));
   if (std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
     warnings.push_back(std::move(strays));
   if (std::string normals = normals_warning(summary.given_normals); !normals.empty())
@@ -324,7 +352,8 @@ std::vector<std::string> station_warnings(const std::vector<StationSummary>& sta
       message << "at most " << 100 * station.certainty << " % of its points can have been seen from there"
               << (moved ? " at their times" : "") << ", as rays end at the first surface";
     } else {
-      message << "most of its points lie within " << std::max(2 * 180 / std::numbers::pi * station.spread, 0.01)
+      message << "most of its points lie within "
+              << std::max(2 * 180 / std::numbers::pi * station.spread, 0.01)
               << " degrees of one direction, as from a place far off the scan";
     }
     message << "; its coordinates must have the unit and the system of the scan"
