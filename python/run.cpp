@@ -183,7 +183,7 @@ std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig c
         if (area) found->detection->area = io::check_area(*area, *found->scan, config, watched);
         std::ranges::copy(tools::station_warnings(found->detection->stations),
                           std::back_inserter(found->warnings));
-        std::ranges::copy(tools::scan_warnings(*found->scan, found->detection->summary, config),
+        std::ranges::copy(tools::scan_warnings(*found->scan, *found->detection, config),
                           std::back_inserter(found->warnings));
       },
       watched, progress);

@@ -105,6 +105,8 @@ struct SelectionConfig {
   double min_diameter = 0.0;
   std::int64_t min_points = 0;
   bool holes_only = false;  // no outer boundaries
+
+  friend bool operator==(const SelectionConfig&, const SelectionConfig&) = default;
 };
 
 // Which results are wanted besides the loops.

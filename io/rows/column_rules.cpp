@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -45,6 +44,10 @@ constexpr std::string_view kZNames[] = {"z",
                                         "points2"};
 constexpr std::string_view kLongitudes[] = {"lon", "lng", "long", "longitude", "londeg"};
 constexpr std::string_view kLatitudes[] = {"lat", "latitude", "latdeg"};
+constexpr std::string_view kTimes[] = {"gpstime",    "gpstimes",   "time",     "times",   "timesec",
+                                       "timestamp",  "stamp",      "unixtime", "utctime", "weeksec",
+                                       "gpsweeksec", "sow",        "tow",      "gpssow",  "gpstow",
+                                       "gpssec",     "gpsseconds", "seconds",  "sec",     "t"};
 constexpr std::string_view kBeginnings[] = {"longitude", "latitude", "easting", "northing",
                                             "elevation", "altitude", "height"};
 
@@ -128,6 +131,14 @@ bool is_name_of_degrees(std::string_view name) {
     if (std::find(names.begin(), names.end(), plain) != names.end()) return true;
   }
   return plain.starts_with("longitude") || plain.starts_with("latitude");
+}
+
+std::optional<std::size_t> find_time(std::span<const std::string> names) {
+  for (const std::string_view known : kTimes) {
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (plain_name(names[i]) == known) return i;
+  }
+  return std::nullopt;
 }
 
 PositionNames name_position(std::vector<std::string>& names) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +18,9 @@ enum class PositionNames : std::uint8_t { kNone, kLengths, kDegrees };
 // Renames the columns of the position to x, y and z, if exactly one choice is possible. The names x, y and z
 // have priority. Names of the field follow, such as Easting, Northing, Height or X_m, then lon and lat.
 PositionNames name_position(std::vector<std::string>& names);
+
+// Returns the column of times, by names such as gps_time, Timestamp or "GPS Time (s)". gps_time has priority.
+std::optional<std::size_t> find_time(std::span<const std::string> names);
 
 // Whether a name begins as one of longitude or latitude does.
 bool is_name_of_degrees(std::string_view name);

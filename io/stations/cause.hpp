@@ -62,7 +62,8 @@ struct StationSummary {
   Eigen::Vector3d place{0, 0, 0};  // of a path: halfway
   double path = 0;                 // length of the path of a moving scanner; 0 for a fixed one
   std::uint64_t points = 0;
-  double certainty = 0;            // share of points that fit it: seen from there, or at its times
+  double certainty = 0;            // share of points that fit it: seen from there, and at its times
+  double spread = 0;               // RaySpread::angle
   double lowest = 0, highest = 0;  // sines of the elevations of its points
   double turn = 0;                 // share of a whole turn with points
   double step = 0;                 // mean angle between rays, radians

@@ -8,6 +8,17 @@
 
 namespace lacuna::io {
 
+double RaySpread::angle() const {
+  const double mean = sum_.norm() / static_cast<double>(std::max<std::uint64_t>(count_, 1));
+  return std::sqrt(std::max(0.0, 2 * (1 - mean)));
+}
+
+bool RaySpread::is_narrow() const {
+  constexpr double kNarrow = 0.07;
+  constexpr std::uint64_t kFewRays = 100;
+  return count_ >= kFewRays && angle() < kNarrow;
+}
+
 FieldOfView::FieldOfView(const Eigen::Vector3d& axis)
     : axis_(axis), right_(axis.unitOrthogonal()), forward_(axis.cross(right_)) {}
 

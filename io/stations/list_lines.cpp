@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/stations/list_lines.hpp"
 
-#include "io/files/number.hpp"
+#include "io/text/text_cells.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 namespace lacuna::io {
@@ -23,10 +24,17 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
 bool is_header(Fields fields) {
   double number = 0;
   return std::none_of(fields.begin(), fields.end(),
-                      [&](std::string_view field) { return parse_number(field, number); });
+                      [&](std::string_view field) { return parse_cell(field, number); });
 }
 
 }  // namespace
+
+std::string read_number(std::string_view field, double most, double& number) {
+  if (parse_cell(field, number) && std::fabs(number) <= most) return "";
+  std::ostringstream reason;
+  reason << in_quotes(field) << " is not a number from -" << most << " to " << most;
+  return reason.str();
+}
 
 std::optional<Fields> ListLines::next() {
   while (const auto line = in_.next_line()) {
@@ -34,19 +42,17 @@ std::optional<Fields> ListLines::next() {
     if (fields_.empty() || fields_[0].starts_with('#')) continue;
     const bool is_skipped = std::exchange(is_first_, false) && is_header(fields_);
     if (!is_skipped) return fields_;
-    header_.assign(fields_.begin(), fields_.end());
   }
   return std::nullopt;
 }
 
 Eigen::Vector3d ListLines::parse_place(Fields xyz) const {
-  return {parse(xyz[0]), parse(xyz[1]), parse(xyz[2])};
-}
-
-double ListLines::parse(std::string_view field) const {
-  double number = 0;
-  if (!parse_number(field, number) || !std::isfinite(number)) fail(in_quotes(field) + " is not a number");
-  return number;
+  Eigen::Vector3d place;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const std::string wrong = read_number(xyz[static_cast<std::size_t>(axis)], kFarthest, place[axis]);
+    if (!wrong.empty()) fail(wrong);
+  }
+  return place;
 }
 
 void ListLines::fail(std::string reason) const {

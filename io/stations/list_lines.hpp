@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lines of a list of stations or places, or of a trajectory. Blanks, commas or semicolons divide the
+// The lines of a list of stations or places. Blanks, commas or semicolons divide the
 // fields. Lines that begin with # are comments. A first line without numbers is a header.
 #pragma once
 
@@ -18,6 +18,10 @@ namespace lacuna::io {
 
 inline constexpr std::string_view kFieldDivisors = " \t\r,;";
 
+inline constexpr double kFarthest = 1e12;  // coordinate of a place that is allowed
+// Reads a number from -most to most. Returns the reason if it is none, else an empty text.
+std::string read_number(std::string_view field, double most, double& number);
+
 using Fields = std::span<const std::string_view>;
 
 class ListLines {
@@ -29,11 +33,7 @@ class ListLines {
   // next call. Returns nothing at the end.
   std::optional<Fields> next();
 
-  // Returns the names in the header, once the first line is read; empty without a header.
-  const std::vector<std::string>& header() const { return header_; }
-  // Reads a finite number. Throws `Error` with the line.
-  double parse(std::string_view field) const;
-  // Reads three finite numbers.
+  // Reads three numbers of at most kFarthest. Throws `Error` with the line.
   Eigen::Vector3d parse_place(Fields xyz) const;
 
   // Throws `Error` with the last line, the reason and what is needed; without a reason, this alone.
@@ -46,7 +46,6 @@ class ListLines {
   InputFile in_;
   std::string_view needed_;
   bool is_first_ = true;
-  std::vector<std::string> header_;
   std::vector<std::string_view> fields_;
 };
 

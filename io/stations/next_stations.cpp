@@ -13,7 +13,6 @@ namespace lacuna::io {
 namespace {
 
 constexpr double kLeastShare = 0.01;  // of the hidden area, for one more station
-constexpr double kLevelFloor = 0.95;  // cosine between the normal of a floor and the vertical
 constexpr std::size_t kMostEyes = 500;
 
 bool sees(const Eigen::Vector3d& eye, const InsidePlace& place, const Obstacles& obstacles,

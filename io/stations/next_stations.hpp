@@ -41,6 +41,9 @@ std::vector<NextStation> choose_stations(std::span<const InsidePlace> hidden,
                                          std::span<const Eigen::Vector3d> eyes, const Obstacles& obstacles,
                                          const SightLimits& limits, std::size_t most);
 
+// Below this cosine between its normal and the vertical, a point is on no floor.
+inline constexpr float kLevelFloor = 0.95F;
+
 struct FloorLimits {
   double height = 1.6;   // of an eye over the floor
   double grid = 0;       // distance of places; 0: half the height, and so far that there are at most 500

@@ -20,10 +20,19 @@ constexpr double kFinest = 0.02;           // metres, of a section
 constexpr double kMostSections = 1 << 18;  // each takes 104 bytes of memory
 constexpr double kSections = 100;          // in the mean range
 constexpr double kChord = 0.5;             // metres before and after a place, for its axes
+constexpr std::size_t kFiner = 8;          // parts of a cell's edge in which ranges are compared
+constexpr std::uint32_t kParts = kFiner * kFiner;
 constexpr std::uint32_t kCells = 6 * PathView::kEdge * PathView::kEdge;
 constexpr std::uint32_t kGroup = 8;  // sections: profiles lie closer than a 12th of the range
 constexpr std::ptrdiff_t kGap = 2;   // cells between rays
 constexpr std::ptrdiff_t kNothing = kGap * kGap + 1;
+
+// Returns the part of its cell in which a direction is.
+std::uint32_t part_of(const Eigen::Vector3d& direction) {
+  const std::size_t finer = cell_of(direction, PathView::kEdge * kFiner);
+  const std::size_t row = finer / (PathView::kEdge * kFiner), column = finer;
+  return static_cast<std::uint32_t>(row % kFiner * kFiner + column % kFiner);
+}
 
 }  // namespace
 
@@ -42,6 +51,7 @@ PathView::PathView(Trajectory path, std::filesystem::path stated, double metre, 
 void PathView::begin() {
   rays_.emplace(folder_ / "path-rays", memory_ / 4);
   swept_ = {};
+  spread_ = {};
   field_ = FieldOfView(Eigen::Vector3d::UnitZ());
   points_ = placed_ = range_sum_ = 0;
   first_time_ = std::numeric_limits<double>::infinity();
@@ -67,11 +77,13 @@ void PathView::add(double time, const Eigen::Vector3d& position, bool is_kept) {
   const Eigen::Vector3d in_axes = last_axes_ * arm;
   swept_.add(in_axes);
   field_.add(arm / range);
+  spread_.add(arm / range);
   farthest_ = std::max(farthest_, range);
   range_sum_ += static_cast<std::uint64_t>(std::min(range / finest_, 1e9));
   ++placed_;
   const auto cell = static_cast<std::uint32_t>(cell_of(in_axes, kEdge));
-  rays_->add({section, is_kept ? cell : kCells + cell, static_cast<float>(range)});
+  rays_->add(
+      {section, (is_kept ? cell : kCells + cell) * kParts + part_of(in_axes), static_cast<float>(range)});
 }
 
 void PathView::complete() {
@@ -99,13 +111,20 @@ void PathView::complete() {
   }
 }
 
-// Keeps the nearest range of each cell.
+// Keeps the nearest range of each cell. Counts the points that lie behind others in their part of a cell.
 void PathView::store(Rays& rays) {
   const auto for_each_nearest = [&](auto&& visit) {
-    std::pair<std::uint32_t, std::uint32_t> last(UINT32_MAX, 0);
+    std::optional<Ray> nearest, first;  // of a cell, and of a part
+    conflicts_ = 0;
     rays.for_each([&](const Ray& ray) {
-      if (std::exchange(last, std::pair(ray.section, ray.cell)) != last) visit(ray);
+      if (!first || first->section != ray.section || first->cell != ray.cell) first = ray;
+      if (ray.range > (1 + kConflict) * first->range) ++conflicts_;
+      const Ray whole{ray.section, ray.cell / kParts, ray.range};
+      const bool is_same = nearest && nearest->section == whole.section && nearest->cell == whole.cell;
+      if (nearest && !is_same) visit(*nearest);
+      if (!is_same || whole.range < nearest->range) nearest = whole;
     });
+    if (nearest) visit(*nearest);
   };
   // One more than whole sections: the quotients of a length are rounded.
   first_.assign(static_cast<std::size_t>(path_.length() / section_) + 3, 0);
@@ -124,6 +143,7 @@ StationSummary PathView::summary() const {
           .path = path_.length(),
           .points = placed_,
           .certainty = certainty(),
+          .spread = spread_.angle(),
           .lowest = field_.lowest(),
           .highest = field_.highest(),
           .turn = field_.turn(),
@@ -131,7 +151,8 @@ StationSummary PathView::summary() const {
 }
 
 double PathView::certainty() const {
-  return static_cast<double>(placed_) / static_cast<double>(points_);
+  if (spread_.is_narrow()) return 0;
+  return static_cast<double>(placed_ - conflicts_) / static_cast<double>(points_);
 }
 
 std::vector<std::uint32_t> PathView::sections_near(const Eigen::AlignedBox3d& box, double range) const {

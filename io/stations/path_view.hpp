@@ -57,10 +57,11 @@ class PathView {
 
   std::uint64_t bytes() const { return entries_.get_deleter().bytes; }  // of a mapped file
   void leave_memory() const;
+  std::uint64_t disk_bytes() const { return 2 * placed_ * sizeof(Ray); }  // in the folder, at the peak
 
  private:
   struct Ray {
-    std::uint32_t section, cell;  // cells of points that are left out come after all others
+    std::uint32_t section, cell;  // in parts; cells of points that are left out come after all others
     float range;
     auto operator<=>(const Ray&) const = default;
   };
@@ -86,8 +87,10 @@ class PathView {
   Eigen::Matrix3d last_axes_;
   std::optional<Rays> rays_;
   SweptDirections swept_;
+  RaySpread spread_;
   FieldOfView field_{Eigen::Vector3d::UnitZ()};
   std::uint64_t points_ = 0, placed_ = 0;  // with any time, and with one of the path
+  std::uint64_t conflicts_ = 0;            // placed points that lie behind others by a tenth of their range
   std::uint64_t range_sum_ = 0;            // of the placed points, in finest sections
   double first_time_ = 0, last_time_ = 0;  // of points
   double farthest_ = 0;

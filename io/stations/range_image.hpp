@@ -22,6 +22,7 @@ class RangeImage {
   static constexpr std::size_t kCells = 6 * kEdge * kEdge;
   static constexpr std::size_t kBytes = kCells * sizeof(float);
 
+  RangeImage() = default;  // has no cells
   // `folder` holds the file; if it is empty, the image is in memory. Throws `Error`.
   explicit RangeImage(const std::filesystem::path& folder);
 

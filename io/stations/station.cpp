@@ -53,7 +53,9 @@ Station parse_station(Fields fields, std::span<const fs::path> files, const List
 }  // namespace
 
 std::vector<Station> read_stations(const fs::path& list, std::span<const fs::path> files) {
-  ListLines lines(list, "a name, x y z, and a file name or a number of a source are needed");
+  ListLines lines(list,
+                  "a name, x y z, and a file name or a number of a source are needed; a trajectory needs a "
+                  "first line that names its columns, such as time x y z");
   std::vector<Station> stations;
   while (const auto fields = lines.next()) {
     stations.push_back(parse_station(*fields, files, lines));

@@ -4,10 +4,13 @@
 #include "engine/model/points.hpp"
 #include "engine/run/error.hpp"
 #include "io/crs/length_unit.hpp"
+#include "io/rows/column_rules.hpp"
 #include "io/rows/vectors.hpp"
+#include "io/stations/list_lines.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -15,13 +18,13 @@ namespace lacuna::io {
 namespace {
 
 constexpr std::size_t kNoted = 1024;   // rows, after which memory is checked
-constexpr double kConflict = 0.1;      // of the range
 constexpr double kLeastFilled = 0.85;  // of the quarters of cells with returns
 
 const Property* time_of(const RowLayout& layout) {
-  const auto found = std::find_if(layout.properties.begin(), layout.properties.end(),
-                                  [](const Property& property) { return is_time(property.name); });
-  return found == layout.properties.end() ? nullptr : &*found;
+  std::vector<std::string> names;
+  for (const Property& property : layout.properties) names.push_back(property.name);
+  const auto found = find_time(names);
+  return found ? &layout.properties[*found] : nullptr;
 }
 
 // Fills the directions between rays, as far as rays lie from each other. That is the edge of cells so coarse
@@ -56,7 +59,8 @@ void find_field(StationView& view) {
 }  // namespace
 
 double StationView::certainty() const {
-  return points == 0 ? 0 : 1 - static_cast<double>(conflicts) / static_cast<double>(points);
+  return points == 0 || spread.is_narrow() ? 0
+                                           : 1 - static_cast<double>(conflicts) / static_cast<double>(points);
 }
 
 StationSummary summary_of(const StationView& view) {
@@ -64,6 +68,7 @@ StationSummary summary_of(const StationView& view) {
           .place = view.station.place,
           .points = view.points,
           .certainty = view.certainty(),
+          .spread = view.spread.angle(),
           .lowest = view.field.lowest(),
           .highest = view.field.highest(),
           .turn = view.field.turn(),
@@ -72,8 +77,12 @@ StationSummary summary_of(const StationView& view) {
 }
 
 StationViews::StationViews(const FileScan& scan, const std::filesystem::path& stated,
-                           std::filesystem::path folder)
-    : folder_(std::move(folder)), memory_(scan.memory()), files_(scan.files()), are_stated_(!stated.empty()) {
+                           std::filesystem::path folder, Ranges ranges)
+    : folder_(std::move(folder)),
+      memory_(scan.memory()),
+      files_(scan.files()),
+      are_stated_(!stated.empty()),
+      has_ranges_(ranges == Ranges::kKept) {
   if (!are_stated_) return;
   if (std::optional<Trajectory> path = read_trajectory(stated, memory_)) {
     for (std::size_t i = 0; i < files_.size(); ++i) {
@@ -90,7 +99,7 @@ StationViews::StationViews(const FileScan& scan, const std::filesystem::path& st
 void StationViews::add(Station station) {
   const auto key = std::pair(station.file ? *station.file : kAny, station.source ? *station.source : kAny);
   if (!index_.emplace(key, views_.size()).second) return;
-  views_.push_back({.station = std::move(station), .ranges = RangeImage(folder_)});
+  views_.push_back({.station = std::move(station), .ranges = empty_image()});
 }
 
 void StationViews::add_scanners(std::size_t file, const ScanReader& reader) {
@@ -108,6 +117,10 @@ void StationViews::add_scanners(std::size_t file, const ScanReader& reader) {
   }
 }
 
+RangeImage StationViews::empty_image() const {
+  return has_ranges_ ? RangeImage(folder_) : RangeImage();
+}
+
 StationView* StationViews::find(std::size_t file, std::uint64_t source) {
   for (const auto& key : {std::pair(std::uint64_t{file}, source), std::pair(std::uint64_t{file}, kAny),
                           std::pair(kAny, source), std::pair(kAny, kAny)}) {
@@ -120,17 +133,27 @@ void StationViews::begin() {
   if (is_complete_) return;
   file_ = SIZE_MAX;
   if (path_) path_->begin();
-  for (StationView& view : views_) view.points = view.conflicts = 0;
+  for (StationView& view : views_) {
+    view.points = view.conflicts = 0;
+    view.spread = {};
+  }
 }
 
 void StationViews::put(StationView& view, const Eigen::Vector3d& position, bool is_kept) {
   const Eigen::Vector3d arm = position - view.station.place;
   const double range = arm.norm();
-  if (!(range > 0) || !std::isfinite(range)) return;
-  if (!is_kept && !view.left_out) view.left_out.emplace(folder_);
+  if (!(range > 0) || !arm.allFinite()) return;
+  view.spread.add(arm.stableNormalized());
+  if (range > kFarthest) {
+    ++view.points;
+    ++view.conflicts;
+    return;
+  }
+  if (!is_kept && !view.left_out) view.left_out = empty_image();
   RangeImage& image = is_kept ? view.ranges : *view.left_out;
   ++view.points;
   view.farthest = std::max(view.farthest, range);
+  if (!has_ranges_) return view.field.add(arm / range);
   const double before = image.put(arm, range);
   if (before > 0 && std::fabs(range - before) > kConflict * std::min(range, before)) ++view.conflicts;
 }
@@ -181,6 +204,7 @@ std::span<const StationView> StationViews::complete(FileScan& scan, const TaskAr
   scan.observe(nullptr);
   if (path_) path_->complete();
   std::erase_if(views_, [](const StationView& view) { return view.points == 0; });
+  if (!has_ranges_) return views_;
   const std::vector<std::uint64_t> needs(views_.size(), 2 * RangeImage::kBytes);
   arena.for_each_within_budget(needs, memory_, [&](std::size_t i) {
     fill_between_rays(views_[i]);
@@ -195,13 +219,24 @@ std::vector<StationSummary> StationViews::summaries() const {
   std::vector<StationSummary> all;
   if (path_) all.push_back(path_->summary());
   for (const StationView& view : views_) all.push_back(summary_of(view));
+  if (has_ranges_ || path_) return all;
+  for (StationSummary& station : all) {
+    station.step = std::numeric_limits<double>::quiet_NaN();
+    if (station.certainty > 0) station.certainty = station.step;
+  }
   return all;
 }
 
+std::uint64_t StationViews::disk_bytes() const {
+  std::uint64_t bytes = path_ ? path_->disk_bytes() : 0;
+  for (const StationView& view : views_) bytes += RangeImage::kBytes * (view.left_out ? 2 : 1);
+  return bytes;
+}
+
 std::unique_ptr<StationViews> watch_stations(FileScan& scan, const OutputConfig& config,
-                                             const std::filesystem::path& folder) {
+                                             const std::filesystem::path& folder, Ranges ranges) {
   if (config.stations.empty() && !scan.has_scanners()) return nullptr;
-  auto views = std::make_unique<StationViews>(scan, config.stations, folder);
+  auto views = std::make_unique<StationViews>(scan, config.stations, folder, ranges);
   scan.observe(views.get());
   return views;
 }

@@ -27,24 +27,29 @@ struct StationView {
   std::uint64_t conflicts = 0;  // at ranges that differ by a tenth from others in their directions
   double farthest = 0;          // range of a point
   double step = 0;              // mean angle between rays, radians
+  RaySpread spread;
   FieldOfView field{station.axis};
   RangeImage ranges;                   // of points that take part
   std::optional<RangeImage> left_out;  // of points that a filter leaves out; empty if there are none
 
   // A single sweep has one range in most directions. The share of points for which this holds; below
-  // `kLeastCertain` the station did not measure them.
+  // `kLeastCertain` the station did not measure them. It is 0 for a view that is too narrow to say.
   double certainty() const;
   static constexpr double kLeastCertain = 0.98;
 };
 
 StationSummary summary_of(const StationView& view);
 
+// Without ranges there are summaries alone. They take no disk space, and leave certainty and steps open.
+enum class Ranges : std::uint8_t { kKept, kNone };
+
 // A file states the stations, or the path of a moving scanner. Else the scans have them: E57 and PTX, PCD
 // with a viewpoint, PLY with a camera, and files with a pose. Each image is a file of 25 MiB in the folder.
 class StationViews final : public RowObserver {
  public:
   // `stated` is that file; it may be empty. `folder` is empty if files are in memory. Throws `Error`.
-  StationViews(const FileScan& scan, const std::filesystem::path& stated, std::filesystem::path folder);
+  StationViews(const FileScan& scan, const std::filesystem::path& stated, std::filesystem::path folder,
+               Ranges ranges = Ranges::kKept);
 
   void begin() override;
   void take(std::size_t file, const ScanReader& reader, const RowBatch& rows,
@@ -60,10 +65,12 @@ class StationViews final : public RowObserver {
   // the scan's reader may hold.
   void note_touched(std::uint64_t places) const;
   std::vector<StationSummary> summaries() const;  // of a path alone, or of the views
+  std::uint64_t disk_bytes() const;               // that a run takes for them in the folder
 
  private:
   StationView* find(std::size_t file, std::uint64_t source);
   void add(Station station);
+  RangeImage empty_image() const;
   void add_scanners(std::size_t file, const ScanReader& reader);
   void put(StationView& view, const Eigen::Vector3d& position, bool is_kept);
 
@@ -71,7 +78,7 @@ class StationViews final : public RowObserver {
   std::uint64_t memory_;                            // of pages of images
   mutable std::atomic<std::uint64_t> touched_ = 0;  // places of images, since the pages last left memory
   std::vector<std::filesystem::path> files_;
-  bool are_stated_ = false, is_complete_ = false;
+  bool are_stated_ = false, is_complete_ = false, has_ranges_;
   std::unique_ptr<PathView> path_;
   std::vector<StationView> views_;
   // The key is file and source, kAny for any of them.
@@ -84,6 +91,7 @@ class StationViews final : public RowObserver {
 // Observes the scan if a station can be known: the config states a file, or a scan names a scanner. The
 // result is valid as long as the scan. Throws `Error`.
 std::unique_ptr<StationViews> watch_stations(FileScan& scan, const OutputConfig& config,
-                                             const std::filesystem::path& folder);
+                                             const std::filesystem::path& folder,
+                                             Ranges ranges = Ranges::kKept);
 
 }  // namespace lacuna::io

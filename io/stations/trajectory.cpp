@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/stations/trajectory.hpp"
 
+#include "io/rows/column_rules.hpp"
 #include "io/stations/direction_cells.hpp"
 #include "io/stations/list_lines.hpp"
+#include "io/text/text_start.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,6 +18,7 @@ namespace {
 constexpr std::size_t kSweptEdge = 64;        // cells of 1.8 degrees
 constexpr double kPause = 10;                 // median intervals
 constexpr std::uint64_t kBytesPerLine = 100;  // while a file is read
+constexpr double kLatest = 1e20;              // time that is allowed: nanoseconds since 1970 are 2e18
 constexpr double kLeastShare = 0.02;  // of the largest count of a cell: others are of turns and rough ground
 
 // Returns how many of the keys, in order, are `key` or less.
@@ -28,6 +31,29 @@ template <class Value>
 Value between(const std::vector<double>& keys, const std::vector<Value>& values, std::size_t i, double key) {
   const double share = (key - keys[i - 1]) / (keys[i] - keys[i - 1]);
   return values[i - 1] + share * (values[i] - values[i - 1]);
+}
+
+// Renames the columns of the position, as in headers of scans. Names of the TUM format come last: tx, ty, tz.
+PositionNames name_places(std::vector<std::string>& names) {
+  if (const PositionNames position = name_position(names); position != PositionNames::kNone) return position;
+  for (std::string& name : names)
+    if (name == "tx" || name == "ty" || name == "tz") name.erase(0, 1);
+  return name_position(names);
+}
+
+// Returns the names of the header, or of the last comment before the rows that names a time and a position.
+// Returns none if no time is named.
+std::vector<std::string> names_with_time(const TextStart& start, const TextPlaces& places) {
+  if (places.header) {
+    std::vector<std::string> names = column_names(header_cells(start.lines[*places.header].text));
+    return find_time(names) ? names : std::vector<std::string>();
+  }
+  for (auto comment = start.comments.rbegin(); comment != start.comments.rend(); ++comment) {
+    const std::vector<std::string> names = column_names(comment_cells(*comment));
+    std::vector<std::string> renamed = names;
+    if (find_time(names) && name_places(renamed) != PositionNames::kNone) return names;
+  }
+  return {};
 }
 
 }  // namespace
@@ -62,50 +88,55 @@ Eigen::Vector3d Trajectory::place_at(double length) const {
   return between(lengths_, places_, next, length);
 }
 
-bool is_time(std::string_view column) {
-  return column == "time" || column == "gps_time";
-}
-
 std::optional<Trajectory> read_trajectory(const std::filesystem::path& file, std::uint64_t memory) {
-  ListLines lines(file, "numbers are needed in the columns time, x, y and z");
-  std::optional<Fields> fields = lines.next();
-  const std::vector<std::string>& header = lines.header();
-  const auto time = std::find_if(header.begin(), header.end(), is_time);
-  if (time == header.end()) return std::nullopt;
-  std::array<std::size_t, 4> columns{static_cast<std::size_t>(time - header.begin())};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::string name(1, "xyz"[axis]);
-    const auto column = std::find(header.begin(), header.end(), name);
-    if (column == header.end())
-      lines.in().fail("has a column " + *time + ", but none that is named " + name +
-                      "; a trajectory has time, x, y and z");
-    columns[axis + 1] = static_cast<std::size_t>(column - header.begin());
-  }
+  InputFile head(file), in(file);
+  const TextStart start = read_start(head);
+  const TextPlaces places = find_places(start.lines);
+  std::vector<std::string> names = names_with_time(start, places);
+  if (names.empty()) return std::nullopt;
+  const std::string given = joined(names);
+  if (const PositionNames position = name_places(names); position != PositionNames::kLengths)
+    in.fail((position == PositionNames::kNone ? "no columns named x, y and z, but " + given
+                                              : "has longitude and latitude: " + given) +
+            "; a trajectory has the columns time, x, y and z, in the coordinates of the scan");
+  std::array<std::size_t, 4> columns{*find_time(names)};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    columns[axis + 1] =
+        static_cast<std::size_t>(std::ranges::find(names, std::string(1, "xyz"[axis])) - names.begin());
   std::vector<std::pair<double, Eigen::Vector3d>> records;
-  for (; fields; fields = lines.next()) {
+  char separator = 0;
+  while (const auto line = in.next_line()) {
+    const std::string_view row = without_end(without_blanks(*line));
+    if (places.row >= start.lines.size() || in.line() < start.lines[places.row].number) continue;
+    if (row.empty() || is_comment(row)) continue;
+    if (separator == 0) separator = find_separator(row);
+    const Cells cells = split(row, separator);
+    if (cells.size() != names.size())
+      in.fail_at_line(in.line(), "has " + std::to_string(cells.size()) + " columns; the header names " +
+                                     std::to_string(names.size()) + ": " + given);
     std::array<double, 4> values;
     for (std::size_t i = 0; i < 4; ++i) {
-      if (columns[i] >= fields->size()) lines.fail("has " + std::to_string(fields->size()) + " columns");
-      values[i] = lines.parse((*fields)[columns[i]]);
+      const std::string wrong = read_number(cells[columns[i]], i == 0 ? kLatest : kFarthest, values[i]);
+      if (!wrong.empty())
+        in.fail_at_line(in.line(), wrong + "; numbers are needed in the columns time, x, y and z");
     }
     if (records.size() >= memory / kBytesPerLine)
-      lines.in().fail(
-          "has more than the " + std::to_string(records.size()) +
-          " lines that the memory limit has space for; allowed: fewer lines, such as 100 for each "
-          "second, or a larger --memory-limit");
+      in.fail("has more than the " + std::to_string(records.size()) +
+              " lines that the memory limit has space for; allowed: fewer lines, such as 100 for each "
+              "second, or a larger --memory-limit");
     records.emplace_back(values[0], Eigen::Vector3d(values[1], values[2], values[3]));
   }
   const auto is_earlier = [](const auto& a, const auto& b) { return a.first < b.first; };
   std::stable_sort(records.begin(), records.end(), is_earlier);
   std::vector<double> times;
-  std::vector<Eigen::Vector3d> places;
+  std::vector<Eigen::Vector3d> path;
   for (const auto& [at, place] : records) {
     if (!times.empty() && at == times.back()) continue;
     times.push_back(at);
-    places.push_back(place);
+    path.push_back(place);
   }
-  if (times.size() < 2) lines.in().fail("has fewer than two times; a trajectory has two or more");
-  return Trajectory(std::move(times), std::move(places));
+  if (times.size() < 2) in.fail("has fewer than two times; a trajectory has two or more");
+  return Trajectory(std::move(times), std::move(path));
 }
 
 Eigen::Matrix3d Trajectory::axes_at(double length, double reach) const {

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -36,11 +35,11 @@ class Trajectory {
   std::vector<std::size_t> first_of_parts_;  // and the number of places
 };
 
-// Reads a file whose first line names its columns: `time` or `gps_time`, x, y and z, and others between them.
-// The rules of lines, which are in any order, are in io/stations/list_lines.hpp. Returns nothing if the file
-// names no time: then it lists stations. Throws `Error`, also for more lines than `memory` has space for.
+// Reads a file whose columns have names: a time (find_time in io/rows/column_rules.hpp), x, y and z, and any
+// others. Headers, comments and names are as in scans of text; tx, ty and tz are names of the position, too.
+// Rows are in any order. Returns nothing if the file names no time: then it lists stations. Throws `Error`,
+// also for more lines than `memory` has space for.
 std::optional<Trajectory> read_trajectory(const std::filesystem::path& file, std::uint64_t memory);
-bool is_time(std::string_view column);
 
 // The directions from a moving scanner in which it measures, in the axes of its path. A scanner with a
 // turning mirror has a thin band of them.

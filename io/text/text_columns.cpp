@@ -16,13 +16,6 @@ namespace {
 
 constexpr const char* kAllowed = "rows of numbers divided by blanks, commas or semicolons are allowed";
 
-// The cells of a comment that may be a header, such as "columns: x y z".
-Cells comment_cells(std::string_view comment) {
-  Cells cells = header_cells(comment);
-  if (!cells.empty() && cells[0].ends_with(':')) cells.erase(cells.begin());
-  return cells;
-}
-
 std::vector<std::string> default_names(std::size_t count) {
   std::vector<std::string> names = {"x", "y", "z"};
   while (names.size() < count) names.push_back("column_" + std::to_string(names.size() + 1));
@@ -36,14 +29,6 @@ std::vector<std::string> pts_names(std::size_t count) {
   if (count == 6) return {"x", "y", "z", "red", "green", "blue"};
   if (count == 7) return {"x", "y", "z", "intensity", "red", "green", "blue"};
   return {};
-}
-
-std::string joined(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 12;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
-    text += (i > 0 ? ", " : "") + in_quotes(names[i]);
-  return text + (names.size() > kMost ? ", ..." : "");
 }
 
 // Returns the place of a name; their number without it.

@@ -77,6 +77,20 @@ Cells header_cells(std::string_view line) {
   return cells;
 }
 
+Cells comment_cells(std::string_view comment) {
+  Cells cells = header_cells(comment);
+  if (!cells.empty() && cells[0].ends_with(':')) cells.erase(cells.begin());
+  return cells;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 12;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+    text += (i > 0 ? ", " : "") + in_quotes(names[i]);
+  return text + (names.size() > kMost ? ", ..." : "");
+}
+
 bool names_position(const Cells& cells) {
   std::vector<std::string> names = column_names(cells);
   return name_position(names) != PositionNames::kNone;

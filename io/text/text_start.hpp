@@ -40,8 +40,11 @@ TextPlaces find_places(const std::vector<Line>& lines);
 
 // Returns the cells of a header. Where blanks divide them, a unit in brackets belongs to the name before.
 Cells header_cells(std::string_view line);
+// Returns the cells of a comment that may be a header, such as "columns: x y z".
+Cells comment_cells(std::string_view comment);
 std::string column_name(std::string_view cell, std::size_t index);
 std::vector<std::string> column_names(const Cells& cells);
+std::string joined(const std::vector<std::string>& names);  // in quotes, the first twelve of them
 bool names_position(const Cells& cells);  // name_position (io/rows/column_rules.hpp)
 
 }  // namespace lacuna::io

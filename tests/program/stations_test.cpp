@@ -82,6 +82,31 @@ TEST_CASE("given places are tried instead of those over the floor, and have thei
   CHECK(read_json(surveyed.written()).at("features").empty());
 }
 
+TEST_CASE("a run of stations that finds no place says why", "[program]") {
+  const auto check = [](const ProgramResult& run, const std::string& reason) {
+    CHECK(run.exit_code == 0);
+    CHECK(test::count_lines(run.err) == 1);
+    CHECK_THAT(run.err, Contains("no next station: " + reason));
+  };
+  const Surveyed surveyed(kPlace);
+  check(surveyed.stations("900000 5400000 100\n"),
+        "none of the 1 places sees a hundredth of it: all is farther");
+  check(surveyed.stations("500020 5400000 95.1\n"),
+        "none of the 1 places sees a hundredth of it: rays come at");
+
+  const test::ScratchFolder scratch;
+  const std::string out = (scratch / "out").string();
+  const auto run_on = [&](const Cloud& cloud, const std::vector<std::string>& options = {}) {
+    test::detect(scratch.write("scan.txt", cloud.text()), out, options);
+    return run_program({"stations", out});
+  };
+  check(run_on(plane(30)), "the results have no hole");
+  const Cloud sheet = plane(30).punched({15, 15}, 5);
+  check(run_on(sheet.rotated({1, 0, 0}, 90)), "0 points of the sample are level, and ");
+  CHECK_THAT(run_program({"stations", out}).err, Contains("would be if y were up"));
+  check(run_on(sheet.rotated({1, 1, 0}, 45)), "no points of the sample are level");
+}
+
 TEST_CASE("a list of places that cannot be read leaves the earlier result", "[program]") {
   const Surveyed surveyed(kPlace);
   REQUIRE(surveyed.stations(kLine).exit_code == 0);

@@ -5,6 +5,9 @@
 #include "tests/support/e57_encoder.hpp"
 #include "tests/support/scratch_folder.hpp"
 
+#include <limits>
+#include <numbers>
+
 #include <catch2/catch.hpp>
 
 namespace lacuna::test {
@@ -128,6 +131,46 @@ TEST_CASE("a unit that contradicts the system of its file is a warning, unless t
   InputConfig stated;
   stated.unit = LengthUnit::kM;
   CHECK(input_warnings(FileScan({scan}, stated)).empty());
+}
+
+TEST_CASE("a scan with neither a hole nor an outer curve is a warning that says what is likelier") {
+  Detection detection;
+  Summary& summary = detection.summary;
+  summary.levels = {{.points = 20'000}};
+  summary.mean_neighbours = 15.5;
+  summary.median_distance = 0.2;
+  const double area = 2.25 * std::numbers::pi * 20'000 * 0.04 / 18;
+  summary.surface_area = 1.05 * area;
+  CHECK_THAT(nothing_warning(detection, {}),
+             Contains("neither a hole nor an outer curve among 20,000 points") && Contains("as a sphere is"));
+  summary.surface_area = 0.8 * area;
+  CHECK_THAT(nothing_warning(detection, {}), Contains("do not lie on one thin surface"));
+  summary.counts.raw_loops = 3;
+  CHECK_FALSE(nothing_warning(detection, {}).empty());  // none was certain enough
+  CHECK(nothing_warning(detection, {.holes_only = true}).empty());
+  summary.levels = {{.points = 999}};
+  CHECK(nothing_warning(detection, {}).empty());
+  summary.levels = {{.points = 20'000}};
+  detection.loops.emplace_back();
+  CHECK(nothing_warning(detection, {}).empty());
+}
+
+TEST_CASE("stations and paths that do not count are warnings that say why and what to check") {
+  StationSummary station{.name = "one", .certainty = 0.5};
+  const auto warning = [&] { return station_warnings({station}).at(0); };
+  CHECK(
+      warning() ==
+      "station one does not count: at most 50 % of its points can have been seen from there, as rays end at "
+      "the first surface; its coordinates must have the unit and the system of the scan");
+  station.path = 7;
+  CHECK_THAT(warning(), Contains("trajectory one") && Contains("and its times their clock"));
+  station.certainty = 0;
+  station.spread = 0.01;
+  CHECK_THAT(warning(), Contains("most of its points lie within 1.1 degrees of one direction"));
+  station.certainty = 0.99;
+  CHECK(station_warnings({station}).empty());
+  station.certainty = std::numeric_limits<double>::quiet_NaN();  // not known
+  CHECK(station_warnings({station}).empty());
 }
 
 }  // namespace lacuna::test

@@ -67,6 +67,7 @@ struct RunInfo {
   std::optional<std::uint64_t> points_bytes;  // with --points; empty: they cannot be written
   ResultBytes results;
   std::vector<StationSummary> stations;
+  std::uint64_t stations_bytes = 0;
 };
 
 // Avoids a pass over the file if its head has all numbers.
@@ -105,12 +106,13 @@ RunInfo inspect_run(FileScan& scan, const FilesConfig& config) {
   NoProgress silence;
   const MadeFolder parent(scratch_folder(config.run));
   const TemporaryFolder workspace(parent.path(), "lacuna-");
-  const auto stations = watch_stations(scan, config.output, workspace.path());
+  const auto stations = watch_stations(scan, config.output, workspace.path(), Ranges::kNone);
   run.inspection = inspect(scan, config, workspace.path(), silence);
   if (stations) {
     const TaskArena arena(static_cast<std::size_t>(config.run.threads));
     stations->complete(scan, arena);
     run.stations = stations->summaries();
+    run.stations_bytes = stations->disk_bytes();
   }
   const Summary& summary = run.inspection.summary;
   const Counts& counts = summary.counts;
@@ -132,15 +134,14 @@ std::string print_point(const Eigen::Vector3d& point) {
 std::string print_stations(const std::vector<StationSummary>& stations, std::string_view unit) {
   const auto degrees = [](double radians) { return print_area(radians * 180 / std::numbers::pi, "") + "°"; };
   std::vector<std::vector<std::string>> rows = {
-      {"stations", "place", "points", "elevations", "turn", "step", "farthest", "certainty"}};
+      {"stations", "place", "points", "elevations", "turn", "farthest"}};
   for (const StationSummary& station : stations) {
     const bool moved = station.path > 0;
     rows.push_back({visible(station.name),
                     moved ? "moved " + print_length(station.path, unit) : print_point(station.place),
                     print_count(station.points),
                     degrees(std::asin(station.lowest)) + " to " + degrees(std::asin(station.highest)),
-                    degrees(2 * std::numbers::pi * station.turn), moved ? "" : degrees(station.step),
-                    print_length(station.farthest, unit), print_share(station.certainty)});
+                    degrees(2 * std::numbers::pi * station.turn), print_length(station.farthest, unit)});
   }
   return print_table(rows);
 }
@@ -185,9 +186,12 @@ void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const 
             << "\n  cells         " << print_count(run.inspection.cells) << ", of size "
             << run.inspection.cell_size << "\n  memory limit  " << print_size(summary.memory_limit)
             << "\n  threads       " << summary.threads << "\n  workspace     about "
-            << print_size(run.costs.disk) << " on disk\n  results       about "
-            << print_size(run.results.all()) << " on disk, and more with more holes\n  " << run.points_file
-            << "    "
+            << print_size(run.costs.disk) << " on disk\n";
+  if (!run.stations.empty())
+    std::cout << "  stations      " << print_size(run.stations_bytes)
+              << " more on disk, where causes of holes are found\n";
+  std::cout << "  results       about " << print_size(run.results.all())
+            << " on disk, and more with more holes\n  " << run.points_file << "    "
             << (run.points_bytes ? print_size(*run.points_bytes) +
                                        (run.results.points > 0 ? ", in these results" : ", with --points")
                                  : "cannot hold all columns; --points-format ply can")
@@ -236,6 +240,7 @@ void print_json(const std::vector<FileInfo>& files, const FileScan& scan, const 
   root["memory_limit"] = summary.memory_limit;
   root["threads"] = summary.threads;
   root["workspace_bytes"] = run.costs.disk;
+  root["stations_bytes"] = run.stations_bytes;
   root["results_bytes"] = run.results.all();
   root["points_file"] = run.points_file;
   root["points_bytes"] = run.points_bytes ? Json(*run.points_bytes) : Json();
@@ -259,6 +264,7 @@ void run_info(const InfoArguments& arguments) {
   const Summary& summary = run.inspection.summary;
   if (const std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
     spdlog::warn("{}", strays);
+  for (const std::string& warning : station_warnings(run.stations)) spdlog::warn("{}", warning);
 }
 
 }  // namespace

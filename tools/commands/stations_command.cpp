@@ -15,6 +15,7 @@
 #include "tools/run/folders.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -24,6 +25,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <spdlog/spdlog.h>
 
 namespace lacuna::tools {
 using namespace io;
@@ -153,6 +156,49 @@ void print_places(const Scene& scene, std::span<const NextStation> chosen, std::
   std::cout << "\n" << print_table(rows) << "\n";
 }
 
+std::string why_no_hidden(const Scene& scene) {
+  const auto is_hole = [](const ExplainedLoop& loop) { return loop.kind == LoopKind::kHole; };
+  const auto holes = static_cast<std::size_t>(std::ranges::count_if(scene.loops.measures, is_hole));
+  if (holes == 0) return "the results have no hole";
+  return "the causes of all holes, " + print_count(holes) +
+         ", are other ones than hidden and out of view, such as openings; holes.json has them";
+}
+
+std::string why_no_floor(const HiddenScan& scan, const FloorLimits& floor, const std::string& unit) {
+  std::array<std::size_t, 3> level{};  // points whose normals are along x, y and z
+  for (const Eigen::Vector3f& normal : scan.normals)
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      if (std::fabs(normal[axis]) >= kLevelFloor) ++level[static_cast<std::size_t>(axis)];
+  const std::size_t up = level[1] >= level[0] ? 1 : 0;
+  constexpr const char* kWayOut = "; --places states places of the scanner";
+  const std::string counted = print_count(level[2]) + " points of the sample are level";
+  if (level[up] > level[2])
+    return counted + ", and " + print_count(level[up]) + " would be if " + "xy"[up] +
+           " were up; z must be up: turn the scan, or state places of the scanner by --places";
+  if (level[2] == 0) return "no points of the sample are level, so it has no floor" + std::string(kWayOut);
+  return counted + ", but none of the lowest has free space up to " + print_length(floor.height, unit) +
+         " above it; --height states a lower scanner" + kWayOut;
+}
+
+std::string why_none_sees(std::span<const InsidePlace> hidden, std::span<const Eigen::Vector3d> eyes,
+                          const SightLimits& limits, const std::string& unit) {
+  bool is_any_near = false, is_any_steep = false;
+  for (const Eigen::Vector3d& eye : eyes) {
+    for (const InsidePlace& place : hidden) {
+      const Eigen::Vector3d arm = place.position - eye;
+      const bool is_near = arm.norm() <= limits.range;
+      is_any_near |= is_near;
+      is_any_steep |= is_near && std::fabs(arm.dot(place.normal)) >= limits.least_cosine * arm.norm();
+    }
+  }
+  const std::string none = "none of the " + print_count(eyes.size()) + " places sees a hundredth of it: ";
+  if (!is_any_near)
+    return none + "all is farther than " + print_length(limits.range, unit) +
+           "; --range states how far it measures";
+  if (!is_any_steep) return none + "rays come at too small an angle; --incidence states the least";
+  return none + "points of the scan stand in the way; --places or --height states other places";
+}
+
 void run_stations(const StationsArguments& arguments) {
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
   const fs::path file = arguments.folder / kNextStationsFile;
@@ -195,7 +241,12 @@ void run_stations(const StationsArguments& arguments) {
   std::cout << "hidden: " << print_area(scan.area, unit) << "; " << print_count(eyes.size()) << " places "
             << (arguments.places ? "of " + visible(arguments.places->string()) : "on the floor")
             << " were tried\n";
-  if (!chosen.empty()) print_places(scene, chosen, places, scan.area, unit);
+  if (chosen.empty())
+    spdlog::warn("no next station: {}", scan.hidden.empty() ? why_no_hidden(scene)
+                                        : eyes.empty()      ? why_no_floor(scan, floor, unit)
+                                                            : why_none_sees(scan.hidden, eyes, limits, unit));
+  else
+    print_places(scene, chosen, places, scan.area, unit);
   std::cout << "written: " << visible(file.string()) << "\n";
 }
 

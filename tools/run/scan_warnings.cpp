@@ -18,6 +18,7 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <sstream>
 #include <system_error>
@@ -274,9 +275,37 @@ std::string normals_warning(const GivenNormals& normals, NormalsUse use) {
   return text.str();
 }
 
-std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summary,
+std::string nothing_warning(const Detection& detection, const SelectionConfig& selection) {
+  constexpr std::uint64_t kMany = 1000;
+  constexpr double kSurface = 0.9;
+  const Summary& summary = detection.summary;
+  const std::uint64_t points = summary.levels.empty() ? 0 : summary.levels.front().points;
+  const bool is_left_out = summary.counts.raw_loops > 0 && !(selection == SelectionConfig());
+  if (!detection.loops.empty() || points < kMany || is_left_out) return "";
+  // On a thin surface, all levels have the area that follows from the distances of the first one. Points that
+  // fill a volume, or lie in layers, have less of it at coarse levels.
+  const double distance = summary.median_distance;
+  const double area = 2.25 * std::numbers::pi * static_cast<double>(points) * distance * distance /
+                      (summary.mean_neighbours + 2.5);
+  const std::string found = "neither a hole nor an outer curve among " + print_count(points) + " points; ";
+  if (summary.surface_area > kSurface * area)
+    return found +
+           "they lie on a thin surface, so it is probably closed, as a sphere is; if it is open, a filter "
+           "may "
+           "have moved its points, and the scan before the filter shows its holes";
+  return found +
+         "they do not lie on one thin surface, as after noise, or a voxel filter that moves points into "
+         "layers; "
+         "the scan before the filter shows its holes (--resolution thins without moving), unless it is "
+         "closed";
+}
+
+std::vector<std::string> scan_warnings(const FileScan& scan, const Detection& detection,
                                        const FilesConfig& config) {
+  const Summary& summary = detection.summary;
   std::vector<std::string> warnings;
+  if (std::string nothing = nothing_warning(detection, with_min_hole(config).selection); !nothing.empty())
+    warnings.push_back(std::move(nothing));
   if (std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
     warnings.push_back(std::move(strays));
   if (std::string normals = normals_warning(summary.given_normals, config.normals.use); !normals.empty())
@@ -303,11 +332,22 @@ std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summ
 std::vector<std::string> station_warnings(const std::vector<StationSummary>& stations) {
   std::vector<std::string> warnings;
   for (const StationSummary& station : stations) {
-    if (station.certainty >= StationView::kLeastCertain) continue;
+    if (!(station.certainty < StationView::kLeastCertain)) continue;
+    const bool moved = station.path > 0;
     std::ostringstream message;
-    message.precision(3);
-    message << "station " << visible(station.name) << " does not count: at most " << 100 * station.certainty
-            << " % of its points can have been seen from there, as rays end at the first surface";
+    message.precision(2);
+    message << (moved ? "trajectory " : "station ") << visible(station.name) << " does not count: ";
+    if (station.certainty > 0) {
+      message.precision(3);
+      message << "at most " << 100 * station.certainty << " % of its points can have been seen from there"
+              << (moved ? " at their times" : "") << ", as rays end at the first surface";
+    } else {
+      message << "most of its points lie within "
+              << std::max(2 * 180 / std::numbers::pi * station.spread, 0.01)
+              << " degrees of one direction, as from a place far off the scan";
+    }
+    message << "; its coordinates must have the unit and the system of the scan"
+            << (moved ? ", and its times their clock" : "");
     warnings.push_back(message.str());
   }
   return warnings;

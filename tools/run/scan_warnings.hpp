@@ -39,12 +39,18 @@ std::string stray_warning(const Strays& strays, double resolution);
 // Returns the share of given normals that do not fit, and what the run has done; empty if they fit.
 std::string normals_warning(const GivenNormals& normals, NormalsUse use);
 
-// Names stations that do not count, because they cannot have measured all of their points.
+// Names stations and trajectories that do not count, because they cannot have measured all of their points.
 std::vector<std::string> station_warnings(const std::vector<io::StationSummary>& stations);
 
+// Returns a line where a scan of a thousand points or more has neither a hole nor an outer curve. The line
+// says what is likelier: the surface is closed, or the points are not on it. Empty where options leave curves
+// out.
+std::string nothing_warning(const Detection& detection, const SelectionConfig& selection);
+
 // Warns after a run of strays, given normals that do not fit, too few points for their neighbourhoods, and
-// coordinates too coarse for their spacing. Warns, too, of rows that LAS or LAZ cannot hold.
-std::vector<std::string> scan_warnings(const io::FileScan& scan, const Summary& summary,
+// coordinates too coarse for their spacing. Warns, too, of rows that LAS or LAZ cannot hold, and of nothing
+// found.
+std::vector<std::string> scan_warnings(const io::FileScan& scan, const Detection& detection,
                                        const io::FilesConfig& config);
 
 }  // namespace lacuna::tools

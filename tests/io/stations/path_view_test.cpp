@@ -104,6 +104,18 @@ TEST_CASE("points without a time of the path make a moving scanner uncertain, an
   CHECK_FALSE(drive.cause_at({5, 5, 2}, 1).main());
 }
 
+TEST_CASE("a path beside the places of the scanner is not certain, near or far") {
+  for (const Eigen::Vector3d off : {Eigen::Vector3d(0, 30, 0), {0, 300, 0}, {300, 0, 0}, {0, 0, 3e6}}) {
+    INFO(off);
+    const test::ScratchFolder folder;
+    PathView view({{100, 102}, {Eigen::Vector3d(0, 0, 2) + off, Eigen::Vector3d(20, 0, 2) + off}}, "path.txt",
+                  1, folder.path(), 1 << 20);
+    measure(view);
+    CHECK(view.certainty() < StationView::kLeastCertain);
+    CHECK(view.summary().certainty == view.certainty());
+  }
+}
+
 // 7 / (7 * 0.02) is less than 50 in floating point, 7 / 0.02 is 350.
 TEST_CASE("a point at the very end of a path is measured from a section of it") {
   const test::ScratchFolder folder;

@@ -4,6 +4,7 @@
 #include "tests/support/e57_encoder.hpp"
 #include "tests/support/scratch_folder.hpp"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -86,6 +87,42 @@ TEST_CASE("a file of stations says which rows are whose, and rows of none count 
   CHECK(stations[1].points == 2);
   CHECK(stations[2].name == "bee");
   CHECK(stations[2].points == 2);
+}
+
+TEST_CASE("a station far off its points is not certain, however far it is") {
+  const ScratchFolder folder;
+  std::string text;
+  for (int i = 0; i < 1000; ++i)
+    text += std::to_string(i % 10) + " " + std::to_string(i / 10 % 10) + " " + std::to_string(i / 100) + "\n";
+  const std::string scan = folder.write("cube.xyz", text);
+  OutputConfig config;
+  for (const std::string place : {"300 5 5", "5 -300 5", "5 5 1e9"}) {
+    config.stations = folder.write("stations.txt", "far " + place + "\n");
+    CHECK(stations_of({scan}, config).at(0).certainty == 0);
+  }
+  config.stations = folder.write("stations.txt", "near 4.5 4.5 30\n");
+  CHECK(stations_of({scan}, config).at(0).certainty > 0);
+  const std::string pcd = folder.write("far.pcd",
+                                       "VERSION 0.7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\n"
+                                       "WIDTH 1\nHEIGHT 1\nVIEWPOINT 1e200 0 0 1 0 0 0\nPOINTS 1\n"
+                                       "DATA ascii\n1 2 3\n");
+  CHECK(stations_of({pcd}).at(0).certainty == 0);
+}
+
+TEST_CASE("without ranges, stations have all but certainty and step, and take no disk space") {
+  const ScratchFolder folder, empty;
+  OutputConfig config;
+  config.stations = folder.write("stations.txt", "one 0 0 5\n");
+  FileScan scan({folder.write("a.xyz", "1 2 3\n4 5 6\n")}, {});
+  const auto views = watch_stations(scan, config, empty / "none", Ranges::kNone);
+  views->complete(scan, TaskArena(2));
+  const auto stations = views->summaries();
+  REQUIRE(stations.size() == 1);
+  CHECK(stations[0].points == 2);
+  CHECK(stations[0].farthest == Approx(std::sqrt(42)));
+  CHECK(stations[0].lowest == Approx(-2 / 3.0));
+  CHECK(std::isnan(stations[0].certainty));
+  CHECK(views->disk_bytes() == RangeImage::kBytes);
 }
 
 TEST_CASE("stations that a scan names and a file does not count no more") {

@@ -38,19 +38,53 @@ TEST_CASE("a trajectory has its columns by the names of its header, in any order
   CHECK_FALSE(path->length_at(13.1));
 }
 
+TEST_CASE("the columns of a trajectory have the names that headers of scans have") {
+  for (const std::string header : {
+           "# timestamp tx ty tz",
+           "#timestamp x y z",
+           "# columns: time x y z",
+           "timestamp,x,y,z",
+           "Time (s);Easting (m);Northing (m);Height (m)",
+           "GPSTime X_m Y_m Elev",
+           "t\tE\tN\th",
+           "GPS Time [s],Easting,Northing,Altitude",
+           "\"GpsTime\",\"East\",\"North\",\"H\"",
+           "Project: a drive\nGPSTime Easting Northing Height\n(sec) (m) (m) (m)",
+           "\xef\xbb\xbftime x y z",
+       }) {
+    INFO(header);
+    const bool has_blanks = header.find_first_of(",;") == header.npos;
+    const auto path = read(header + (has_blanks ? "\n10 1 2 3\n12 1 4 3\n" : "\r\n10,1,2,3\r\n12,1,4,3\r\n"));
+    REQUIRE(path);
+    CHECK(path->length_at(11) == 1.0);
+    CHECK(path->place_at(1) == Eigen::Vector3d(1, 3, 3));
+  }
+  const auto tum = read("# timestamp tx ty tz qx qy qz qw\n1.0 1 2 3 0 0 0 1\n# pause\n2,5 1 2 4 0 0 0 1\n");
+  REQUIRE(tum);
+  CHECK(tum->last_time() == 2.5);
+  CHECK(tum->length() == 1);
+}
+
 TEST_CASE("a file without a column of times is no trajectory, but a list of stations") {
   CHECK_FALSE(read("name x y z\nnorth 1 2 3\n"));
   CHECK_FALSE(read("10 1 2 3\n"));
+  CHECK_FALSE(read("# time of the survey: noon\nnorth 1 2 3\n"));
 }
 
 TEST_CASE("an error in a trajectory names the line or the column") {
   const auto fails = [](const std::string& text, const std::string& reason) {
     CHECK_THROWS_WITH(read(text), Contains("path.txt") && Contains(reason));
   };
-  fails("time x y\n1 2 3\n", "none that is named z");
+  fails("time x y\n1 2 3\n",
+        "no columns named x, y and z, but 'time', 'x', 'y'; a trajectory has the columns");
+  fails("time,lat,lon,alt\n1,2,3,4\n", "has longitude and latitude: 'time', 'lat', 'lon', 'alt'");
   fails("time x y z\n1 2 3 4\n2 2 three 4\n", "line 3: 'three' is not a number");
-  fails("time x y z\n1 2 3 4\n2 2 3\n", "line 3: has 3 columns");
+  fails("time x y z\n1 2 3 4\n2 2 3\n", "line 3: has 3 columns; the header names 4: 'time', 'x', 'y', 'z'");
   fails("time x y z\n1 2 3 inf\n", "is not a number");
+  for (const std::string far : {"1e308", "-1e200", "1e30", "1e13"})
+    fails("time x y z\n1 2 3 4\n2 2 " + far + " 4\n",
+          "line 3: '" + far + "' is not a number from -1e+12 to 1e+12; numbers are needed in the columns");
+  fails("time x y z\n1e300 2 3 4\n", "line 2: '1e300' is not a number from -1e+20 to 1e+20");
   fails("time x y z\n1 2 3 4\n1 5 6 7\n", "fewer than two times");
   fails("time x y z\n", "fewer than two times");
 }
