@@ -19,8 +19,8 @@ LACUNA_API std::optional<Eigen::Vector3d> find_place(const FileScan& scan, std::
 LACUNA_API std::string utm_zone(double longitude, double latitude);
 
 // Throws `Error` where a file is geocentric, with the way to a projected system; `option` needs the plan. Its
-// system says so. Without a system and a unit, its first position says so: the distance from 0 0 0 is a radius
-// of the Earth in metres.
+// system says so. Without a system and a unit, its first position says so: the distance from 0 0 0 is a
+// radius of the Earth in metres.
 LACUNA_API void require_plan(const FileScan& scan, const std::string& option);
 
 }  // namespace lacuna::io

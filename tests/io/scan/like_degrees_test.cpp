@@ -64,6 +64,7 @@ std::string ply(const Positions& positions, const std::string& type) {
 std::string las(const Positions& positions) {
   LasFile file;
   file.scale = {1e-7, 1e-7, 0.01};
+  file.offset = {0, 0, 0};
   for (const Eigen::Vector3d& p : positions)
     file.points.push_back(las_point(20, static_cast<int>(std::lround(p.x() * 1e7)),
                                     static_cast<int>(std::lround(p.y() * 1e7)),
