@@ -30,9 +30,10 @@ bool is_header(Fields fields) {
 }  // namespace
 
 std::string read_number(std::string_view field, double most, double& number) {
-  if (parse_cell(field, number) && std::fabs(number) <= most) return "";
+  if (!parse_cell(field, number) || !std::isfinite(number)) return in_quotes(field) + " is not a number";
+  if (std::fabs(number) <= most) return "";
   std::ostringstream reason;
-  reason << in_quotes(field) << " is not a number from -" << most << " to " << most;
+  reason << in_quotes(field) << " is not from -" << most << " to " << most;
   return reason.str();
 }
 

@@ -45,6 +45,6 @@ Cells comment_cells(std::string_view comment);
 std::string column_name(std::string_view cell, std::size_t index);
 std::vector<std::string> column_names(const Cells& cells);
 std::string joined(const std::vector<std::string>& names);  // in quotes, the first twelve of them
-bool names_position(const Cells& cells);  // name_position (io/rows/column_rules.hpp)
+bool names_position(const Cells& cells);                    // name_position (io/rows/column_rules.hpp)
 
 }  // namespace lacuna::io

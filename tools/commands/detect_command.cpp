@@ -181,8 +181,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   if (detection.area)
     for (const std::string& warning : area_warnings(*detection.area)) spdlog::warn("{}", warning);
   for (const std::string& warning : station_warnings(detection.stations)) spdlog::warn("{}", warning);
-  for (const std::string& warning : scan_warnings(scan, detection, config))
-    spdlog::warn("{}", warning);
+  for (const std::string& warning : scan_warnings(scan, detection, config)) spdlog::warn("{}", warning);
 
   const Clock::time_point end = Clock::now();
   std::string summary = print_summary(detection, scan,

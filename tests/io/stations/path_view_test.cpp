@@ -105,7 +105,7 @@ TEST_CASE("points without a time of the path make a moving scanner uncertain, an
 }
 
 TEST_CASE("a path beside the places of the scanner is not certain, near or far") {
-  for (const Eigen::Vector3d off : {Eigen::Vector3d(0, 30, 0), {0, 300, 0}, {300, 0, 0}, {0, 0, 3e6}}) {
+  for (const Eigen::Vector3d& off : {Eigen::Vector3d(0, 30, 0), {0, 300, 0}, {300, 0, 0}, {0, 0, 3e6}}) {
     INFO(off);
     const test::ScratchFolder folder;
     PathView view({{100, 102}, {Eigen::Vector3d(0, 0, 2) + off, Eigen::Vector3d(20, 0, 2) + off}}, "path.txt",

@@ -45,7 +45,7 @@ TEST_CASE("an error in a list of places names the file, the line and what is nee
   fails("1 2 3\n\n4 5 six\n", "line 3: 'six' is not a number");
   fails("1 2 3\nx y z\n", "line 2: 'x' is not a number");
   fails("door 1 inf 3\n", "line 1: 'inf' is not a number");
-  fails("1 2 3\n1 1e30 3\n", "line 2: '1e30' is not a number from -1e+12 to 1e+12");
+  fails("1 2 3\n1 1e30 3\n", "line 2: '1e30' is not from -1e+12 to 1e+12");
   fails("1 2 nan\n", "line 1: 'nan' is not a number");
   CHECK_THROWS_WITH(read_places(folder / "none.txt"), Contains("none.txt: cannot be opened"));
 }

@@ -54,7 +54,7 @@ TEST_CASE("an error in a file of stations names the line and what is needed") {
   fails("a 1 2\n", "line 1");
   fails("a 1 2 x\n", "is not a number");
   fails("a 1 2 nan\n", "is not a number");
-  fails("a 1 2 1e200\n", "line 1: '1e200' is not a number from -1e+12 to 1e+12");
+  fails("a 1 2 1e200\n", "line 1: '1e200' is not from -1e+12 to 1e+12");
   fails("1.5 1 2 3 0 0 0 1\n", "a trajectory needs a first line that names its columns, such as time x y z");
   fails("a 1 2 3 c.laz\n", "c.laz is not the name of a scan");
   fails("a 1 2 3 a.laz\n", "a.laz is the name of several scans");
