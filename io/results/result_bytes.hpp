@@ -25,7 +25,7 @@ struct ResultBytes {
 
 // Returns the bytes for a scan with so many rows, of which so many points are evaluated. `bounds` are the
 // scan's bounds without strays; if they are not known, the raster is left out. The files of loops and of
-// boundary points, lids and cut-outs are left out, because they depend on the holes that are found.
+// boundary points and lids are left out, because they depend on the holes that are found.
 ResultBytes result_bytes(const FileScan& scan, const FilesConfig& config, std::uint64_t rows,
                          std::uint64_t points, const Eigen::AlignedBox3d& bounds = {});
 

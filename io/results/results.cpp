@@ -6,7 +6,6 @@
 #include "io/ply/ply_writer.hpp"
 #include "io/report/report.hpp"
 #include "io/report/scene.hpp"
-#include "io/results/cut_outs.hpp"
 #include "io/results/gis_library.hpp"
 #include "io/results/gis_marks.hpp"
 #include "io/results/lids.hpp"
@@ -121,7 +120,6 @@ std::vector<ResultFile> unwanted_results(const FilesConfig& config) {
 void check_output_folder(const FileScan& scan, const FilesConfig& config, const std::filesystem::path& folder,
                          Overwrite overwrite) {
   check_points(scan, config, folder, overwrite);
-  check_cut_outs(scan, config, folder, overwrite);
   if (needs_gis_library(config)) check_gis_library();
   for (const ResultFile& result : results_of(config)) {
     check_not_input(folder / result.name, scan);
@@ -144,10 +142,7 @@ std::vector<std::filesystem::path> write_results(const ExplainedDetection& detec
 
   OutputSet set(overwrite);
   const TaskArena arena(static_cast<std::size_t>(config.run.threads));
-  arena.for_each(1, [&](std::size_t) {
-    write_cut_outs(detection, scan, config, folder, set);
-    write_points(detection, scan, config, folder, set);
-  });
+  arena.for_each(1, [&](std::size_t) { write_points(detection, scan, config, folder, set); });
   const std::vector<ResultFile> results = results_of(config);
   std::vector<OutputFile*> files;
   for (const ResultFile& result : results)
