@@ -158,8 +158,7 @@ std::vector<Parameter> parameters(FilesConfig& config) {
   // Each parameter of files stands before one of the engine.
   std::string_view next = "points";
   for (const Parameter& parameter : file_parameters(config)) {
-    if (parameter.key == "points_format") next = "vdb";
-    if (parameter.key == "obj") next = "sample_points";
+    if (parameter.key == "points_format") next = "sample_points";
     if (parameter.key == "report") next = "threads";
     all.insert(find(next), parameter);
   }

@@ -65,8 +65,6 @@ const std::vector<ResultFile>& all_results() {
        always},
       {"sample.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_sample(d, s, c.output, out); },
        [](C c) { return c.results.sample_points > 0; }},
-      {"probability.vdb", vdb_mark(), [](D d, S, C, OutputFile& out) { write_probability_grid(d, out); },
-       [](C c) { return c.results.voxels; }},
       {"loops.obj", kObjMark, [](D d, S, C, OutputFile& out) { write_loops_obj(d, out); },
        [](C c) { return c.output.obj; }},
       {"loops.gpkg", geopackage_mark(),
