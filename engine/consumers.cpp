@@ -4,7 +4,6 @@
 #include "engine/boundary/candidates.hpp"
 #include "engine/results/orientation_graph.hpp"
 #include "engine/results/point_results.hpp"
-#include "engine/results/probability_voxels.hpp"
 
 namespace lacuna {
 
@@ -14,7 +13,6 @@ Consumers::Consumers(const Level& level, Job& job) : method(boundary_method(leve
   const ResultsConfig& wanted = job.config.results;
   all.push_back(emit_candidates);
   if (wanted.points) all.push_back(emit_point_results);
-  if (wanted.voxels) all.push_back(emit_probabilities);
   if (wanted.sample_points > 0) {
     sample.emplace(static_cast<std::uint64_t>(wanted.sample_points));
     all.push_back([this](const EvaluatedTile& tile, TileOutput& output) { sample->emit(tile, output); });

@@ -12,7 +12,6 @@ namespace lacuna {
 Holes find_holes(PointSource& scan, const Config& given, Progress* progress) {
   Config config = given;
   config.results.sample_points = 0;
-  config.results.voxels = false;
   const ScratchPlace scratch(scan, config.run);
   NoProgress silence;
   const std::unique_ptr<Detection> detection =

@@ -15,7 +15,6 @@
 #include "engine/results/loop_rows.hpp"
 #include "engine/results/orientation_graph.hpp"
 #include "engine/results/point_results.hpp"
-#include "engine/results/probability_voxels.hpp"
 #include "engine/results/represented.hpp"
 #include "engine/results/scan_sample.hpp"
 #include "engine/run/error.hpp"
@@ -158,9 +157,6 @@ std::unique_ptr<Detection> detect_once(PointSource& scan, const Config& config, 
                     .coherent = std::move(coherent),
                     .boundary_candidates = std::move(boundary_candidates)};
   if (config.results.points) findings.points.emplace(outputs, first.survey.points, store, job);
-  if (config.results.voxels)
-    findings.probabilities.emplace(probability_voxels(outputs, found.totals.median_distance(),
-                                                      findings.summary.strays.rest, store, job));
   if (consumers.sample)
     findings.sample.emplace(consumers.sample->draw(outputs, store.tiling().tiles.size(), job));
   if (config.normals.orient) findings.opposed_normals = opposed_normals(outputs, store, job);

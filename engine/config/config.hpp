@@ -28,8 +28,8 @@ struct NeighbourhoodConfig {
   double eps_fraction = 0.0;  // the same as a fraction of the bounding box's diagonal; at most one is set
 };
 
-// Which normals points have: those that they came with, or estimated ones. A point without one has an estimated
-// normal.
+// Which normals points have: those that they came with, or estimated ones. A point without one has an
+// estimated normal.
 enum class NormalsUse : std::uint8_t {
   kFitting,    // given ones, unless too many are off from the surface
   kGiven,      // given ones
@@ -112,7 +112,6 @@ struct SelectionConfig {
 // Which results are wanted besides the loops.
 struct ResultsConfig {
   bool points = false;                   // of every point of the input
-  bool voxels = false;                   // the boundary probability as a grid
   std::int64_t sample_points = 1000000;  // of an even sample of the scan, at most; 0: none
 };
 

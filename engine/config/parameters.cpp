@@ -129,8 +129,6 @@ std::vector<Parameter> parameters(Config& config) {
 
       {"output", "points", Changes::kOutputs, &results.points, 0, 1, "true or false",
        "Write the annotated scan too: every point of the input with its probabilities."},
-      {"output", "vdb", Changes::kOutputs, &results.voxels, 0, 1, "true or false",
-       "Write probability.vdb too: the boundary probability as a grid of OpenVDB, for Houdini and Blender."},
       {"output", "sample_points", Changes::kOutputs, &results.sample_points, 0, 1e8, "a whole number from 0 to 100000000",
        "Points of sample.ply at most, spread evenly over the surface, for report and render; 0: no sample."},
 

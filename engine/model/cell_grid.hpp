@@ -2,8 +2,6 @@
 // Where a survey counts points: cubes of one size.
 #pragma once
 
-#include "engine/export.hpp"
-
 #include <array>
 #include <cstdint>
 #include <span>
@@ -39,14 +37,14 @@ struct CellGrid {
   // Finest cells, from 2^finest, so that `middle` lies in the one with `kMiddle` along each axis.
   static CellGrid around(const Eigen::Vector3d& middle, int finest);
 
-  LACUNA_API double edge() const;
+  double edge() const;
   CellCoord cell_of(const Eigen::Vector3d& position) const;
   // Finds the cells of many points, several at a time; some cell where a coordinate is not a number.
   void cells_of(std::span<const Eigen::Vector3d> positions, std::span<CellCoord> cells) const;
   // Whether the cell is the last along an axis.
   bool is_endless(const CellCoord& cell) const;
   // Smallest box that holds all points of the cells from `low` to `high`.
-  LACUNA_API Eigen::AlignedBox3d box(const CellCoord& low, const CellCoord& high) const;
+  Eigen::AlignedBox3d box(const CellCoord& low, const CellCoord& high) const;
 };
 
 struct CountedCell {

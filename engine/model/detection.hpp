@@ -3,7 +3,6 @@
 // from the workspace.
 #pragma once
 
-#include "engine/model/cell_grid.hpp"
 #include "engine/model/loop.hpp"
 
 #include <array>
@@ -66,7 +65,7 @@ struct Strays {
 
 struct Summary {
   Counts counts;
-  GivenNormals given_normals;  // none: `normals` is "estimated", or no point has one
+  GivenNormals given_normals;       // none: `normals` is "estimated", or no point has one
   ProbabilityBins probabilities{};  // distinct points by their boundary probability
   Eigen::AlignedBox3d bounds;       // of the finite points; empty without any
   Strays strays;                    // without any, `rest` is `bounds`
@@ -116,18 +115,6 @@ struct SampledPoint {
   Eigen::Vector3f normal;  // unit, unoriented; NaN where undefined
 };
 
-// The largest probability of the points in a cube of a lattice.
-struct ProbabilityVoxel {
-  CellCoord coord{};
-  float probability = 0;
-};
-
-struct ProbabilityLattice {
-  CellGrid grid;  // each of its cells is a voxel
-  std::uint64_t voxels = 0;
-  std::uint64_t points_left_out = 0;  // far from almost all others; distinct ones
-};
-
 // A loop whose parent is a reported one (LoopMeasures::parent).
 struct InnerRing {
   std::size_t loop = 0;  // for Detection::for_each_loop_point
@@ -162,9 +149,6 @@ struct Detection {
   // In ascending id, spread evenly over the surface: at most results.sample_points, none without it.
   std::uint64_t sampled_points = 0;
   Stream<const SampledPoint&> for_each_sampled_point = [](const auto&) {};
-  // Only with results.voxels. Each voxel with points once, in an order that depends on the scan alone.
-  ProbabilityLattice probability_lattice;
-  Stream<const ProbabilityVoxel&> for_each_probability_voxel;
 
   // Returns the inner rings of a loop, in order.
   std::span<const InnerRing> inner_rings_of(std::size_t loop) const {

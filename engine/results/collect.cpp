@@ -98,13 +98,6 @@ std::unique_ptr<Detection> make_detection(Findings findings, Column<MarkedPoint>
       });
     };
   }
-  if (findings.probabilities) {
-    const auto grid = std::make_shared<const ProbabilityGrid>(*std::move(findings.probabilities));
-    detection->probability_lattice = grid->lattice;
-    detection->for_each_probability_voxel = [grid](const auto& visit) {
-      for_each_record(grid->voxels, visit);
-    };
-  }
   return detection;
 }
 

@@ -7,7 +7,6 @@
 #include "engine/model/detection.hpp"
 #include "engine/results/loop_rows.hpp"
 #include "engine/results/point_results.hpp"
-#include "engine/results/probability_voxels.hpp"
 #include "engine/results/scan_sample.hpp"
 #include "engine/run/job.hpp"
 #include "engine/store/row_set.hpp"
@@ -25,12 +24,11 @@ struct Findings {
   MeasuredLoops loops;
   std::vector<std::size_t> selected;  // those that are reported
   LoopRows on_loops;
-  RowSet coherent;                               // candidates that are (paper, 5.1)
-  RowSet boundary_candidates;                    // candidates that belong to the boundary
-  std::optional<PointResults> points;            // only with results.points
-  std::optional<ProbabilityGrid> probabilities;  // only with results.voxels
-  std::optional<Column<StoredSample>> sample;    // only with results.sample_points
-  std::optional<RowSet> opposed_normals;         // rows whose normal is to be turned round
+  RowSet coherent;                             // candidates that are (paper, 5.1)
+  RowSet boundary_candidates;                  // candidates that belong to the boundary
+  std::optional<PointResults> points;          // only with results.points
+  std::optional<Column<StoredSample>> sample;  // only with results.sample_points
+  std::optional<RowSet> opposed_normals;       // rows whose normal is to be turned round
 };
 
 // Collects the results, and fills in the counts of boundary points.

@@ -7,6 +7,5 @@
 #pragma once
 
 #pragma GCC visibility push(default)
-#include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 #pragma GCC visibility pop

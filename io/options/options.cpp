@@ -77,9 +77,7 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
   AreaConfig& area = config.area;
   OutputConfig& output = config.output;
   const std::string_view no_area = area.area.empty() ? "--area" : "";
-  const bool has_points = config.results.points;
-  const std::string_view no_points = has_points ? "" : "--points";
-  const std::string_view no_points_files = has_points || output.cut_outs > 0 ? "" : "--points or --cut-outs";
+  const std::string_view no_points = config.results.points ? "" : "--points";
   const std::string_view no_gis = has_loops_for_gis(output) ? "" : "--gpkg or --geojson";
   return {
       {"input", "columns", Changes::kPoints, &input.columns, 0, 0, "column names, separated by spaces",
@@ -122,7 +120,7 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
        "Edge of the squares of a table: area, voids, points and density of each.", no_area},
       {"output", "points_format", Changes::kNothingKept, named(output.points_format, kPointsFormats), 0, 2, "input, ply or csv",
        "One file for the annotated scan, as ply or csv; input: one for each file of the scan, in its format.",
-       no_points_files},
+       no_points},
       {"output", "points_normals", Changes::kNothingKept, &output.points_normals, 0, 1, "true or false",
        "Add the estimated normals to the annotated scan, unless a scan brings its own.", no_points},
       {"output", "obj", Changes::kNothingKept, &output.obj, 0, 1, "true or false",
@@ -142,8 +140,6 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
        "without it, as the scans say."},
       {"output", "coverage", Changes::kNothingKept, &output.coverage, 0, 1e100, "a length of 0 (off) or more",
        "Write coverage.tif too: points and share of holes in cells of this edge, seen from above, for GIS."},
-      {"output", "cut_outs", Changes::kNothingKept, &output.cut_outs, 0, 1e100, "a length of 0 (off) or more",
-       "Write a file for each hole too: the points in the loop's box of x, y and z, widened by this length."},
       {"output", "no_coordinates", Changes::kNothingKept, &output.no_coordinates, 0, 1, "true or false",
        "Leave the coordinates of loops out of holes.json, which then has the ids of their points alone."},
       {"output", "local_coordinates", Changes::kNothingKept, &output.local_coordinates, 0, 1, "true or false",
@@ -162,8 +158,7 @@ std::vector<Parameter> parameters(FilesConfig& config) {
   // Each parameter of files stands before one of the engine.
   std::string_view next = "points";
   for (const Parameter& parameter : file_parameters(config)) {
-    if (parameter.key == "points_format") next = "vdb";
-    if (parameter.key == "obj") next = "sample_points";
+    if (parameter.key == "points_format") next = "sample_points";
     if (parameter.key == "report") next = "threads";
     all.insert(find(next), parameter);
   }

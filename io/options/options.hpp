@@ -55,7 +55,6 @@ struct OutputConfig {
   bool polygons = false;               // files for GIS have the loops as polygons, too
   double coverage = 0;                 // write coverage.tif with cells of this edge; 0: off
   std::string stations;                // file of where scanners stood; empty: as the scans say
-  double cut_outs = 0;                 // write the points within this distance of each hole; 0: off
   bool no_coordinates = false;         // loops of holes.json have ids alone
   bool local_coordinates = false;      // PLY: floats relative to an offset
   bool report = false;                 // write report.html

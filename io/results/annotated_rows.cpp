@@ -121,12 +121,6 @@ std::size_t JoinedRows::next(std::size_t max_rows, std::size_t stride, std::vect
   return 0;
 }
 
-void JoinedRows::positions(std::vector<Eigen::Vector3d>& positions) const {
-  positions.clear();
-  load_vectors(rows_, reader_->layout(), kPositionNames, positions);
-  for (Eigen::Vector3d& position : positions) position.z() *= scan_.z_factor(file_);
-}
-
 void JoinedRows::copy_columns(std::size_t stride, std::byte* out) const {
   for (std::size_t i = 0; i < joined_.properties.size(); ++i) {
     const Property& to = joined_.properties[i];

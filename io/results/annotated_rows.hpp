@@ -66,9 +66,6 @@ class JoinedRows final : public InputRows {
  public:
   JoinedRows(const FileScan& scan, RowLayout joined, FileRange files, const LocalOffset& offset);
   std::size_t next(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) override;
-  // Sets the positions of the rows last read, in the coordinates of the scan, as FileScan::open reads
-  // them.
-  void positions(std::vector<Eigen::Vector3d>& positions) const;
 
  private:
   void copy_columns(std::size_t stride, std::byte* out) const;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <set>
@@ -20,6 +21,8 @@ namespace lacuna::io {
 namespace {
 
 namespace fs = std::filesystem;
+
+enum class FileFormat : std::uint8_t { kPly, kCsv, kLas, kLaz };
 
 struct WrittenFormat {
   std::string_view extension;
@@ -43,6 +46,10 @@ const std::array<WrittenFormat, 4>& written_formats() {
 
 const WrittenFormat& written(FileFormat format) {
   return written_formats().at(static_cast<std::size_t>(format));
+}
+
+std::string_view extension_of(FileFormat format) {
+  return written(format).extension;
 }
 
 // A file of the annotated scan.
@@ -71,8 +78,10 @@ std::string subfolder_of(const OutputConfig& config) {
 
 // Throws `Error` if two files would have the same name.
 std::vector<PointsFile> points_files(const FileScan& scan, const OutputConfig& config) {
-  if (!is_in_folder(config))
-    return {{points_name(config), joined_format(scan, config), {0, scan.files().size()}}};
+  if (!is_in_folder(config)) {
+    const bool is_csv = config.points_format == PointsFormat::kCsv;
+    return {{points_name(config), is_csv ? FileFormat::kCsv : FileFormat::kPly, {0, scan.files().size()}}};
+  }
   std::vector<PointsFile> files;
   std::map<std::string, std::size_t> inputs;  // by the name of what is written
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
@@ -191,19 +200,6 @@ class AnnotatedFile {
 };
 
 }  // namespace
-
-std::string_view extension_of(FileFormat format) {
-  return written(format).extension;
-}
-
-FileFormat joined_format(const FileScan& scan, const OutputConfig& config) {
-  if (config.points_format == PointsFormat::kCsv) return FileFormat::kCsv;
-  const auto& formats = scan.formats();
-  const bool are_texts =
-      !formats.empty() &&
-      std::all_of(formats.begin(), formats.end(), [](const auto& name) { return name.starts_with("text"); });
-  return is_in_folder(config) && are_texts ? FileFormat::kCsv : FileFormat::kPly;
-}
 
 std::string points_name(const OutputConfig& config) {
   if (is_in_folder(config)) return std::string(kPointsFolder) + "/";

@@ -26,13 +26,6 @@ namespace lacuna::io {
 
 inline constexpr const char* kPointsFolder = "points";  // in the output folder
 
-// The formats that points are written in.
-enum class FileFormat : std::uint8_t { kPly, kCsv, kLas, kLaz };
-std::string_view extension_of(FileFormat format);  // ".ply" and so on
-// Returns the format of one file for points of all files: CSV if the user states it, or if all files are
-// text, else PLY.
-FileFormat joined_format(const FileScan& scan, const OutputConfig& config);
-
 // Returns "points.ply", "points.csv", or "points/".
 std::string points_name(const OutputConfig& config);
 

@@ -9,6 +9,43 @@
 namespace lacuna::io {
 namespace {
 
+// Rows of files of any formats, joined by the names of columns.
+class JoinedForm : public PointsForm {
+ public:
+  JoinedForm(const PointsPlan& plan, const std::vector<RowLayout>& layouts)
+      : scan_(plan.scan),
+        files_(plan.files),
+        offset_(plan.offset),
+        results_(plan.results),
+        input_(join_layouts(
+            std::span(layouts).subspan(files_.first, files_.end - files_.first),
+            [&](const RowLayout& layout, std::size_t i) { return is_earlier_result(layout, i, results_); })) {
+  }
+  std::size_t row_bytes() const final { return input_.stride; }
+  std::unique_ptr<InputRows> open() const final {
+    return std::make_unique<JoinedRows>(scan_, input_, files_, offset_);
+  }
+
+ protected:
+  // The columns of the rows, then the columns of the results.
+  RowLayout with_results() const {
+    RowLayout all = input_;
+    for (const ResultColumn& result : results_) {
+      all.properties.push_back({.name = result.name, .type = result.type, .offset = all.stride});
+      all.stride += size_of(result.type);
+    }
+    return all;
+  }
+  const LocalOffset& offset() const { return offset_; }
+
+ private:
+  const FileScan& scan_;
+  FileRange files_;
+  LocalOffset offset_;
+  std::vector<ResultColumn> results_;
+  RowLayout input_;
+};
+
 class CsvForm final : public JoinedForm {
  public:
   using JoinedForm::JoinedForm;
@@ -30,33 +67,11 @@ class PlyForm final : public JoinedForm {
 
 }  // namespace
 
-JoinedForm::JoinedForm(const PointsPlan& plan, const std::vector<RowLayout>& layouts)
-    : scan_(plan.scan),
-      files_(plan.files),
-      offset_(plan.offset),
-      results_(plan.results),
-      input_(join_layouts(
-          std::span(layouts).subspan(files_.first, files_.end - files_.first),
-          [&](const RowLayout& layout, std::size_t i) { return is_earlier_result(layout, i, results_); })) {}
-
-std::unique_ptr<JoinedRows> JoinedForm::open_joined() const {
-  return std::make_unique<JoinedRows>(scan_, input_, files_, offset_);
-}
-
-RowLayout JoinedForm::with_results() const {
-  RowLayout all = input_;
-  for (const ResultColumn& result : results_) {
-    all.properties.push_back({.name = result.name, .type = result.type, .offset = all.stride});
-    all.stride += size_of(result.type);
-  }
-  return all;
-}
-
-std::unique_ptr<JoinedForm> csv_form(const PointsPlan& plan) {
+std::unique_ptr<PointsForm> csv_form(const PointsPlan& plan) {
   return std::make_unique<CsvForm>(plan, plan.scan.layouts());
 }
 
-std::unique_ptr<JoinedForm> ply_form(const PointsPlan& plan) {
+std::unique_ptr<PointsForm> ply_form(const PointsPlan& plan) {
   return std::make_unique<PlyForm>(plan, written_layouts(plan.scan, plan.config));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The points of files of a scan as a format has them. All of them, or any selection, become a file.
+// The points of files of a scan as a format has them: they become a file.
 #pragma once
 
 #include "io/files/output_file.hpp"
@@ -39,32 +39,12 @@ class PointsForm {
   virtual std::unique_ptr<RowsWriter> writer(OutputFile& out, std::uint64_t rows) const = 0;
 };
 
-// Rows of files of any formats, joined by the names of columns. It offers the `positions` of its rows.
-class JoinedForm : public PointsForm {
- public:
-  JoinedForm(const PointsPlan& plan, const std::vector<RowLayout>& layouts);
-  std::size_t row_bytes() const final { return input_.stride; }
-  std::unique_ptr<InputRows> open() const final { return open_joined(); }
-  std::unique_ptr<JoinedRows> open_joined() const;
-
- protected:
-  RowLayout with_results() const;  // the columns of the rows, then the columns of the results
-  const LocalOffset& offset() const { return offset_; }
-
- private:
-  const FileScan& scan_;
-  FileRange files_;
-  LocalOffset offset_;
-  std::vector<ResultColumn> results_;
-  RowLayout input_;
-};
-
 // PLY, binary little endian. Properties have the names of the input.
-std::unique_ptr<JoinedForm> ply_form(const PointsPlan& plan);
+std::unique_ptr<PointsForm> ply_form(const PointsPlan& plan);
 
 // CSV: a header line and a line for each row, divided by commas. Each number is the shortest text that reads
 // back as the same value of its type; a value that is not a number is `nan`.
-std::unique_ptr<JoinedForm> csv_form(const PointsPlan& plan);
+std::unique_ptr<PointsForm> csv_form(const PointsPlan& plan);
 
 // LAS 1.4 and LAZ (io/las/las_writer.hpp) of one LAS or LAZ file without a pose. Results are extra bytes:
 // probability, angle and so on. Throws `Error` where the format cannot hold the points with their results.

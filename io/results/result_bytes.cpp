@@ -11,7 +11,6 @@ namespace lacuna::io {
 ResultBytes result_bytes(const FileScan& scan, const FilesConfig& config, std::uint64_t rows,
                          std::uint64_t points, const Eigen::AlignedBox3d& bounds) {
   constexpr std::uint64_t kPage = 200'000, kReportPoint = 15, kMostInReport = 1'000'000;
-  constexpr std::uint64_t kVoxel = 4;  // measured: 2.5 where nearly each point has its own
   const OutputConfig& output = config.output;
   const std::uint64_t sample = std::min(points, static_cast<std::uint64_t>(config.results.sample_points));
   ResultBytes bytes;
@@ -22,7 +21,6 @@ ResultBytes result_bytes(const FileScan& scan, const FilesConfig& config, std::u
   }
   bytes.sample = sample * sample_row_bytes(scan, output);
   if (output.report) bytes.report = kPage + std::min(sample, kMostInReport) * kReportPoint;
-  if (config.results.voxels) bytes.voxels = points * kVoxel;
   if (output.coverage > 0 && !bounds.isEmpty()) {
     constexpr double kCell = 12, kMost = 1e18;  // three bands of floats; a run refuses rasters that large
     const Eigen::Array2d cells = (bounds.sizes().head<2>().array() / output.coverage).ceil() + 1;

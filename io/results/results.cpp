@@ -6,7 +6,6 @@
 #include "io/ply/ply_writer.hpp"
 #include "io/report/report.hpp"
 #include "io/report/scene.hpp"
-#include "io/results/cut_outs.hpp"
 #include "io/results/gis_library.hpp"
 #include "io/results/gis_marks.hpp"
 #include "io/results/lids.hpp"
@@ -67,8 +66,6 @@ const std::vector<ResultFile>& all_results() {
        always},
       {"sample.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_sample(d, s, c.output, out); },
        [](C c) { return c.results.sample_points > 0; }},
-      {"probability.vdb", vdb_mark(), [](D d, S, C, OutputFile& out) { write_probability_grid(d, out); },
-       [](C c) { return c.results.voxels; }},
       {"loops.obj", kObjMark, [](D d, S, C, OutputFile& out) { write_loops_obj(d, out); },
        [](C c) { return c.output.obj; }},
       {"loops.gpkg", geopackage_mark(),
@@ -122,7 +119,6 @@ std::vector<ResultFile> unwanted_results(const FilesConfig& config) {
 void check_output_folder(const FileScan& scan, const FilesConfig& config, const std::filesystem::path& folder,
                          Overwrite overwrite) {
   check_points(scan, config, folder, overwrite);
-  check_cut_outs(scan, config, folder, overwrite);
   if (needs_gis_library(config)) check_gis_library();
   if (config.output.coverage > 0) require_plan(scan, "--coverage");
   for (const ResultFile& result : results_of(config)) {
@@ -146,10 +142,7 @@ std::vector<std::filesystem::path> write_results(const ExplainedDetection& detec
 
   OutputSet set(overwrite);
   const TaskArena arena(static_cast<std::size_t>(config.run.threads));
-  arena.for_each(1, [&](std::size_t) {
-    write_cut_outs(detection, scan, config, folder, set);
-    write_points(detection, scan, config, folder, set);
-  });
+  arena.for_each(1, [&](std::size_t) { write_points(detection, scan, config, folder, set); });
   const std::vector<ResultFile> results = results_of(config);
   std::vector<OutputFile*> files;
   for (const ResultFile& result : results)

@@ -69,13 +69,6 @@ void write_sample(const Detection& detection, const FileScan& scan, const Output
 // Bytes of its rows; 4 more from 2^32 points on.
 std::uint64_t sample_row_bytes(const FileScan& scan, const OutputConfig& config);
 
-// The largest probability of the points in each voxel, as an OpenVDB grid `boundary_probability` in the
-// coordinates of the scan. Equal grids give equal bytes. Throws `Error`.
-void write_probability_grid(const Detection& detection, OutputFile& out);
-
-// How a probability.vdb begins.
-std::string_view vdb_mark();
-
 // For the writers: x, y and z of their type, and the id. PLY has no integer of 64 bits: ids
 // are uint, or, from 2^32 points on, double, which is exact up to 2^53.
 std::vector<PlyProperty> position_and_id(const Detection& detection, const FileScan& scan,

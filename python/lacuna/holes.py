@@ -284,9 +284,8 @@ class Holes:
             raise _core.Error("loaded results are copied as they are; save the result of a run to have other files")
         target = Path(folder)
         copied = self._copy_files(target)
-        for name in ("cut-outs", "points"):
-            if (self._folder / name).is_dir():
-                copied.append(Path(shutil.copytree(self._folder / name, target / name, dirs_exist_ok=True)))
+        if (self._folder / "points").is_dir():
+            copied.append(Path(shutil.copytree(self._folder / "points", target / "points", dirs_exist_ok=True)))
         return copied
 
     def _copy_files(self, target: Path) -> list[Path]:
@@ -297,7 +296,7 @@ class Holes:
         """Writes the scan and its holes in 3D as one HTML file, for a browser. Returns its name."""
         with tempfile.TemporaryDirectory(prefix="lacuna-") as folder:
             if self._found is not None:
-                self.save(folder, cut_outs=0)
+                self.save(folder)
             else:
                 self._copy_files(Path(folder))
             made = _core.write_report(folder)

@@ -8,7 +8,7 @@ bench=${LACUNA_BENCH_PROGRAM:?}
 python=/usr/bin/python3  # Debian's own: python3-vtk9 is a package of it
 
 missing=()
-for command in CloudCompare:cloudcompare xvfb-run:xvfb pcl_ply2pcd:pcl-tools vdb_print:libopenvdb-tools; do
+for command in CloudCompare:cloudcompare xvfb-run:xvfb pcl_ply2pcd:pcl-tools; do
   command -v "${command%:*}" >/dev/null || missing+=("${command#*:}")
 done
 "$python" -c 'import vtkmodules.vtkIOPLY' 2>/dev/null || missing+=(python3-vtk9)
@@ -36,7 +36,7 @@ with open("earth.txt", "w") as text:
         print(repr(x + 500_000.1), repr(y + 5_400_000.1), repr(z), file=text)
 END
 for scan in near.ply earth.txt; do
-  "$program" detect "$scan" --out "${scan%.*}" --obj --vdb --lids --points --quiet
+  "$program" detect "$scan" --out "${scan%.*}" --obj --lids --points --quiet
 done
 
 for name in loops boundary; do
@@ -45,13 +45,11 @@ for name in loops boundary; do
   pcl_ply2pcd "near/$name.ply" "$name.binary.pcd" >pcl.log 2>&1 || { cat pcl.log; exit 1; }
   pcl_convert_pcd_ascii_binary "$name.binary.pcd" "$name.pcd" 0 >pcl.log 2>&1 || { cat pcl.log; exit 1; }
 done
-vdb_print -l near/probability.vdb >vdb.txt
 
 "$python" - <<'END'
 import csv
 import json
 import math
-import re
 from pathlib import Path
 
 from vtkmodules.vtkFiltersCore import vtkMassProperties
@@ -126,13 +124,4 @@ is_head = lambda line: line.startswith("FIELDS")
 equal(table("loops.pcd", ["x", "y", "z", "scalar_id", "scalar_loop", "scalar_outer"], is_head), points, 1e-6)
 equal(table("boundary.pcd", ["x", "y", "z", "scalar_id", "quality", "scalar_loop"], is_head), cloud, 1e-6)
 print("PCL reads loops.ply and boundary.ply")
-
-# OpenVDB
-text = Path("vdb.txt").read_text(encoding="utf-8")
-assert "Name: boundary_probability" in text
-most = float(re.search(r"Max value: (\S+)", text)[1])
-voxels = int(re.search(r"active voxels: +([\d,]+)", text)[1].replace(",", ""))
-assert math.isclose(most, max(row[4] for row in cloud), abs_tol=1e-5), most
-assert 0 < voxels <= near["counts"]["points"]
-print("OpenVDB reads probability.vdb")
 END

@@ -118,14 +118,6 @@ TEST_CASE("the check of an area stays within the memory limit") {
   CHECK(result.peak_memory <= 64 << 20);
 }
 
-TEST_CASE("large cut-outs of many holes stay within the memory limit") {
-  Cloud cloud = plane(600);
-  for (int x = 60; x < 600; x += 80) {
-    for (int y = 60; y < 600; y += 80) cloud = cloud.punched({double(x), double(y)}, 6);
-  }
-  check_limit(cloud.jittered(0.2, 1), {"--cut-outs", "70", "--points-format", "csv"});
-}
-
 TEST_CASE("a scan thinned in several shares stays within the memory limit") {
   check_limit(volume(300'000, 1), {"--resolution", "0.01"});
 }

@@ -67,7 +67,6 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"points_format", "ply"},
     {"sample_points", "200"},
     {"coverage", "3"},
-    {"cut_outs", "3"},
     {"stations", LACUNA_SOURCE_DIR "/tests/data/station.txt"},
     {"threads", "3"},
     {"memory_limit", "64MiB"},
@@ -277,8 +276,8 @@ TEST_CASE("each option without effect has its warning, each other none") {
     CHECK_FALSE(expected.empty());
   }
   CHECK(runs.warnings({"--points-format", "ply"}) ==
-        "lacuna: warning: --points-format changes nothing without --points or --cut-outs\n");
-  CHECK(runs.warnings({"--points-format", "ply", "--cut-outs", "1"}).empty());
+        "lacuna: warning: --points-format changes nothing without --points\n");
+  CHECK(runs.warnings({"--points-format", "ply", "--points"}).empty());
   CHECK(runs.warnings({"--polygons"}) ==
         "lacuna: warning: --polygons changes nothing without --gpkg or --geojson\n");
   CHECK(runs.warnings({"--polygons", "--gpkg"}).empty());

@@ -13,8 +13,8 @@ using Strings = std::vector<std::string>;
 
 // Every kind of result that needs no GDAL, but for the page: it shows the parameters.
 Strings with_all_results(const Strings& more) {
-  Strings options = {"--points", "--points-format",  "ply",        "--points-normals", "--vdb",           "--lids",
-                     "--obj",    "--orient-normals", "--cut-outs", "0.1",       "--sample-points", "3000"};
+  Strings options = {"--points",         "--points-format", "ply", "--points-normals", "--lids", "--obj",
+                     "--orient-normals", "--sample-points", "3000"};
   options.insert(options.end(), more.begin(), more.end());
   return options;
 }
@@ -26,8 +26,7 @@ void check_every_tiling(const std::string& scan, const fs::path& folder, const S
   };
   const fs::path one = detect("one", {"--tile-points", "1000000", "--threads", "1"});
   CHECK(test::read_json(one / "holes.json").at("loops").size() > 3);
-  for (const char* name : {"points.ply", "probability.vdb", "lids.obj", "lids.csv", "loops.obj", "cut-outs"})
-    CHECK(fs::exists(one / name));
+  for (const char* name : {"points.ply", "lids.obj", "lids.csv", "loops.obj"}) CHECK(fs::exists(one / name));
   for (const Strings& more : {Strings{"--tile-points", "500", "--threads", "8"},
                               {"--tile-points", "500", "--threads", "1", "--memory-limit", "64MiB"},
                               {"--tile-points", "5000", "--threads", "2", "--memory-limit", "64MiB"},

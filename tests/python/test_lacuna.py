@@ -238,12 +238,6 @@ class Files(Folder):
             np.testing.assert_array_equal(loaded.sample[name], holes.sample[name])
         self.assertEqual({f.name for f in loaded.save(self.folder / "copy")}, {f.name for f in written})
 
-        files = holes.save(self.folder / "cut", cut_outs=0.5)
-        self.assertIn(self.folder / "cut/cut-outs", files)
-        lacuna.load(self.folder / "cut").save(self.folder / "copy")
-        self.assertEqual(os.listdir(self.folder / "copy/cut-outs"), os.listdir(self.folder / "cut/cut-outs"))
-        self.assertIn(b"property uchar red", next((self.folder / "cut/cut-outs").iterdir()).read_bytes()[:2000])
-
         report = holes.report(self.folder / "x.html").read_text()
         self.assertTrue(report.startswith("<!doctype html>\n<!-- Lacuna report"))
         self.assertEqual(loaded.report(self.folder / "y.html").read_text().split("<body")[0], report.split("<body")[0])

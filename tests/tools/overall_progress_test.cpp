@@ -80,9 +80,7 @@ TEST_CASE("the expected stages are those of the config") {
                                                   "track", "measure", "nest", "coherence", "sample",
                                                   "collect", "write"});
   config.scale.every_point = true;
-  config.results.voxels = true;
   CHECK(!has(config, "levels"));
-  CHECK(has(config, "voxels"));
   config.scale = {.min_hole = 0.2};
   CHECK(names(config)[2] == "thin");
   const double without = expected_stages(config).back().weight;

@@ -18,7 +18,7 @@ struct TypicalTime {
 
 // Times of stages, of which 100 are about the time of a default run without `levels`. Measured on scans of
 // 0.8 to 3 million points (dragon_30scans, balm_23scans, a synthetic plane) with 2 threads.
-constexpr std::array<TypicalTime, 16> kTypicalTimes{{{"survey", 3},
+constexpr std::array<TypicalTime, 15> kTypicalTimes{{{"survey", 3},
                                                      {"bucket", 11},
                                                      {"thin", 30},
                                                      {"halo", 6},
@@ -29,7 +29,6 @@ constexpr std::array<TypicalTime, 16> kTypicalTimes{{{"survey", 3},
                                                      {"coherence", 0.5},
                                                      {"measure", 0.5},
                                                      {"nest", 0.5},
-                                                     {"voxels", 13},
                                                      {"sample", 4},
                                                      {"orient", 15},
                                                      {"collect", 0.5},
@@ -57,7 +56,6 @@ std::vector<ExpectedStage> expected_stages(const Config& config) {
   if (has_levels(config)) add("levels");
   if (config.loops.method == LoopMethod::kTangential) add("track");
   for (const char* name : {"measure", "nest", "coherence"}) add(name);
-  if (config.results.voxels) add("voxels");
   if (config.results.sample_points > 0) add("sample");
   if (config.normals.orient) add("orient");
   add("collect");

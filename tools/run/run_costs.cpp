@@ -33,7 +33,6 @@ constexpr Rate kEachPoint = {.bytes = 60, .spilled = 100, .microseconds = 1.2};
 constexpr Rate kLevelsAbove = {.bytes = 40, .spilled = 100, .microseconds = 2.4};
 // These rates were measured on the same day, as the difference to a default run of vol_total.
 constexpr Rate kOrientedNormals = {.bytes = 26, .spilled = 24, .microseconds = 1.2};
-constexpr Rate kVdb = {.bytes = 4, .microseconds = 0.7};  // bytes of the probability: the rest is no peak
 constexpr Rate kKeptWorkspace = {.bytes = 100, .microseconds = 0.1};
 // These rates were not measured alone. They are the sizes of records, in all files that hold them at a time.
 constexpr Rate kDoublePrecision = {.bytes = 30};  // coordinates that floats cannot hold
@@ -46,8 +45,8 @@ constexpr Rate kDecodedOnce = {.bytes = 24, .microseconds = 0.8};  // autzen_tri
 
 constexpr double kStartSeconds = 0.06;  // a process without a scan
 constexpr double kListsInMemory = 1.0 / 8;
-// An even scan takes this share of the bytes. A jittered grid of 4 M points takes 40 for each of them. One of 448 M
-// takes 62 within 2 GiB.
+// An even scan takes this share of the bytes. A jittered grid of 4 M points takes 40 for each of them. One of
+// 448 M takes 62 within 2 GiB.
 constexpr double kLeastShare = 0.4;
 
 class Sum {
@@ -78,7 +77,6 @@ RunCosts run_costs(const io::FileScan& scan, const Config& config, std::uint64_t
   if (!scan.single_precision()) sum.add(of_points, kDoublePrecision);
   if (scan.has_normals()) sum.add(of_points, kGivenNormals);
   if (config.normals.orient) sum.add(of_points, kOrientedNormals);
-  if (config.results.voxels) sum.add(of_points, kVdb);
   if (!config.run.workspace.empty()) sum.add(of_points, kKeptWorkspace);
   if (config.results.points) sum.add(of_rows, kAnnotatedScan);
   if (points < rows) sum.add(of_rows, kThinnedRow);

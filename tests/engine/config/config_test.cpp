@@ -15,15 +15,15 @@ using Catch::Matchers::Contains;
 TEST_CASE("the engine's config reads back as itself, and knows no parameter of files") {
   Config config;
   config.neighbourhood.k = 20;
-  config.results = {.points = true, .voxels = true, .sample_points = 7};
+  config.results = {.points = true, .sample_points = 7};
   const test::ScratchFolder scratch;
   Config again;
   read_config(scratch.write("c.toml", print_config(config)), again);
   CHECK(print_config(again) == print_config(config));
-  CHECK(again.results.voxels);
+  CHECK(again.results.points);
 
   REQUIRE_THROWS_WITH(read_config(scratch.write("c.toml", "[output]\nreport = true\n"), again),
-                      Contains(":2: unknown key \"report\" in [output]; allowed there: points, vdb, sample_points"));
+                      Contains(":2: unknown key \"report\" in [output]; allowed there: points, sample_points"));
   REQUIRE_THROWS_WITH(read_config(scratch.write("c.toml", "[input]\ncrs = \"\"\n"), again),
                       Contains(":1: unknown section \"input\""));
 }

@@ -42,7 +42,7 @@ std::string bytes_of(const Cloud& cloud, Config config, const fs::path& workspac
 std::vector<Config> all_configs() {
   std::vector<Config> configs(4);
   configs[1].loops.method = LoopMethod::kPaper;
-  configs[2].normals.orient = configs[2].results.voxels = true;
+  configs[2].normals.orient = true;
   configs[3].scale.min_hole = 8;  // a first level of representatives
   for (Config& config : configs) config = small_tiles(config);
   return configs;
@@ -133,7 +133,7 @@ TEST_CASE("later steps take other parameters, and the parts before them are used
   CHECK(outputs_of(folder, 0) == outputs);
   Config threshold = small_tiles();
   threshold.coherence.threshold = 0.4;
-  threshold.results.voxels = true;
+  threshold.results.points = true;
   CHECK(bytes_of(scan(), threshold, folder.path()) == run_engine(scan(), threshold).bytes());
   CHECK(fs::last_write_time(folder / "level-0-0") == written);
   Config run = small_tiles();
@@ -149,7 +149,7 @@ TEST_CASE("outputs that an earlier run did not want are found by the next one") 
   bytes_of(scan(), small_tiles(), folder.path());
   std::vector<Config> configs(3, small_tiles());
   configs[0].normals.orient = true;
-  configs[1].results.voxels = true;
+  configs[1].results.points = true;
   configs[2].results.sample_points = 0;
   for (const Config& config : configs)
     CHECK(bytes_of(scan(), config, folder.path()) == run_engine(scan(), config).bytes());

@@ -69,9 +69,7 @@ struct FakeDetection {
                            std::span(results).subspan(first, std::min(block, results.size() - first)));
                  },
              .sampled_points = sample.size(),
-             .for_each_sampled_point = all_of(sample),
-             .probability_lattice = lattice,
-             .for_each_probability_voxel = all_of(voxels)}};
+             .for_each_sampled_point = all_of(sample)}};
   }
 
   std::vector<std::vector<InnerRing>> rings() const {
@@ -84,8 +82,6 @@ struct FakeDetection {
   }
 
   std::vector<SampledPoint> sample;
-  ProbabilityLattice lattice;
-  std::vector<ProbabilityVoxel> voxels;
 };
 
 }  // namespace lacuna::test
