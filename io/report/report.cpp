@@ -196,9 +196,10 @@ fs::path write_report(const fs::path& folder, Overwrite overwrite) {
   check_output(file, kReportMark, overwrite);
   Scene scene = read_scene(folder);
   scene.next_stations = read_next_stations(folder);
-  OutputSet set(overwrite);
-  write_report(scene, set.add(file, kReportMark));
-  set.commit();
+  NewFile out(file, kReportMark, overwrite);
+  write_report(scene, out.content());
+  note_result(folder, file.filename().string());
+  out.commit();
   return file;
 }
 
