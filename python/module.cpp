@@ -65,8 +65,7 @@ std::vector<fs::path> save(Found& found, const fs::path& folder, const py::dict&
   io::FilesConfig config = found.config;
   set_parameters(parameters, config);
   const py::gil_scoped_release unlocked;
-  io::ResultFolder results(folder);
-  return io::write_results(*found.detection, *found.scan, config, results);
+  return io::write_results(*found.detection, *found.scan, config, folder);
 }
 
 // visit(block) in ascending id.

@@ -105,8 +105,7 @@ ScanSummary write_scan(const ScanOptions& options, const Scene& scene) {
                           scanner.moves() ? kTrajectoryMark : kStationsMark, options.overwrite);
   OutputFile& stations = stations_output.content();
   NewFile scan(options.out, kScanMark, options.overwrite);
-  PlyOutput ply(scan.content(), options.coordinates,
-                scanner.moves() ? Extras::kScanAndTime : Extras::kScan);
+  PlyOutput ply(scan.content(), options.coordinates, scanner.moves() ? Extras::kScanAndTime : Extras::kScan);
   const std::uint64_t count = scanner.rays();
   ScanTruth truth(scanner, options.points);
   const Permutation shuffled(count, options.seed);

@@ -38,7 +38,8 @@ FolderLock::~FolderLock() {
 }
 
 bool FolderLock::holds(const fs::path& folder) const {
-  struct stat locked {}, named {};
+  struct stat locked {
+  }, named{};
   return ::fstat(descriptor_, &locked) == 0 && ::stat(folder.c_str(), &named) == 0 &&
          locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
 }

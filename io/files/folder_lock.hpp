@@ -5,9 +5,9 @@
 
 namespace lacuna::io {
 
-// Keeps other runs from an existing folder, as long as the lock lives. The lock goes with the process, however
-// that ends. Throws `Error` if another run has the lock, or if it cannot be had. On a file system that knows no
-// locks, the log has a warning.
+// Keeps other runs from an existing folder, as long as the lock lives. The lock goes with the process,
+// however that ends. Throws `Error` if another run has the lock, or if it cannot be had. On a file system
+// that knows no locks, the log has a warning.
 class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& folder);

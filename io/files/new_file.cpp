@@ -39,8 +39,7 @@ bool has_mark(const fs::path& file, const FileMark& mark) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return false;
   std::string begin(mark.text.size(), '\0');
-  const ssize_t length =
-      ::pread(descriptor, begin.data(), begin.size(), static_cast<off_t>(mark.offset));
+  const ssize_t length = ::pread(descriptor, begin.data(), begin.size(), static_cast<off_t>(mark.offset));
   ::close(descriptor);
   return length == static_cast<ssize_t>(begin.size()) && begin == mark.text;
 }

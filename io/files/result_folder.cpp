@@ -103,14 +103,18 @@ ResultFolder::ResultFolder(const fs::path& folder) : folder_(folder) {
                 ", which is missing; allowed: a folder, or a name that is free");
   target_ = fs::weakly_canonical(fs::absolute(folder), error);
   if (!target_.has_filename()) target_ = target_.parent_path();
-  if (error || !target_.has_filename()) throw Error("\"" + folder.string() + "\": the name of a folder is needed");
+  if (error || !target_.has_filename())
+    throw Error("\"" + folder.string() + "\": the name of a folder is needed");
   replaced_files(target_, folder);
   if (is_mount_point(target_))
-    throw Error(folder.string() + ": is a mount point, which results cannot replace; allowed: a folder in it, such as " +
+    throw Error(folder.string() +
+                ": is a mount point, which results cannot replace; allowed: a folder in it, such as " +
                 (folder / "holes").string());
+  const bool exists = fs::exists(target_);
+  if (exists && ::access(target_.c_str(), W_OK | X_OK) != 0)
+    fail(folder, "cannot write to the folder", errno);
   fs::create_directories(target_.parent_path(), error);
-  if (error)
-    throw Error(target_.parent_path().string() + ": cannot create the folder: " + error.message());
+  if (error) throw Error(target_.parent_path().string() + ": cannot create the folder: " + error.message());
 
   root_ = target_.parent_path() / ("." + target_.filename().string() + kList);
   do {
@@ -120,9 +124,8 @@ ResultFolder::ResultFolder(const fs::path& folder) : folder_(folder) {
     lock_.emplace(root_);
   } while (!lock_->holds(root_));
   temporary_.emplace(root_);
-  const bool has_mode = fs::exists(target_, error);
   if (!fs::create_directory(staged(), error)) fail(staged(), "cannot be made", error.value());
-  if (has_mode) fs::permissions(staged(), fs::status(target_).permissions(), error);
+  if (exists) fs::permissions(staged(), fs::status(target_).permissions(), error);
 }
 
 std::vector<fs::path> ResultFolder::earlier_files() const {

@@ -28,8 +28,8 @@ namespace lacuna::io {
 
 class LACUNA_API ResultFolder {
  public:
-  // Makes missing parents of the folder. Throws `Error` if the name may not be taken, or if another run writes
-  // results of this name.
+  // Makes missing parents of the folder. Throws `Error` if the name may not be taken, or if another run
+  // writes results of this name.
   explicit ResultFolder(const std::filesystem::path& folder);
 
   const std::filesystem::path& path() const { return folder_; }  // as it was given
@@ -52,7 +52,8 @@ class LACUNA_API ResultFolder {
   std::optional<TemporaryFolder> temporary_;
 };
 
-// A later command writes this file to the folder, too. Adds the name to the list of the folder, if it has one.
+// A later command writes this file to the folder, too. Adds the name to the list of the folder, if it has
+// one.
 void note_result(const std::filesystem::path& folder, const std::string& name);
 
 }  // namespace lacuna::io

@@ -6,7 +6,6 @@
 #include "io/ply/ply_writer.hpp"
 #include "io/report/report.hpp"
 #include "io/report/scene.hpp"
-#include "io/results/cut_outs.hpp"
 #include "io/results/gis_library.hpp"
 #include "io/results/lids.hpp"
 #include "io/results/local_coordinates.hpp"
@@ -56,10 +55,8 @@ bool needs_gis_library(const FilesConfig& config) {
 
 const std::vector<ResultFile>& all_results() {
   static const std::vector<ResultFile> results = {
-      {"loops.ply", [](D d, S s, C c, OutputFile& out) { write_loops(d, s, c.output, out); },
-       always},
-      {"boundary.ply", [](D d, S s, C c, OutputFile& out) { write_boundary(d, s, c.output, out); },
-       always},
+      {"loops.ply", [](D d, S s, C c, OutputFile& out) { write_loops(d, s, c.output, out); }, always},
+      {"boundary.ply", [](D d, S s, C c, OutputFile& out) { write_boundary(d, s, c.output, out); }, always},
       {"sample.ply", [](D d, S s, C c, OutputFile& out) { write_sample(d, s, c.output, out); },
        [](C c) { return c.results.sample_points > 0; }},
       {"probability.vdb", [](D d, S, C, OutputFile& out) { write_probability_grid(d, out); },
@@ -73,19 +70,17 @@ const std::vector<ResultFile>& all_results() {
        [](D d, S s, C c, OutputFile& out) { write_loops_gis(d, s, c.output, GisFormat::kGeoJson, out); },
        [](C c) { return c.output.geojson; }},
       {"lids.obj", [](D d, S, C, OutputFile& out) { write_lids_obj(d, out); }, has_lids},
-      {"lids.ply",
-       [](D d, S s, C c, OutputFile& out) { write_lids_ply(lids_obj(out), d, s, c.output, out); }, has_lids,
-       Writer::kThis, true},
-      {"lids.csv", [](D, S, C, OutputFile& out) { write_lids_table(lids_obj(out), out); },
+      {"lids.ply", [](D d, S s, C c, OutputFile& out) { write_lids_ply(lids_obj(out), d, s, c.output, out); },
        has_lids, Writer::kThis, true},
+      {"lids.csv", [](D, S, C, OutputFile& out) { write_lids_table(lids_obj(out), out); }, has_lids,
+       Writer::kThis, true},
       {"coverage.tif", [](D d, S s, C c, OutputFile& out) { write_coverage(d, s, c, out); },
        [](C c) { return c.output.coverage > 0; }, Writer::kLibrary},
-      {"voids.gpkg",
-       [](D d, S s, C, OutputFile& out) { write_voids_gpkg(*d.area, s, out); }, has_area, Writer::kLibrary},
-      {"voids.csv", [](D d, S, C, OutputFile& out) { write_voids_table(*d.area, out); },
+      {"voids.gpkg", [](D d, S s, C, OutputFile& out) { write_voids_gpkg(*d.area, s, out); }, has_area,
+       Writer::kLibrary},
+      {"voids.csv", [](D d, S, C, OutputFile& out) { write_voids_table(*d.area, out); }, has_area},
+      {kVoidsFile, [](D d, S s, C c, OutputFile& out) { write_voids_json(*d.area, s, c.area, out); },
        has_area},
-      {kVoidsFile,
-       [](D d, S s, C c, OutputFile& out) { write_voids_json(*d.area, s, c.area, out); }, has_area},
       {"report.html",
        [](D, S, C, OutputFile& out) { write_report(read_scene(out.place().parent_path()), out); },
        [](C c) { return c.output.report; }, Writer::kThis, true},
@@ -106,7 +101,6 @@ std::vector<ResultFile> results_of(const FilesConfig& config) {
 
 void check_results(const FileScan& scan, const FilesConfig& config, const ResultFolder& folder) {
   check_points(scan, config);
-  check_cut_outs(scan, config);
   if (needs_gis_library(config)) check_gis_library();
   check_not_input(folder, scan);
 }
@@ -118,10 +112,7 @@ std::vector<std::filesystem::path> write_results(const ExplainedDetection& detec
     throw Error(config.area.area + ": the area was not checked; io::check_area does it");
 
   const TaskArena arena(static_cast<std::size_t>(config.run.threads));
-  arena.for_each(1, [&](std::size_t) {
-    write_cut_outs(detection, scan, config, folder);
-    write_points(detection, scan, config, folder);
-  });
+  arena.for_each(1, [&](std::size_t) { write_points(detection, scan, config, folder); });
   const std::vector<ResultFile> results = results_of(config);
   const auto write = [&](std::size_t i) {
     const auto file = folder.open(std::string(results[i].name), results[i].writer);
@@ -136,6 +127,13 @@ std::vector<std::filesystem::path> write_results(const ExplainedDetection& detec
   }
   scan.check_unchanged();
   return folder.commit();
+}
+
+std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection, const FileScan& scan,
+                                                 const FilesConfig& config,
+                                                 const std::filesystem::path& folder) {
+  ResultFolder results(folder);
+  return write_results(detection, scan, config, results);
 }
 
 std::vector<PlyProperty> position_and_id(const Detection& detection, const FileScan& scan,

@@ -16,8 +16,8 @@
 
 namespace lacuna::io {
 
-// Throws `Error` if an input lies among the earlier results that the folder replaces, or if the annotated scan
-// cannot be written in its format. write_results checks it, too; a program checks before the work.
+// Throws `Error` if an input lies among the earlier results that the folder replaces, or if the annotated
+// scan cannot be written in its format. write_results checks it, too; a program checks before the work.
 LACUNA_API void check_results(const FileScan& scan, const FilesConfig& config, const ResultFolder& folder);
 
 // Writes loops.ply, boundary.ply, sample.ply, holes.csv, run.json, holes.json, and the files that the config
@@ -26,6 +26,10 @@ LACUNA_API void check_results(const FileScan& scan, const FilesConfig& config, c
 LACUNA_API std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection,
                                                             const FileScan& scan, const FilesConfig& config,
                                                             ResultFolder& folder);
+// Does the same with a folder of this name.
+LACUNA_API std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection,
+                                                            const FileScan& scan, const FilesConfig& config,
+                                                            const std::filesystem::path& folder);
 
 // holes.json: the parameters that change results, the inputs, counts, and one line for each loop, in order.
 // Runs with the same answer write the same bytes. docs/holes.schema.json describes it; the form has a number,

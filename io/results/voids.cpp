@@ -57,14 +57,15 @@ struct VoidsFile {
   void (*write)(const AreaCheck&, const FileScan&, const AreaConfig&, OutputFile&);
   Writer writer = Writer::kThis;
 };
-constexpr VoidsFile kVoidsFiles[] = {{"voids.gpkg",
-                                      [](const AreaCheck& check, const FileScan& scan, const AreaConfig&,
-                                         OutputFile& out) { write_voids_gpkg(check, scan, out); },
-                                      Writer::kLibrary},
-                                     {"voids.csv",
-                                      [](const AreaCheck& check, const FileScan&, const AreaConfig&,
-                                         OutputFile& out) { write_voids_table(check, out); }},
-                                     {kVoidsFile, write_voids_json}};
+constexpr VoidsFile kVoidsFiles[] = {
+    {"voids.gpkg",
+     [](const AreaCheck& check, const FileScan& scan, const AreaConfig&, OutputFile& out) {
+       write_voids_gpkg(check, scan, out);
+     },
+     Writer::kLibrary},
+    {"voids.csv", [](const AreaCheck& check, const FileScan&, const AreaConfig&,
+                     OutputFile& out) { write_voids_table(check, out); }},
+    {kVoidsFile, write_voids_json}};
 
 }  // namespace
 

@@ -64,7 +64,8 @@ void require(const Command& command, const std::string& option) {
 // The results replace all that their folder has.
 void require_outside(const std::string& folder, const fs::path& out, const std::string& option) {
   if (folder.empty()) return;
-  const fs::path within = fs::weakly_canonical(fs::absolute(folder)).lexically_relative(fs::weakly_canonical(fs::absolute(out)));
+  const fs::path within =
+      fs::weakly_canonical(fs::absolute(folder)).lexically_relative(fs::weakly_canonical(fs::absolute(out)));
   if (!within.empty() && *within.begin() != "..")
     throw UsageError(folder + ": is in the folder of the results; allowed: another one for " + option);
 }
@@ -137,7 +138,10 @@ std::unique_ptr<FileScan> open_inputs(const std::vector<ScanInput>& inputs, cons
 
 ResultArguments::ResultArguments(const Command& command, ParameterScope scope)
     : RunArguments(command, scope) {
-  command.add_option("--out", out, "Folder for the results: a new one, or one of earlier results, which they replace").type("DIR");
+  command
+      .add_option("--out", out,
+                  "Folder for the results: a new one, or one of earlier results, which they replace")
+      .type("DIR");
 }
 
 std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,

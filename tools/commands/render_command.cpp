@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/error.hpp"
-#include "io/files/number.hpp"
 #include "io/files/new_file.hpp"
+#include "io/files/number.hpp"
 #include "io/report/render.hpp"
 #include "io/report/section.hpp"
 #include "tools/commands/commands.hpp"

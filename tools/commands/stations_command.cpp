@@ -4,6 +4,7 @@
 #include "io/crs/degrees.hpp"
 #include "io/crs/length_unit.hpp"
 #include "io/files/new_file.hpp"
+#include "io/files/result_folder.hpp"
 #include "io/report/scene.hpp"
 #include "io/rows/vectors.hpp"
 #include "io/stations/next_stations.hpp"
