@@ -367,13 +367,13 @@ TEST_CASE("a signal while results replace older ones leaves the older ones or al
 
 TEST_CASE("a signal while a scan is made leaves nothing") {
   const ScratchFolder scratch;
-  const auto is_writing = [&] { return count_entries(scratch.path()) > 0; };
+  const auto is_writing = [&] { return !fs::is_empty(scratch.path()); };
   const ProgramResult result =
       test::run_program_until({"synth", "surface", (scratch / "made.ply").string(), "--points", "20000000"},
                               SIGINT, is_writing, test::Program::kBench);
   CHECK(result.exit_code == 128 + SIGINT);
   CHECK(result.err == "lacuna-bench: interrupted\n");
-  CHECK(count_entries(scratch.path()) == 0);
+  CHECK(fs::is_empty(scratch.path()));
 }
 
 TEST_CASE("names of columns are divided by blanks or commas") {

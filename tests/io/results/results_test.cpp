@@ -30,7 +30,7 @@ const std::string kXyz = "property float x\nproperty float y\nproperty float z\n
 const std::string kWide = "property double x\nproperty double y\nproperty double z\n";
 
 nlohmann::json report(const std::filesystem::path& folder) {
-  return nlohmann::json::parse(read_file(folder / "out/holes.json"));
+  return nlohmann::json::parse(read_file(folder / "holes.json"));
 }
 nlohmann::json run_of(const std::filesystem::path& folder) {
   return nlohmann::json::parse(read_file(folder / "run.json"));
