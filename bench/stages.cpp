@@ -22,7 +22,7 @@
 #include "engine/neighbours/neighbourhoods.hpp"
 #include "engine/store/scratch.hpp"
 #include "engine/survey/survey.hpp"
-#include "io/files/output_set.hpp"
+#include "io/files/new_file.hpp"
 #include "io/scan/file_scan.hpp"
 #include "tests/support/point_tree.hpp"
 
@@ -164,8 +164,8 @@ class SampleFile {
   SampleFile()
       : path_(std::filesystem::temp_directory_path() /
               ("lacuna-stages-" + std::to_string(::getpid()) + ".ply")) {
-    OutputSet set(Overwrite::kOwn);
-    synth::PlyOutput out(set.add(path_, synth::kScanMark), synth::Coordinates::kFloat, synth::Extras::kNone);
+    NewFile set(path_, synth::kScanMark, Overwrite::kOwn);
+    synth::PlyOutput out(set.content(), synth::Coordinates::kFloat, synth::Extras::kNone);
     for (int copy = 0; copy < 16; ++copy) {
       for (const Eigen::Vector3d& p : batch(SampleOrder::kScanline).positions) out.add({p.x(), p.y(), p.z()});
     }

@@ -61,12 +61,11 @@ py::list list_parameters() {
   return all;
 }
 
-std::vector<fs::path> save(Found& found, const fs::path& folder, const py::dict& parameters, bool overwrite) {
+std::vector<fs::path> save(Found& found, const fs::path& folder, const py::dict& parameters) {
   io::FilesConfig config = found.config;
   set_parameters(parameters, config);
   const py::gil_scoped_release unlocked;
-  return io::write_results(*found.detection, *found.scan, config, folder,
-                           overwrite ? io::Overwrite::kAny : io::Overwrite::kOwn);
+  return io::write_results(*found.detection, *found.scan, config, folder);
 }
 
 // visit(block) in ascending id.

@@ -98,14 +98,14 @@ ScanSummary write_scan(const ScanOptions& options, const Scene& scene) {
   if (scene.flown || options.drives) check_movement(options);
   const std::filesystem::path truth_path = truth_file_of(options.out, options.truth);
   const Scanner scanner(options, scene);
-  OutputSet set(options.overwrite);
-  OutputFile& truth_file = set.add(truth_path, kTruthMark);
-  OutputFile& stations =
-      set.add(std::filesystem::path(options.out)
-                  .replace_extension(scanner.moves() ? ".trajectory.txt" : ".stations.txt"),
-              scanner.moves() ? kTrajectoryMark : kStationsMark);
-  PlyOutput ply(set.add(options.out, kScanMark), options.coordinates,
-                scanner.moves() ? Extras::kScanAndTime : Extras::kScan);
+  NewFile truth_output(truth_path, kTruthMark, options.overwrite);
+  OutputFile& truth_file = truth_output.content();
+  NewFile stations_output(std::filesystem::path(options.out)
+                              .replace_extension(scanner.moves() ? ".trajectory.txt" : ".stations.txt"),
+                          scanner.moves() ? kTrajectoryMark : kStationsMark, options.overwrite);
+  OutputFile& stations = stations_output.content();
+  NewFile scan(options.out, kScanMark, options.overwrite);
+  PlyOutput ply(scan.content(), options.coordinates, scanner.moves() ? Extras::kScanAndTime : Extras::kScan);
   const std::uint64_t count = scanner.rays();
   ScanTruth truth(scanner, options.points);
   const Permutation shuffled(count, options.seed);
@@ -126,7 +126,9 @@ ScanSummary write_scan(const ScanOptions& options, const Scene& scene) {
   for (const std::vector<std::uint64_t>& step : truth.steps()) write_step(truth_file, step);
   scanner.moves() ? write_trajectory(scanner, options, stations) : write_stations(scanner, options, stations);
   ply.finish();
-  set.commit();
+  truth_output.commit();
+  stations_output.commit();
+  scan.commit();
   return {.points = ply.count(), .rays = count, .loops = loops.size(), .truth = truth_path};
 }
 

@@ -81,9 +81,10 @@ class PointMaker {
 SurfaceSummary write_surface(const SurfaceOptions& options) {
   check(options);
   const std::filesystem::path truth_path = truth_file_of(options.out, options.truth);
-  OutputSet set(options.overwrite);
-  OutputFile& truth_file = set.add(truth_path, kTruthMark);
-  PlyOutput ply(set.add(options.out, kScanMark), options.coordinates, Extras::kNone);
+  NewFile truth_output(truth_path, kTruthMark, options.overwrite);
+  OutputFile& truth_file = truth_output.content();
+  NewFile scan(options.out, kScanMark, options.overwrite);
+  PlyOutput ply(scan.content(), options.coordinates, Extras::kNone);
 
   const SurfaceGrid grid = lay_grid(options);
   check_precision(grid, options);
@@ -105,7 +106,8 @@ SurfaceSummary write_surface(const SurfaceOptions& options) {
   write_truth_head(truth_file, options.out);
   for (const auto& [ids, is_hole] : in_ids) write_loop(truth_file, is_hole ? "hole" : "outer edge", ids);
   ply.finish();
-  set.commit();
+  truth_output.commit();
+  scan.commit();
   return {.points = ply.count(), .loops = in_ids.size(), .truth = truth_path};
 }
 

@@ -42,6 +42,16 @@ TemporaryFolder::TemporaryFolder(const fs::path& parent, const std::string& pref
   folders.push_back(fs::absolute(folder_));
 }
 
+TemporaryFolder::TemporaryFolder(const fs::path& folder) : folder_(folder) {
+  const std::lock_guard lock(mutex);
+  folders.push_back(fs::absolute(folder_));
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    fs::remove_all(entry.path(), error);
+    if (error) throw Error(entry.path().string() + ": cannot be removed: " + error.message());
+  }
+}
+
 TemporaryFolder::~TemporaryFolder() {
   if (is_kept_) return;
   std::error_code error;

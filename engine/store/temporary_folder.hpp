@@ -17,6 +17,8 @@ class TemporaryFolder {
  public:
   // Creates a folder in `parent`, for this user alone: `prefix` and six random characters. Throws `Error`.
   TemporaryFolder(const std::filesystem::path& parent, const std::string& prefix);
+  // Takes over a folder of this process alone, and empties it. Throws `Error`.
+  explicit TemporaryFolder(const std::filesystem::path& folder);
   ~TemporaryFolder();  // removes it with everything in it, if that is possible
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;

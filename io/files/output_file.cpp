@@ -74,12 +74,6 @@ bool OutputFile::close() {
   return true;
 }
 
-void OutputFile::close_unsynced() {
-  assert(writer_ == Writer::kThis);
-  flush();
-  if (::close(std::exchange(descriptor_, -1)) != 0) fail("cannot be written", errno);
-}
-
 void OutputFile::fail(const char* what, int reason) const {
   throw Error(name_.string() + ": " + what + ": " + std::strerror(reason));
 }

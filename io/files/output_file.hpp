@@ -36,9 +36,6 @@ class OutputFile {
   // Afterwards all bytes are on the disk, and nothing can be written any more. Returns false if the library
   // has made no file.
   bool close();
-  // Does the same, but the bytes are only with the system. It is for many small files, which are synced
-  // together.
-  void close_unsynced();
 
  private:
   void flush();

@@ -2,7 +2,7 @@
 // A picture of a scan and its holes, drawn by the processor alone.
 #pragma once
 
-#include "io/files/output_set.hpp"
+#include "io/files/new_file.hpp"
 #include "io/report/scene.hpp"
 
 #include <cstddef>

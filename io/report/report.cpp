@@ -2,6 +2,7 @@
 #include "io/report/report.hpp"
 
 #include "engine/run/error.hpp"
+#include "io/files/result_folder.hpp"
 #include "io/files/number.hpp"
 #include "io/loops/loop_measures.hpp"
 #include "io/report/base64.hpp"
@@ -196,9 +197,10 @@ fs::path write_report(const fs::path& folder, Overwrite overwrite) {
   check_output(file, kReportMark, overwrite);
   Scene scene = read_scene(folder);
   scene.next_stations = read_next_stations(folder);
-  OutputSet set(overwrite);
-  write_report(scene, set.add(file, kReportMark));
-  set.commit();
+  NewFile out(file, kReportMark, overwrite);
+  write_report(scene, out.content());
+  note_result(folder, file.filename().string());
+  out.commit();
   return file;
 }
 

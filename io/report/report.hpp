@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/export.hpp"
-#include "io/files/output_set.hpp"
+#include "io/files/new_file.hpp"
 
 #include <filesystem>
 #include <string_view>

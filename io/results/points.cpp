@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -26,7 +25,6 @@ enum class FileFormat : std::uint8_t { kPly, kCsv, kLas, kLaz };
 
 struct WrittenFormat {
   std::string_view extension;
-  FileMark mark;
   std::unique_ptr<PointsForm> (*form)(const PointsPlan& plan);
 };
 
@@ -34,12 +32,10 @@ struct WrittenFormat {
 const std::array<WrittenFormat, 4>& written_formats() {
   using Form = std::unique_ptr<PointsForm>;
   static const std::array<WrittenFormat, 4> formats = {{
-      {".ply", kPlyMark, [](const PointsPlan& plan) -> Form { return ply_form(plan); }},
-      {".csv",
-       {",scalar_boundary,scalar_coherent,scalar_loop", FileMark::kInFirstLine},
-       [](const PointsPlan& plan) -> Form { return csv_form(plan); }},
-      {".las", {kLasSoftware, kLasSoftwareAt}, las_form},
-      {".laz", {kLasSoftware, kLasSoftwareAt}, laz_form},
+      {".ply", [](const PointsPlan& plan) -> Form { return ply_form(plan); }},
+      {".csv", [](const PointsPlan& plan) -> Form { return csv_form(plan); }},
+      {".las", las_form},
+      {".laz", laz_form},
   }};
   return formats;
 }
@@ -70,10 +66,6 @@ FileFormat own_format(const FileScan& scan, std::size_t file) {
 
 bool is_in_folder(const OutputConfig& config) {
   return config.points_format == PointsFormat::kInput;
-}
-
-std::string subfolder_of(const OutputConfig& config) {
-  return is_in_folder(config) ? kPointsFolder : "";
 }
 
 // Throws `Error` if two files would have the same name.
@@ -132,24 +124,6 @@ PointsPlan plan_of(const FileScan& scan, const OutputConfig& config, const Point
           .name = std::move(name)};
 }
 
-// Calls visit(subfolder, name, mark) for each file of an earlier run that this one does not write.
-template <class Visit>
-void for_each_earlier(const fs::path& folder, const OutputConfig& config,
-                      const std::vector<PointsFile>& files, const Visit& visit) {
-  std::set<std::string, std::less<>> wanted;
-  for (const PointsFile& file : files) wanted.insert(file.name);
-  const auto visit_if = [&](const std::string& subfolder, const std::string& name) {
-    if (subfolder == subfolder_of(config) && wanted.contains(name)) return;
-    for (const WrittenFormat& format : written_formats()) {
-      if (fs::path(name).extension() != format.extension) continue;
-      if (is_own_file(folder / subfolder / name, format.mark)) visit(subfolder, name, format.mark);
-    }
-  };
-  for (const FileFormat format : {FileFormat::kPly, FileFormat::kCsv})
-    visit_if("", "points" + std::string(extension_of(format)));
-  for (const std::string& name : names_in(folder / kPointsFolder)) visit_if(kPointsFolder, name);
-}
-
 [[noreturn]] void fail_changed(const std::string& name) {
   throw Error(name + ": the input has changed during the run; it must stay as it is");
 }
@@ -206,44 +180,27 @@ std::string points_name(const OutputConfig& config) {
   return config.points_format == PointsFormat::kCsv ? "points.csv" : "points.ply";
 }
 
-void check_points(const FileScan& scan, const FilesConfig& config, const fs::path& folder,
-                  Overwrite overwrite) {
-  const OutputConfig& output = config.output;
-  const std::vector<PointsFile> files = wanted_files(scan, config);
-  if (!files.empty() && is_in_folder(output)) check_subfolder(folder / kPointsFolder);
-  for (const PointsFile& file : files) {
-    written(file.format).form(plan_of(scan, output, file, {}));
-    const fs::path place = folder / subfolder_of(output) / file.name;
-    check_not_input(place, scan);
-    check_output(place, written(file.format).mark, overwrite);
-  }
-  for_each_earlier(folder, output, files,
-                   [&](const std::string& subfolder, const std::string& name, const FileMark&) {
-                     check_not_input(folder / subfolder / name, scan);
-                   });
+void check_points(const FileScan& scan, const FilesConfig& config) {
+  for (const PointsFile& file : wanted_files(scan, config))
+    written(file.format).form(plan_of(scan, config.output, file, {}));
 }
 
 void write_points(const Detection& detection, const FileScan& scan, const FilesConfig& config,
-                  const fs::path& folder, OutputSet& set) {
+                  const ResultFolder& folder) {
   const OutputConfig& output = config.output;
   const std::vector<PointsFile> files = wanted_files(scan, config);
-  for_each_earlier(folder, output, files,
-                   [&](const std::string& subfolder, const std::string& name, const FileMark& mark) {
-                     set.drop_in(folder, subfolder, name, mark);
-                   });
   if (files.empty()) return;
   const LocalOffset offset = local_offset(detection, output);
   std::unique_ptr<AnnotatedFile> open;
   std::size_t next = 0;
   const auto open_next = [&] {
     if (open) open->finish();
-    if (next == files.size()) fail_changed((folder / points_name(output)).string());
+    if (next == files.size()) fail_changed((folder.path() / points_name(output)).string());
     const PointsFile& file = files[next++];
-    auto out = set.open_in(folder, subfolder_of(output), file.name, written(file.format).mark);
+    const PointsPlan plan = plan_of(scan, output, file, offset);
     const std::uint64_t rows =
         files.size() == 1 ? detection.summary.counts.points : scan.rows(file.files.first);
-    open = std::make_unique<AnnotatedFile>(plan_of(scan, output, file, offset), file.format, std::move(out),
-                                           rows);
+    open = std::make_unique<AnnotatedFile>(plan, file.format, folder.open(plan.name), rows);
   };
   open_next();
   detection.for_each_result_block([&](PointId, std::span<const PointResult> results) {

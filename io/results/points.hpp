@@ -14,7 +14,7 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
-#include "io/files/output_set.hpp"
+#include "io/files/result_folder.hpp"
 #include "io/options/options.hpp"
 #include "io/scan/file_scan.hpp"
 
@@ -29,16 +29,14 @@ inline constexpr const char* kPointsFolder = "points";  // in the output folder
 // Returns "points.ply", "points.csv", or "points/".
 std::string points_name(const OutputConfig& config);
 
-// Throws `Error` if the annotated scan of the config cannot be written to `folder`, as far as headers and
-// names show it. Two files of the scan may have the same name, or a format may not hold its results. Cheap,
-// for a program to check before the work.
-void check_points(const FileScan& scan, const FilesConfig& config, const std::filesystem::path& folder,
-                  Overwrite overwrite);
+// Throws `Error` if the annotated scan of the config cannot be written, as far as headers and names show it.
+// Two files of the scan may have the same name, or a format may not hold its results. Cheap, for a program to
+// check before the work.
+void check_points(const FileScan& scan, const FilesConfig& config);
 
-// Adds the annotated scan to the set, if the config wants it. Drops the annotated scans of earlier runs.
-// Memory: a batch of one file at a time. Throws `Error`.
+// Writes the annotated scan, if the config wants it. Memory: a batch of one file at a time. Throws `Error`.
 void write_points(const Detection& detection, const FileScan& scan, const FilesConfig& config,
-                  const std::filesystem::path& folder, OutputSet& set);
+                  const ResultFolder& folder);
 
 // The disk space of the annotated scan, for so many rows. Text and LAZ are a guess, and not in
 // `certain`. Throws `Error` if the formats cannot hold the results.

@@ -7,14 +7,12 @@
 #include "io/report/report.hpp"
 #include "io/report/scene.hpp"
 #include "io/results/gis_library.hpp"
-#include "io/results/gis_marks.hpp"
 #include "io/results/lids.hpp"
 #include "io/results/local_coordinates.hpp"
 #include "io/results/loops_obj.hpp"
 #include "io/results/points.hpp"
 #include "io/results/voids.hpp"
 #include "io/scan/plan_system.hpp"
-#include "io/stations/next_stations.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -26,7 +24,6 @@ namespace {
 
 struct ResultFile {
   std::string_view name;
-  FileMark mark;
   void (*write)(const ExplainedDetection&, const FileScan&, const FilesConfig&, OutputFile&);
   bool (*is_wanted)(const FilesConfig&);
   Writer writer = Writer::kThis;
@@ -57,45 +54,38 @@ bool needs_gis_library(const FilesConfig& config) {
   return config.output.gpkg || config.output.geojson || config.output.coverage > 0 || has_area(config);
 }
 
-// In the order in which they appear: holes.json comes last, and stands for all the others.
 const std::vector<ResultFile>& all_results() {
   static const std::vector<ResultFile> results = {
-      {"loops.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_loops(d, s, c.output, out); },
-       always},
-      {"boundary.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_boundary(d, s, c.output, out); },
-       always},
-      {"sample.ply", kPlyMark, [](D d, S s, C c, OutputFile& out) { write_sample(d, s, c.output, out); },
+      {"loops.ply", [](D d, S s, C c, OutputFile& out) { write_loops(d, s, c.output, out); }, always},
+      {"boundary.ply", [](D d, S s, C c, OutputFile& out) { write_boundary(d, s, c.output, out); }, always},
+      {"sample.ply", [](D d, S s, C c, OutputFile& out) { write_sample(d, s, c.output, out); },
        [](C c) { return c.results.sample_points > 0; }},
-      {"loops.obj", kObjMark, [](D d, S, C, OutputFile& out) { write_loops_obj(d, out); },
+      {"loops.obj", [](D d, S, C, OutputFile& out) { write_loops_obj(d, out); },
        [](C c) { return c.output.obj; }},
-      {"loops.gpkg", geopackage_mark(),
+      {"loops.gpkg",
        [](D d, S s, C c, OutputFile& out) { write_loops_gis(d, s, c.output, GisFormat::kGeoPackage, out); },
        [](C c) { return c.output.gpkg; }, Writer::kLibrary},
-      {"loops.geojson", kGeoJsonMark,
+      {"loops.geojson",
        [](D d, S s, C c, OutputFile& out) { write_loops_gis(d, s, c.output, GisFormat::kGeoJson, out); },
        [](C c) { return c.output.geojson; }},
-      {"lids.obj", kLidsObjMark, [](D d, S, C, OutputFile& out) { write_lids_obj(d, out); }, has_lids},
-      {"lids.ply", kPlyMark,
-       [](D d, S s, C c, OutputFile& out) { write_lids_ply(lids_obj(out), d, s, c.output, out); }, has_lids,
-       Writer::kThis, true},
-      {"lids.csv", kLidsHeader, [](D, S, C, OutputFile& out) { write_lids_table(lids_obj(out), out); },
+      {"lids.obj", [](D d, S, C, OutputFile& out) { write_lids_obj(d, out); }, has_lids},
+      {"lids.ply", [](D d, S s, C c, OutputFile& out) { write_lids_ply(lids_obj(out), d, s, c.output, out); },
        has_lids, Writer::kThis, true},
-      {"coverage.tif", coverage_mark(), [](D d, S s, C c, OutputFile& out) { write_coverage(d, s, c, out); },
+      {"lids.csv", [](D, S, C, OutputFile& out) { write_lids_table(lids_obj(out), out); }, has_lids,
+       Writer::kThis, true},
+      {"coverage.tif", [](D d, S s, C c, OutputFile& out) { write_coverage(d, s, c, out); },
        [](C c) { return c.output.coverage > 0; }, Writer::kLibrary},
-      {"voids.gpkg", voids_gpkg_mark(),
-       [](D d, S s, C, OutputFile& out) { write_voids_gpkg(*d.area, s, out); }, has_area, Writer::kLibrary},
-      {"voids.csv", kVoidsHeader, [](D d, S, C, OutputFile& out) { write_voids_table(*d.area, out); },
+      {"voids.gpkg", [](D d, S s, C, OutputFile& out) { write_voids_gpkg(*d.area, s, out); }, has_area,
+       Writer::kLibrary},
+      {"voids.csv", [](D d, S, C, OutputFile& out) { write_voids_table(*d.area, out); }, has_area},
+      {kVoidsFile, [](D d, S s, C c, OutputFile& out) { write_voids_json(*d.area, s, c.area, out); },
        has_area},
-      {kVoidsFile, kJsonMark,
-       [](D d, S s, C c, OutputFile& out) { write_voids_json(*d.area, s, c.area, out); }, has_area},
-      {"report.html", kReportMark,
+      {"report.html",
        [](D, S, C, OutputFile& out) { write_report(read_scene(out.place().parent_path()), out); },
        [](C c) { return c.output.report; }, Writer::kThis, true},
-      // lacuna stations writes it afterwards. It does not belong to the results of another run.
-      {kNextStationsFile, kNextStationsMark, [](D, S, C, OutputFile&) {}, [](C) { return false; }},
-      {"holes.csv", table_header(), [](D d, S, C, OutputFile& out) { write_table(d, out); }, always},
-      {"run.json", kJsonMark, [](D d, S s, C c, OutputFile& out) { write_run(d, s, c, out); }, always},
-      {"holes.json", kJsonMark, write_holes, always}};
+      {"holes.csv", [](D d, S, C, OutputFile& out) { write_table(d, out); }, always},
+      {"run.json", [](D d, S s, C c, OutputFile& out) { write_run(d, s, c, out); }, always},
+      {"holes.json", write_holes, always}};
   return results;
 }
 
@@ -106,60 +96,44 @@ std::vector<ResultFile> results_of(const FilesConfig& config) {
   return results;
 }
 
-// Returns the results that this run does not write. An earlier run may have written them.
-std::vector<ResultFile> unwanted_results(const FilesConfig& config) {
-  std::vector<ResultFile> results;
-  std::copy_if(all_results().begin(), all_results().end(), std::back_inserter(results),
-               [&](const ResultFile& result) { return !result.is_wanted(config); });
-  return results;
-}
-
 }  // namespace
 
-void check_output_folder(const FileScan& scan, const FilesConfig& config, const std::filesystem::path& folder,
-                         Overwrite overwrite) {
-  check_points(scan, config, folder, overwrite);
+void check_results(const FileScan& scan, const FilesConfig& config, const ResultFolder& folder) {
+  check_points(scan, config);
   if (needs_gis_library(config)) check_gis_library();
   if (config.output.coverage > 0) require_plan(scan, "--coverage");
-  for (const ResultFile& result : results_of(config)) {
-    check_not_input(folder / result.name, scan);
-    check_output(folder / result.name, result.mark, overwrite);
-  }
-  for (const ResultFile& result : unwanted_results(config)) {
-    if (is_own_file(folder / result.name, result.mark)) check_not_input(folder / result.name, scan);
-  }
+  check_not_input(folder, scan);
 }
 
 std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection, const FileScan& scan,
-                                                 const FilesConfig& config,
-                                                 const std::filesystem::path& folder, Overwrite overwrite) {
-  check_output_folder(scan, config, folder, overwrite);
+                                                 const FilesConfig& config, ResultFolder& folder) {
+  check_results(scan, config, folder);
   if (has_area(config) && !detection.area)
     throw Error(config.area.area + ": the area was not checked; io::check_area does it");
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw Error(folder.string() + ": the folder cannot be created: " + error.message());
 
-  OutputSet set(overwrite);
   const TaskArena arena(static_cast<std::size_t>(config.run.threads));
-  arena.for_each(1, [&](std::size_t) { write_points(detection, scan, config, folder, set); });
+  arena.for_each(1, [&](std::size_t) { write_points(detection, scan, config, folder); });
   const std::vector<ResultFile> results = results_of(config);
-  std::vector<OutputFile*> files;
-  for (const ResultFile& result : results)
-    files.push_back(&set.add(folder / result.name, result.mark, result.writer));
-  for (const ResultFile& result : unwanted_results(config)) set.drop(folder / result.name, result.mark);
-  const auto write = [&](std::size_t i) { results[i].write(detection, scan, config, *files[i]); };
+  const auto write = [&](std::size_t i) {
+    const auto file = folder.open(std::string(results[i].name), results[i].writer);
+    results[i].write(detection, scan, config, *file);
+    file->close();
+  };
   arena.for_each(results.size(), [&](std::size_t i) {
     if (!results[i].is_of_others) write(i);
   });
   for (std::size_t i = 0; i < results.size(); ++i) {
-    if (!results[i].is_of_others) files[i]->close();
-  }
-  for (std::size_t i = 0; i < results.size(); ++i) {
     if (results[i].is_of_others) write(i);
   }
   scan.check_unchanged();
-  return set.commit();
+  return folder.commit();
+}
+
+std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection, const FileScan& scan,
+                                                 const FilesConfig& config,
+                                                 const std::filesystem::path& folder) {
+  ResultFolder results(folder);
+  return write_results(detection, scan, config, results);
 }
 
 std::vector<PlyProperty> position_and_id(const Detection& detection, const FileScan& scan,

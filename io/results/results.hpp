@@ -4,7 +4,7 @@
 
 #include "engine/export.hpp"
 #include "engine/model/detection.hpp"
-#include "io/files/output_set.hpp"
+#include "io/files/result_folder.hpp"
 #include "io/options/options.hpp"
 #include "io/ply/ply_header.hpp"
 #include "io/scan/file_scan.hpp"
@@ -16,23 +16,20 @@
 
 namespace lacuna::io {
 
-// Throws `Error` if a run may not write its results to `folder`. A result replaces an earlier result of
-// `detect`, with Overwrite::kAny any regular file, but never an input. Throws also if the annotated scan
-// cannot be written in its format. write_results checks it, too; a program checks before the work.
-LACUNA_API void check_output_folder(const FileScan& scan, const FilesConfig& config,
-                                    const std::filesystem::path& folder, Overwrite overwrite);
+// Throws `Error` if an input lies among the earlier results that the folder replaces, or if the annotated
+// scan cannot be written in its format. write_results checks it, too; a program checks before the work.
+LACUNA_API void check_results(const FileScan& scan, const FilesConfig& config, const ResultFolder& folder);
 
 // Writes loops.ply, boundary.ply, sample.ply, holes.csv, run.json, holes.json, and the files that the config
-// requests, as one set (io/files/output_set.hpp). The report is made of the others before any has its name.
-// A file of an earlier run that this one does not write, such as loops.obj, does not belong to the new
-// results: it goes. Makes the folder if it is missing. Returns the files that were written. Throws `Error`.
+// requests. The report is made of the others. The folder takes its name when all are complete. Returns the
+// files and subfolders that were written. Throws `Error`.
 LACUNA_API std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection,
                                                             const FileScan& scan, const FilesConfig& config,
-                                                            const std::filesystem::path& folder,
-                                                            Overwrite overwrite = Overwrite::kOwn);
-
-// How a file of JSON begins: an earlier one is recognised by it.
-inline constexpr std::string_view kJsonMark = "{\n  \"lacuna\": \"";
+                                                            ResultFolder& folder);
+// Does the same with a folder of this name.
+LACUNA_API std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection,
+                                                            const FileScan& scan, const FilesConfig& config,
+                                                            const std::filesystem::path& folder);
 
 // holes.json: the parameters that change results, the inputs, counts, and one line for each loop, in order.
 // Runs with the same answer write the same bytes. docs/holes.schema.json describes it; the form has a number,

@@ -4,7 +4,6 @@
 #include "io/files/number.hpp"
 #include "io/loops/json.hpp"
 #include "io/results/gis_library.hpp"
-#include "io/results/gis_marks.hpp"
 #include "io/results/results.hpp"
 
 #include <cmath>
@@ -55,18 +54,18 @@ void write_list(std::string_view key, const List& elements, const Print& print_e
 
 struct VoidsFile {
   const char* name;
-  FileMark (*mark)();
   void (*write)(const AreaCheck&, const FileScan&, const AreaConfig&, OutputFile&);
   Writer writer = Writer::kThis;
 };
-constexpr VoidsFile kVoidsFiles[] = {{"voids.gpkg", voids_gpkg_mark,
-                                      [](const AreaCheck& check, const FileScan& scan, const AreaConfig&,
-                                         OutputFile& out) { write_voids_gpkg(check, scan, out); },
-                                      Writer::kLibrary},
-                                     {"voids.csv", [] { return FileMark(kVoidsHeader); },
-                                      [](const AreaCheck& check, const FileScan&, const AreaConfig&,
-                                         OutputFile& out) { write_voids_table(check, out); }},
-                                     {kVoidsFile, [] { return FileMark(kJsonMark); }, write_voids_json}};
+constexpr VoidsFile kVoidsFiles[] = {
+    {"voids.gpkg",
+     [](const AreaCheck& check, const FileScan& scan, const AreaConfig&, OutputFile& out) {
+       write_voids_gpkg(check, scan, out);
+     },
+     Writer::kLibrary},
+    {"voids.csv", [](const AreaCheck& check, const FileScan&, const AreaConfig&,
+                     OutputFile& out) { write_voids_table(check, out); }},
+    {kVoidsFile, write_voids_json}};
 
 }  // namespace
 
@@ -112,22 +111,15 @@ void write_voids_table(const AreaCheck& check, OutputFile& out) {
   }
 }
 
-void check_voids_folder(const FileScan& scan, const std::filesystem::path& folder, Overwrite overwrite) {
-  for (const VoidsFile& file : kVoidsFiles) {
-    check_not_input(folder / file.name, scan);
-    check_output(folder / file.name, file.mark(), overwrite);
-  }
-}
-
 std::vector<std::filesystem::path> write_voids(const AreaCheck& check, const FileScan& scan,
-                                               const AreaConfig& config, const std::filesystem::path& folder,
-                                               Overwrite overwrite) {
-  check_voids_folder(scan, folder, overwrite);
-  OutputSet set(overwrite);
-  for (const VoidsFile& file : kVoidsFiles)
-    file.write(check, scan, config, set.add(folder / file.name, file.mark(), file.writer));
+                                               const AreaConfig& config, ResultFolder& folder) {
+  for (const VoidsFile& each : kVoidsFiles) {
+    const auto file = folder.open(each.name, each.writer);
+    each.write(check, scan, config, *file);
+    file->close();
+  }
   scan.check_unchanged();
-  return set.commit();
+  return folder.commit();
 }
 
 }  // namespace lacuna::io

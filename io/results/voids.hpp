@@ -5,7 +5,7 @@
 #include "engine/export.hpp"
 #include "io/area/area_check.hpp"
 #include "io/area/voids_form.hpp"
-#include "io/files/output_set.hpp"
+#include "io/files/result_folder.hpp"
 #include "io/options/options.hpp"
 #include "io/scan/file_scan.hpp"
 
@@ -25,14 +25,8 @@ void write_voids_json(const AreaCheck& check, const FileScan& scan, const AreaCo
 // One line for each void. What is not finite is empty.
 void write_voids_table(const AreaCheck& check, OutputFile& out);
 
-// Throws `Error` if the results of `lacuna check` may not be written to `folder`.
-LACUNA_API void check_voids_folder(const FileScan& scan, const std::filesystem::path& folder,
-                                   Overwrite overwrite);
-
-// Writes these files alone, as one set. Makes the folder if it is missing. Returns the files. Throws `Error`.
+// Writes these files alone to the folder, which then takes its name. Returns the files. Throws `Error`.
 LACUNA_API std::vector<std::filesystem::path> write_voids(const AreaCheck& check, const FileScan& scan,
-                                                          const AreaConfig& config,
-                                                          const std::filesystem::path& folder,
-                                                          Overwrite overwrite);
+                                                          const AreaConfig& config, ResultFolder& folder);
 
 }  // namespace lacuna::io

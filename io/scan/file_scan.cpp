@@ -340,10 +340,12 @@ std::vector<std::size_t> FileScan::repeated() const {
   return repeated;
 }
 
-void check_not_input(const std::filesystem::path& file, const FileScan& scan) {
-  if (const std::optional<std::size_t> input = scan.find(file))
-    throw Error(scan.files()[*input].string() +
-                ": is an input in the place of a result; another output folder is needed");
+void check_not_input(const ResultFolder& folder, const FileScan& scan) {
+  for (const std::filesystem::path& file : folder.earlier_files()) {
+    if (const std::optional<std::size_t> input = scan.find(file))
+      throw Error(scan.files()[*input].string() +
+                  ": is an input in the place of a result; another output folder is needed");
+  }
 }
 
 }  // namespace lacuna::io

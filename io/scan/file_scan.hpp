@@ -6,6 +6,7 @@
 #include "engine/model/points.hpp"
 #include "io/crs/stated_crs.hpp"
 #include "io/files/file_state.hpp"
+#include "io/files/result_folder.hpp"
 #include "io/rows/pose.hpp"
 #include "io/rows/scan_reader.hpp"
 #include "io/scan/row_filter.hpp"
@@ -173,7 +174,7 @@ class LACUNA_API FileScan : public PointSource {
   std::vector<Eigen::Vector3d> read_;  // positions before the filters, for the observer
 };
 
-// Throws `Error` if `file`, which is to be replaced or removed, is an input of the scan.
-void check_not_input(const std::filesystem::path& file, const FileScan& scan);
+// Throws `Error` if an earlier result that the folder replaces is an input of the scan.
+LACUNA_API void check_not_input(const ResultFolder& folder, const FileScan& scan);
 
 }  // namespace lacuna::io

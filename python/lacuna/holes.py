@@ -270,16 +270,15 @@ class Holes:
 
     # ---- files
 
-    def save(self, folder: Union[str, os.PathLike], *, overwrite: bool = False, **params: Any) -> list[Path]:
-        """Writes the files of `lacuna detect --out` to a folder, and returns their names.
+    def save(self, folder: Union[str, os.PathLike], **params: Any) -> list[Path]:
+        """Writes the files of `lacuna detect --out` to a folder: a new one, or one of earlier results. Returns their names.
 
         params: parameters of the section `output`, such as report=True, gpkg=True, points_format="ply".
-        overwrite: replaces files, too, that Lacuna did not write.
         """
         from .run import _checked
 
         if self._found is not None:
-            return list(self._found.save(os.fspath(folder), _checked(params), overwrite))
+            return list(self._found.save(os.fspath(folder), _checked(params)))
         if params:
             raise _core.Error("loaded results are copied as they are; save the result of a run to have other files")
         target = Path(folder)

@@ -208,7 +208,7 @@ TEST_CASE("without permission to read or to write there is one line that names t
   check_failure(test::run_command(as_nobody(
                     {"detect", scan, "--out", (root / "other").string(), "--scratch", locked, "--quiet"})),
                 1, "locked");
-  CHECK(count_entries(locked) == 0);
+  CHECK(fs::is_empty(locked));
   CHECK_FALSE(fs::exists(root / "other"));
 
   ::chmod(scan.c_str(), 0000);
@@ -258,7 +258,7 @@ TEST_CASE("a disk that is full, in whatever phase, ends the run with one line an
         detect_quietly(scan, out,
                        {"--scratch", disk.path().string(), "--points", "--points-normals", "--orient-normals",
                         "--tile-points", "500", "--memory-limit", "64MiB"});
-    CHECK(count_entries(disk.path()) == 0);
+    CHECK(fs::is_empty(disk.path()));
     if (result.exit_code == 0) {
       ++done;
       CHECK(count_entries(out) == 7);
@@ -283,7 +283,7 @@ TEST_CASE("a disk that is full, in whatever phase, ends the run with one line an
     if (result.exit_code == 0) continue;
     ++failed;
     check_failure(without_warnings(result), 1, disk.path().string());
-    CHECK(count_entries(disk.path()) == 0);
+    CHECK(fs::is_empty(disk.path()));
   }
   CHECK(failed >= 3);
 }
@@ -303,7 +303,7 @@ TEST_CASE("a disk that cannot hold the points is said once they are counted, bef
   check_failure(without_warnings(result), 1,
                 "the run needs at least 1.4 MiB; --scratch names a folder on another one");
   CHECK_THAT(result.err, Catch::Matchers::Contains("the run needs about "));
-  CHECK(count_entries(disk.path()) == 0);
+  CHECK(fs::is_empty(disk.path()));
   CHECK_FALSE(fs::exists(out));
 }
 

@@ -65,7 +65,7 @@ TEST_CASE("a system whose lengths are not those on the ground is refused, with t
   const std::string equator =
       scratch.write("equator.xyz", plane(30).punched({15, 15}, 5).translated({1'000'000, 100, 100}).text());
   const auto detect = [&](const std::string& scan, const std::string& crs) {
-    return run_program({"detect", scan, "--out", (scratch / "out").string(), "--overwrite", "--crs", crs});
+    return run_program({"detect", scan, "--out", (scratch / "out").string(), "--crs", crs});
   };
   check_failure(detect(north, "EPSG:3857"), 1, "EPSG:32632");
   CHECK(detect(equator, "EPSG:3857").exit_code == 0);

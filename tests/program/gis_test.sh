@@ -298,20 +298,13 @@ cells = sum(float(line.split()[2]) for line in Path("island.holes.xyz").read_tex
 assert math.isclose(0.25 * cells, ring + whole[inner["id"]], rel_tol=0.01), cells
 END
 
-# Files of the same names that Lacuna did not write.
+# A folder with a file that Lacuna did not write.
 mkdir others
 ogr2ogr -f GPKG others/loops.gpkg utm/loops.geojson -nln mine
-ogr2ogr -f GeoJSON others/loops.geojson utm/loops.geojson -nln mine
 cp -r others before
-for format in gpkg geojson; do
-  if "$program" detect utm.las --out others "--$format" --quiet 2>refused.txt; then exit 1; fi
-  grep -q "loops.$format: exists, and this command did not write it" refused.txt
-done
+if "$program" detect utm.las --out others --gpkg --quiet 2>refused.txt; then exit 1; fi
+grep -q "others/loops.gpkg: is no result of an earlier run" refused.txt
 diff -r others before
-"$program" detect utm.las --out others --quiet  # none of these is a result that an earlier run has left
-for file in before/*; do
-  cmp "$file" "others/${file#*/}"
-done
 # Own ones that this run does not want go.
 "$program" detect utm.las --out again --quiet
 [[ -z $(find again -name 'loops.*' ! -name loops.ply) ]]

@@ -265,7 +265,7 @@ TEST_CASE("a run says which programs cannot read the 64-bit coordinates that it 
                           const std::vector<std::string>& more = {}) {
     std::vector<std::string> words = {
         "detect",          scan,   "--out",      (scratch / "out").string(), "--points",
-        "--points-format", format, "--overwrite"};
+        "--points-format", format};
     words.insert(words.end(), more.begin(), more.end());
     return run_program(words).out;
   };
@@ -289,78 +289,53 @@ TEST_CASE("temporary files go to a folder elsewhere, and are gone at the end") {
   CHECK_FALSE(fs::exists(scratch / "temporary"));  // made for the run, empty after it
 }
 
-TEST_CASE("one run at a time writes to a folder, and warns of what a killed one has left there") {
+TEST_CASE("one run at a time writes to a folder, and what a killed one has left goes") {
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.txt", sheet(20));
-  const fs::path out = scratch / "out";
-  fs::create_directory(out);
-  fs::create_directory(out / ".lacuna-killed");
-  const int other = open(out.c_str(), O_RDONLY | O_DIRECTORY);
+  const fs::path out = scratch / "out", beside = scratch / ".out.lacuna";
+  fs::create_directories(beside / "results");
+  scratch.write(".out.lacuna/results/holes.json", "half");
+  const int other = open(beside.c_str(), O_RDONLY | O_DIRECTORY);
   REQUIRE(flock(other, LOCK_EX) == 0);
-  check_failure(run_program({"detect", scan, "--out", out.string()}), 1,
-                "another run writes its results there");
-  CHECK(count_entries(out) == 1);
+  check_failure(run_program({"detect", scan, "--out", out.string()}), 1, "another run is at work there");
+  CHECK_FALSE(fs::exists(out));
   close(other);
-  const ProgramResult result = run_program({"detect", scan, "--out", out.string(), "--quiet"});
-  CHECK(result.exit_code == 0);
-  CHECK_THAT(result.err, Contains(".lacuna-killed") && Contains("left by a run that was killed"));
-  CHECK(count_entries(out) == 7);
+  CHECK(run_program({"detect", scan, "--out", out.string(), "--quiet"}).err.empty());
+  CHECK(count_entries(out) == 6);
+  CHECK_FALSE(fs::exists(beside));
 }
 
-TEST_CASE("a file of another program under any result's name is refused before the work, or replaced") {
+TEST_CASE("results replace earlier results alone, and all of them") {
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.txt", sheet(20));
   const fs::path out = scratch / "out";
   const std::vector<std::string> plain = {"detect", scan, "--out", out.string(), "--quiet"};
   std::vector<std::string> all = plain;
   all.insert(all.end(), {"--points", "--points-format", "ply", "--lids", "--obj", "--report"});
-  fs::create_directories(out);
-  const std::string mine = "x y z\n1 2 3\n";
-  for (const std::string name : {"points.ply", "lids.obj", "lids.ply", "lids.csv", "loops.obj", "loops.ply",
-                                 "boundary.ply", "sample.ply", "holes.json", "holes.csv", "report.html"}) {
-    INFO(name);
-    scratch.write("out/" + name, mine);
-    check_failure(run_program(all), 1, name + ": exists, and this command did not write it");
-    CHECK(test::read_file(out / name) == mine);
-    CHECK(fs::exists(out / "points.ply") == (name == "points.ply"));
-    fs::remove(out / name);
-  }
-  scratch.write("out/points.ply", mine);
-  all.emplace_back("--overwrite");
+  fs::create_directory(out);
+  scratch.write("out/holes.json", "mine");
+  check_failure(run_program(plain), 1, "out/holes.json: is no result of an earlier run");
+  CHECK(test::read_file(out / "holes.json") == "mine");
+  fs::remove(out / "holes.json");
   REQUIRE(run_program(all).exit_code == 0);
-  all.pop_back();
-  CHECK(run_program(all).exit_code == 0);  // its own files
   CHECK(count_entries(out) == 12);
-  CHECK(run_program(plain).exit_code == 0);  // removes what it does not write
+  CHECK(run_program(plain).exit_code == 0);
   CHECK(count_entries(out) == 6);
+  scratch.write("out/notes.txt", "mine");
+  check_failure(run_program(plain), 1, "out/notes.txt: is no result of an earlier run");
+  CHECK(count_entries(out) == 7);
 }
 
-TEST_CASE("files, links, folders and pipes of like names are not touched, by a signal neither") {
+TEST_CASE("temporary and kept folders are not in the folder of the results") {
   const ScratchFolder scratch;
-  const std::string scan = scratch.write("scan.txt", sheet(400));
-  const fs::path out = scratch / "out";
-  fs::create_directory(out);
-  const std::string mine = scratch.write("mine", "precious");
-  scratch.write("out/boundary.ply.partial", "precious");
-  fs::create_symlink(mine, out / "loops.ply.partial");
-  REQUIRE(mkfifo((out / "points.ply.partial").c_str(), 0600) == 0);
-  fs::create_directories(out / "holes.json.partial" / "mine");
-  const std::vector<std::string> arguments = {"detect",          scan,  "--out",  out.string(), "--points",
-                                              "--points-format", "ply", "--quiet"};
-  const auto is_untouched = [&] {
-    return test::read_file(mine) == "precious" &&
-           test::read_file(out / "boundary.ply.partial") == "precious" &&
-           fs::is_symlink(out / "loops.ply.partial") && fs::is_fifo(out / "points.ply.partial") &&
-           fs::exists(out / "holes.json.partial" / "mine");
-  };
-  const ProgramResult ended =
-      test::run_program_until(arguments, SIGTERM, [&] { return count_entries(out) > 4; });
-  CHECK(ended.exit_code == 128 + SIGTERM);
-  CHECK(count_entries(out) == 4);
-  CHECK(is_untouched());
-  CHECK(run_program(arguments).exit_code == 0);
-  CHECK(count_entries(out) == 11);
-  CHECK(is_untouched());
+  const std::string scan = scratch.write("scan.txt", sheet(20));
+  for (const char* option : {"--workspace", "--scratch"}) {
+    for (const char* folder : {"out", "out/inside"})
+      check_failure(
+          run_program({"detect", scan, "--out", (scratch / "out").string(), option, (scratch / folder).string()}),
+          2, "is in the folder of the results; allowed: another one for " + std::string(option));
+  }
+  CHECK_FALSE(fs::exists(scratch / "out"));
 }
 
 TEST_CASE("a signal while results replace older ones leaves the older ones or all new ones") {
@@ -371,11 +346,7 @@ TEST_CASE("a signal while results replace older ones leaves the older ones or al
                                               "--points-format", "ply", "--quiet"};
   REQUIRE(run_program(arguments).exit_code == 0);
   const std::string before = test::read_file(out / "holes.json");
-  const auto is_writing = [&] {
-    const auto entries = fs::recursive_directory_iterator(out, fs::directory_options::skip_permission_denied);
-    return std::any_of(begin(entries), end(entries),
-                       [](const auto& entry) { return entry.path().string().ends_with("new/holes.json"); });
-  };
+  const auto is_writing = [&] { return fs::exists(scratch / ".out.lacuna/results/holes.json"); };
   for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
     const auto written = fs::last_write_time(out / "holes.json");
     const ProgramResult result = test::run_program_until(arguments, signal, is_writing);
@@ -389,19 +360,20 @@ TEST_CASE("a signal while results replace older ones leaves the older ones or al
     }
     CHECK(result.exit_code == 128 + signal);
     if (signal != SIGKILL) CHECK(result.err == "lacuna: interrupted; " + out.string() + " is as it was\n");
-    CHECK(count_entries(out) == (signal == SIGKILL ? 9 : 7));  // the workspace, and the results half-written
+    CHECK(count_entries(out) == 7);
+    CHECK(fs::exists(scratch / ".out.lacuna") == (signal == SIGKILL));
   }
 }
 
 TEST_CASE("a signal while a scan is made leaves nothing") {
   const ScratchFolder scratch;
-  const auto is_writing = [&] { return count_entries(scratch.path()) > 0; };
+  const auto is_writing = [&] { return !fs::is_empty(scratch.path()); };
   const ProgramResult result =
       test::run_program_until({"synth", "surface", (scratch / "made.ply").string(), "--points", "20000000"},
                               SIGINT, is_writing, test::Program::kBench);
   CHECK(result.exit_code == 128 + SIGINT);
   CHECK(result.err == "lacuna-bench: interrupted\n");
-  CHECK(count_entries(scratch.path()) == 0);
+  CHECK(fs::is_empty(scratch.path()));
 }
 
 TEST_CASE("names of columns are divided by blanks or commas") {
@@ -417,7 +389,7 @@ TEST_CASE("a signal ends the run and removes the workspace") {
     const ScratchFolder scratch;
     const std::string scan = scratch.write("scan.txt", sheet(600));
     const fs::path out = scratch / "out";
-    const auto has_workspace = [&out] { return fs::exists(out) && count_entries(out) > 0; };
+    const auto has_workspace = [&] { return fs::exists(scratch / ".out.lacuna"); };
     const ProgramResult result =
         test::run_program_until({"detect", scan, "--out", out.string()}, signal, has_workspace);
     CHECK(result.exit_code == 128 + signal);

@@ -122,7 +122,8 @@ TEST_CASE("a signal ends the run while nobody takes its messages") {
       INFO("signal " << signal << ", " << style);
       const fs::path out = scratch / (style + std::to_string(signal));
       Blocked run({LACUNA_PROGRAM, "detect", scan, "--out", out.string(), "--progress", style});
-      const auto has_workspace = [&] { return fs::exists(out) && count_entries(out) > 0; };
+      const fs::path beside = scratch / ("." + out.filename().string() + ".lacuna");
+      const auto has_workspace = [&] { return fs::exists(beside); };
       for (int i = 0; i < 3000 && !has_workspace(); ++i)
         REQUIRE_FALSE(run.wait(std::chrono::milliseconds(10)));
       REQUIRE_FALSE(run.wait(std::chrono::seconds(1)));  // by now it is blocked
@@ -169,9 +170,8 @@ TEST_CASE("a folder that cannot be removed after a run is named, and the results
   fs::path held;
   bool is_held = true;
   const auto hold = [&](pid_t) {  // what is mounted cannot be removed
-    const std::vector<fs::path> folders = find_folders(out, kTemporaryPrefix);
-    if (!held.empty() || folders.empty()) return;
-    held = folders.front() / "held";
+    if (!held.empty() || !fs::exists(scratch / ".out.lacuna")) return;
+    held = scratch / ".out.lacuna/held";
     fs::create_directory(held);
     is_held = ::mount("tmpfs", held.c_str(), "tmpfs", 0, "size=4k") == 0;
   };
@@ -187,7 +187,7 @@ TEST_CASE("a folder that cannot be removed after a run is named, and the results
   CHECK_THAT(result.err, StartsWith("lacuna: warning: " + held.parent_path().string()) &&
                              Contains("is not needed any more, but cannot be removed: "));
   CHECK(test::count_lines(result.err) == 1);
-  CHECK(count_entries(out) == 7);
+  CHECK(count_entries(out) == 6);
 }
 
 TEST_CASE("threads that cannot be started are an error of one line") {
@@ -241,7 +241,7 @@ TEST_CASE("an input that is replaced during a run ends it, and leaves nothing") 
   for (const auto& change : changes) {
     const std::string scan = scratch.write("scan.xyz", text);
     const auto change_when_read = [&] {
-      const bool is_read = fs::exists(out) && count_entries(out) > 0;  // the workspace is there
+      const bool is_read = fs::exists(scratch / ".out.lacuna/results");
       if (is_read) change(scan);
       return is_read;
     };

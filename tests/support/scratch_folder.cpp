@@ -36,8 +36,10 @@ std::vector<std::string> ScratchFolder::names() const {
 }
 
 std::size_t count_entries(const std::filesystem::path& folder) {
-  using Iterator = std::filesystem::directory_iterator;
-  return static_cast<std::size_t>(std::distance(Iterator(folder), Iterator()));
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    count += entry.path().filename().string().starts_with('.') ? 0 : 1;
+  return count;
 }
 
 std::string read_file(const std::filesystem::path& file) {

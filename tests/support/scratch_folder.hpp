@@ -27,6 +27,7 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
+// Without hidden ones, which begin with a dot.
 std::size_t count_entries(const std::filesystem::path& folder);
 
 std::string read_file(const std::filesystem::path& file);

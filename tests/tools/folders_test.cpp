@@ -2,6 +2,7 @@
 #include "tools/run/folders.hpp"
 
 #include "engine/run/error.hpp"
+#include "io/files/folder_lock.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <optional>
@@ -36,21 +37,21 @@ class NoMoreFiles {
 
 TEST_CASE("a folder is locked for one at a time, and free again afterwards") {
   const ScratchFolder folder;
-  std::optional<FolderLock> first(folder.path());
-  CHECK_THROWS_WITH(FolderLock(folder.path()),
-                    folder.path().string() + ": another run writes its results there");
+  std::optional<io::FolderLock> first(folder.path());
+  CHECK_THROWS_WITH(io::FolderLock(folder.path()),
+                    folder.path().string() + ": another run is at work there");
   first.reset();
-  CHECK_NOTHROW(FolderLock(folder.path()));
+  CHECK_NOTHROW(io::FolderLock(folder.path()));
 }
 
 TEST_CASE("a lock that cannot be had is an error that names the folder") {
   const ScratchFolder folder;
   const auto lock = [&](const fs::path& of) {
     const NoMoreFiles limit;
-    FolderLock lock(of);
+    io::FolderLock lock(of);
   };
   CHECK_THROWS_WITH(lock(folder.path()), folder.path().string() + ": cannot be opened: Too many open files");
-  CHECK_THROWS_WITH(FolderLock(folder / "none"), Contains("none: cannot be opened: No such file"));
+  CHECK_THROWS_WITH(io::FolderLock(folder / "none"), Contains("none: cannot be opened: No such file"));
 }
 
 TEST_CASE("folders made for a run go if they are empty, and a detour is not made") {

@@ -38,13 +38,12 @@ void run_check(const CheckArguments& arguments) {
   const std::unique_ptr<FileScan> scan =
       open_inputs(expand_inputs(arguments.scans, read_options(config), config.input), config);
   const Area area = *read_area(*scan, config);
-  const Overwrite overwrite = arguments.run.overwrite ? Overwrite::kAny : Overwrite::kOwn;
-  std::optional<MadeFolder> folder;
-  std::optional<FolderLock> alone;
+  std::optional<MadeFolder> parent;
+  std::optional<ResultFolder> folder;
   if (!arguments.run.out.empty()) {
+    parent.emplace(parent_of(arguments.run.out));
     folder.emplace(arguments.run.out);
-    alone.emplace(folder->path());
-    check_voids_folder(*scan, folder->path(), overwrite);
+    check_not_input(*folder, *scan);
     watch_results(folder->path(), folder->path() / kVoidsFile);
   }
   const std::unique_ptr<Progress> progress =
@@ -57,7 +56,7 @@ void run_check(const CheckArguments& arguments) {
   if (const std::string voids = print_voids(check, unit); !voids.empty()) text += voids + "\n";
   text += "  area  " + print_covered(check, unit) + "\n\n";
   if (folder) {
-    for (const auto& file : write_voids(check, *scan, config.area, folder->path(), overwrite))
+    for (const auto& file : write_voids(check, *scan, config.area, *folder))
       text += "written: " + visible(file.string()) + "\n";
     note_complete_results();
   }

@@ -62,6 +62,15 @@ void require(const Command& command, const std::string& option) {
   if (!command.option(option).is_given()) throw WrongOption(option + " is required");
 }
 
+// The results replace all that their folder has.
+void require_outside(const std::string& folder, const fs::path& out, const std::string& option) {
+  if (folder.empty()) return;
+  const fs::path within =
+      fs::weakly_canonical(fs::absolute(folder)).lexically_relative(fs::weakly_canonical(fs::absolute(out)));
+  if (!within.empty() && *within.begin() != "..")
+    throw UsageError(folder + ": is in the folder of the results; allowed: another one for " + option);
+}
+
 // A workspace that this run alone uses.
 struct UsedWorkspace {
   explicit UsedWorkspace(const fs::path& folder) : folder(folder), alone(this->folder.path()) {}
@@ -70,20 +79,18 @@ struct UsedWorkspace {
 };
 
 // Returns nothing if the name is empty.
-std::unique_ptr<UsedWorkspace> use_workspace(const std::string& name, const fs::path& out) {
+std::unique_ptr<UsedWorkspace> use_workspace(const std::string& name) {
   if (name.empty()) return nullptr;
   std::error_code error;
-  if (fs::equivalent(name, out, error))
-    throw UsageError(name + ": is the folder of the results, too; allowed: another one for --workspace");
   auto used = std::make_unique<UsedWorkspace>(name);
   for (const fs::path& left : find_folders(used->folder.path(), "lacuna-"))
     fs::remove(left, error);  // if it is empty
   return used;
 }
 
-fs::path scratch_parent(const RunConfig& run, const fs::path& out) {
+fs::path scratch_parent(const RunConfig& run, const ResultFolder& out) {
   if (!run.scratch.empty()) return run.scratch;
-  return run.workspace.empty() ? out : fs::path(run.workspace);
+  return run.workspace.empty() ? out.temporary() : fs::path(run.workspace);
 }
 
 // Returns an empty text if every program reads the file.
@@ -132,30 +139,27 @@ std::unique_ptr<FileScan> open_inputs(const std::vector<ScanInput>& inputs, cons
 
 ResultArguments::ResultArguments(const Command& command, ParameterScope scope)
     : RunArguments(command, scope) {
-  command.add_option("--out", out, "Folder for the results; created if missing").type("DIR");
   command
-      .add_flag("--overwrite", overwrite,
-                "Replace files that lacuna detect did not write, too, where results need their names")
-      .rare();
+      .add_option("--out", out,
+                  "Folder for the results: a new one, or one of earlier results, which they replace")
+      .type("DIR");
 }
 
 std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
                       const ResultArguments& arguments) {
   if (config.run.note.empty()) config.run.note = print_config(config);
   const Clock::time_point start = Clock::now();
-  const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
+  require_outside(config.run.workspace, arguments.out, "--workspace");
+  require_outside(config.run.scratch, arguments.out, "--scratch");
   const std::unique_ptr<FileScan> opened = open_inputs(inputs, config);
   FileScan& scan = *opened;
 
   const std::optional<Area> area = read_area(scan, config);
-  const MadeFolder out_folder(arguments.out);
-  const fs::path& out = out_folder.path();
-  const FolderLock alone(out);
-  check_output_folder(scan, config, out, overwrite);
-  watch_results(out, out / "holes.json");
-  for (const fs::path& left : find_folders(out, kTemporaryPrefix))
-    spdlog::warn("{}: left by a run that was killed, or kept on purpose; it can be removed", left.string());
-  const std::unique_ptr<UsedWorkspace> workspace = use_workspace(config.run.workspace, out);
+  const MadeFolder out_parent(parent_of(arguments.out));
+  ResultFolder out(arguments.out);
+  check_results(scan, config, out);
+  watch_results(out.path(), out.path() / "holes.json");
+  const std::unique_ptr<UsedWorkspace> workspace = use_workspace(config.run.workspace);
   if (workspace) {
     const fs::path& folder = workspace->folder.path();
     watch_workspace(folder);
@@ -163,9 +167,9 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
       spdlog::info("goes on in {}: {}", folder.string(), print_state(*state));
   }
   const MadeFolder parent(scratch_parent(config.run, out));
-  const TemporaryFolder scratch(parent.path(), parent.path() == out ? kTemporaryPrefix : "lacuna-");
+  const TemporaryFolder scratch(parent.path(), "lacuna-");
   for (const std::string& warning : memory_warnings(config)) spdlog::warn("{}", warning);
-  for (const std::string& warning : check_disks(scan, config, parent.path(), out))
+  for (const std::string& warning : check_disks(scan, config, parent.path(), out.temporary()))
     spdlog::warn("{}", warning);
   const std::unique_ptr<Progress> progress = arguments.show_progress(config);
 
@@ -175,7 +179,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   if (area) detection.area = check_area(*area, scan, config, *progress);
   const Clock::time_point writing = Clock::now();
   progress->begin("write", 0);
-  const std::vector<fs::path> written = write_results(detection, scan, with_min_hole(config), out, overwrite);
+  const std::vector<fs::path> written = write_results(detection, scan, with_min_hole(config), out);
   note_complete_results();
   progress->end();
   if (detection.area)

@@ -34,7 +34,6 @@ struct ResultArguments : RunArguments {
   explicit ResultArguments(const Command& command, ParameterScope scope = ParameterScope::kRun);
 
   std::filesystem::path out;
-  bool overwrite = false;
 };
 
 // The parameters of a run that a workspace keeps.

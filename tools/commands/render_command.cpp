@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/error.hpp"
+#include "io/files/new_file.hpp"
 #include "io/files/number.hpp"
-#include "io/files/output_set.hpp"
 #include "io/report/render.hpp"
 #include "io/report/section.hpp"
 #include "tools/commands/commands.hpp"
@@ -54,11 +54,11 @@ void run_render(const RenderArguments& arguments) {
   if (arguments.most_height) hide_above(scene, *arguments.most_height);
   const View view = find_view(scene, arguments.view, width, height);
   const PictureSize size{width, height};
-  OutputSet set(overwrite);
-  PngWriter png(size, set.add(arguments.out, picture_mark()));
+  NewFile out(arguments.out, picture_mark(), overwrite);
+  PngWriter png(size, out.content());
   render(scene, view, size, arguments.as_it_came, [&](std::span<const Colour> row) { png.write(row); });
   png.finish();
-  set.commit();
+  out.commit();
   std::cout << "written: " << visible(arguments.out.string()) << "\n";
   if (scene.strays > 0)
     std::cout << "left out: " << scene.strays << (scene.strays == 1 ? " point" : " points")

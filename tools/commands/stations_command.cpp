@@ -3,7 +3,8 @@
 #include "engine/run/parallel.hpp"
 #include "io/crs/degrees.hpp"
 #include "io/crs/length_unit.hpp"
-#include "io/files/output_set.hpp"
+#include "io/files/new_file.hpp"
+#include "io/files/result_folder.hpp"
 #include "io/report/scene.hpp"
 #include "io/rows/vectors.hpp"
 #include "io/stations/next_stations.hpp"
@@ -130,9 +131,10 @@ void write_places(const fs::path& file, Overwrite overwrite, const Scene& scene,
          {"geometry", {{"type", "Point"}, {"coordinates", list(degrees ? (*degrees)[i] : eyes[i])}}},
          {"properties", properties}});
   }
-  OutputSet set(overwrite);
-  set.add(file, kNextStationsMark).write(print(json, 2) + "\n");
-  set.commit();
+  NewFile out(file, kNextStationsMark, overwrite);
+  out.content().write(print(json, 2) + "\n");
+  note_result(file.parent_path(), file.filename().string());
+  out.commit();
 }
 
 void print_places(const Scene& scene, std::span<const NextStation> chosen, std::span<const NamedPlace> tried,

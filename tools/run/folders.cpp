@@ -11,9 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include <fcntl.h>
-#include <spdlog/spdlog.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 namespace lacuna::tools {
@@ -77,6 +74,11 @@ void MadeFolder::remove_empty() const {
   }
 }
 
+fs::path parent_of(const fs::path& folder) {
+  const fs::path name = folder.has_filename() ? folder : folder.parent_path();
+  return name.has_parent_path() ? name.parent_path() : ".";
+}
+
 Option add_results_folder(const Command& command, fs::path& folder) {
   return command.add_option("DIR", folder, "Folder with the results of lacuna detect").type("DIR").required();
 }
@@ -88,27 +90,6 @@ fs::path scratch_folder(const RunConfig& run) {
 void remove_made_folders() {
   mutex.lock();  // and never unlocked
   for (auto folder = living.rbegin(); folder != living.rend(); ++folder) (*folder)->remove_empty();
-}
-
-FolderLock::FolderLock(const fs::path& folder)
-    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  if (descriptor_ < 0) throw Error(folder.string() + ": cannot be opened: " + std::strerror(errno));
-  while (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-    const int reason = errno;
-    if (reason == EINTR) continue;
-    if (reason == EOPNOTSUPP || reason == ENOLCK || reason == ENOSYS) {
-      spdlog::warn("{}: its file system knows no locks; no other run may write its results there meanwhile",
-                   folder.string());
-      return;
-    }
-    ::close(descriptor_);
-    if (reason == EWOULDBLOCK) throw Error(folder.string() + ": another run writes its results there");
-    throw Error(folder.string() + ": cannot be locked: " + std::strerror(reason));
-  }
-}
-
-FolderLock::~FolderLock() {
-  ::close(descriptor_);
 }
 
 }  // namespace lacuna::tools

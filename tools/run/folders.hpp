@@ -30,6 +30,9 @@ class MadeFolder {
   std::vector<std::filesystem::path> made_;  // innermost first
 };
 
+// Returns the folder that holds, or will hold, the folder of this name.
+std::filesystem::path parent_of(const std::filesystem::path& folder);
+
 // Adds the argument DIR of commands that begin with the results of a run.
 Option add_results_folder(const Command& command, std::filesystem::path& folder);
 
@@ -40,19 +43,5 @@ std::filesystem::path scratch_folder(const RunConfig& run);
 // For the thread that handles signals: removes the folders of all living MadeFolders that are empty. No
 // folder can be made afterwards: a thread that tries stops there, as the process is about to end.
 void remove_made_folders();
-
-// Keeps other runs from writing to an existing folder, as long as the lock lives. The lock goes with the
-// process, however that ends. Throws `Error` if another run has the lock, or if it cannot be had. On a file
-// system that knows no locks, the log has a warning.
-class FolderLock {
- public:
-  explicit FolderLock(const std::filesystem::path& folder);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int descriptor_;
-};
 
 }  // namespace lacuna::tools

@@ -95,7 +95,7 @@ TEST_CASE("files of one name from two folders are an error before the work, but 
   for (const char* name : {"a", "b"}) std::filesystem::create_directory(folder / name);
   const FileScan scan({folder.write("a/x.xyz", kText), folder.write("b/x.txt", kText)}, {});
   const auto check = [&](const FilesConfig& config) {
-    return error_of([&] { check_output_folder(scan, config, folder / "out", Overwrite::kAny); });
+    return error_of([&] { check_points(scan, config); });
   };
   CHECK_THAT(check(with_points()), Contains("b/x.txt: its results and those of ") &&
                                        Contains("a/x.xyz would both be points/x.csv; rename one, or "
@@ -131,10 +131,10 @@ TEST_CASE("the annotated scan of an earlier run goes, whatever its files were", 
     CHECK(names_of(points) == Names{"d.ply"});
     for (const char* name : {"points.ply", "points.csv"}) CHECK_FALSE(std::filesystem::exists(out / name));
   }
-  // Other files stay.
   folder.write("out/points/mine.ply", kPly);
-  write_results(of_one, one, FilesConfig{}, out);
-  CHECK(names_of(points) == Names{"mine.ply"});
+  CHECK_THAT(error_of([&] { write_results(of_one, one, FilesConfig{}, out); }),
+             Contains("out/points/mine.ply: is no result of an earlier run"));
+  CHECK(names_of(points) == Names{"d.ply", "mine.ply"});
 }
 
 TEST_CASE("an input in the place of an annotated file is refused", "[io][results]") {

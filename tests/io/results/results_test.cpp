@@ -69,13 +69,13 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
   FilesConfig config;
   config.neighbourhood.k = 21;
   config.selection.holes_only = true;
-  write_results(detection, scan, config, folder.path());
+  write_results(detection, scan, config, folder / "out");
 
-  const auto json = report(folder.path());
+  const auto json = report(folder / "out");
   CHECK(json.at("lacuna") == "0.1.0");
   CHECK(json.at("schema") == "holes 2");
   for (const Parameter& parameter : parameters(config)) {
-    const auto run = run_of(folder.path());
+    const auto run = run_of(folder / "out");
     const auto& place = parameter.section == "run" ? run : json;
     CHECK(place.at("parameters").at(std::string(parameter.section)).contains(std::string(parameter.key)));
   }
@@ -88,12 +88,12 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
   CHECK(json.at("counts").at("holes") == 1);
   CHECK(json.at("counts").at("outer") == 1);
   CHECK(json.at("bounds").at("max") == nlohmann::json{3, 4, 5});
-  CHECK(run_of(folder.path()).at("phases")[0].at("points_per_second") == 5);
-  CHECK(run_of(folder.path()).at("total_seconds") == 5);
+  CHECK(run_of(folder / "out").at("phases")[0].at("points_per_second") == 5);
+  CHECK(run_of(folder / "out").at("total_seconds") == 5);
   CHECK(json.at("loops")[0].at("ids") == nlohmann::json{1, 5, 3});
   CHECK(json.at("loops")[1].at("kind") == "outer");
   CHECK(json.at("loops")[1].at("area").is_null());
-  CHECK_THAT(read_file(folder / "holes.json"),
+  CHECK_THAT(read_file(folder / "out/holes.json"),
              Contains("\n    "
                       "{\"id\":0,\"kind\":\"hole\",\"parent\":null,\"confidence\":1.0,\"emptiness\":1.0,"
                       "\"evidence\":{\"clearness\":1.0,\"surface\":1.0,\"sampling_gap\":0.0,\"width\":0.0,"
@@ -105,12 +105,12 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
                       "\"normal\":[0.0,0.0,1.0],\"cause\":null,\"tiles\":0,\"points\":3,\"ids\":[1,5,3],"
                       "\"coordinates\":[[0.1,2.0,3.0],[0.5,2.0,3.0],[0.30000000000000004,2.0,3.0]]},\n"));
   CHECK_THAT(
-      read_file(folder / "holes.csv"),
+      read_file(folder / "out/holes.csv"),
       Contains("\n0,hole,,3,1,1,0,0,0.1,0,0,0,0,,,,,,1,2,3,0,0,1,,,,\n1,outer,,4,1,1,0,0,0.1,,0,0,0,,,,,"
                ",1,2,3,0,0,1,,,,\n"));
   config.output.no_coordinates = true;
-  write_results(detection, scan, config, folder.path());
-  CHECK_FALSE(report(folder.path()).at("loops")[0].contains("coordinates"));
+  write_results(detection, scan, config, folder / "out");
+  CHECK_FALSE(report(folder / "out").at("loops")[0].contains("coordinates"));
 }
 
 TEST_CASE("loops.ply has the points of every loop and closes each with edges", "[io]") {
@@ -118,8 +118,8 @@ TEST_CASE("loops.ply has the points of every loop and closes each with edges", "
   FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
   FakeDetection detection;
   detection.with_loop({1, 5, 3}, LoopKind::kHole).with_loop({2, 4, 8, 6}, LoopKind::kOuter);
-  write_results(detection, scan, FilesConfig{}, folder.path());
-  const Table table = read_table(folder / "loops.ply");
+  write_results(detection, scan, FilesConfig{}, folder / "out");
+  const Table table = read_table(folder / "out/loops.ply");
   CHECK(table.names ==
         Names{"x", "y", "z", "scalar_loop", "scalar_id", "scalar_outer", "quality", "red", "green", "blue"});
   REQUIRE(table.rows.size() == 7);
@@ -127,7 +127,7 @@ TEST_CASE("loops.ply has the points of every loop and closes each with edges", "
   CHECK(table.rows[6] == std::vector<double>{static_cast<float>(0.1 * 6), 2, 3, 1, 6, 1, 0.25, 30, 130, 230});
   Bytes edges;
   for (const std::int32_t end : {0, 1, 1, 2, 2, 0, 3, 4, 4, 5, 5, 6, 6, 3}) edges << end;
-  CHECK(read_file(folder / "loops.ply").ends_with(edges.str()));
+  CHECK(read_file(folder / "out/loops.ply").ends_with(edges.str()));
 }
 
 TEST_CASE("ids beyond 32 bits are written as double, and coordinates in the scan's precision", "[io]") {
@@ -139,9 +139,9 @@ TEST_CASE("ids beyond 32 bits are written as double, and coordinates in the scan
   detection.numbers.counts.boundary_points = 1;
   detection.boundary = {
       {.id = PointId{5'000'000'001}, .position = {0.1, 2, 3}, .probability = 0.75f, .loop = 0}};
-  write_results(detection, scan, FilesConfig{}, folder.path());
-  CHECK(read_table(folder / "loops.ply").rows.at(2)[4] == 5'000'000'001.0);
-  const Table boundary = read_table(folder / "boundary.ply");
+  write_results(detection, scan, FilesConfig{}, folder / "out");
+  CHECK(read_table(folder / "out/loops.ply").rows.at(2)[4] == 5'000'000'001.0);
+  const Table boundary = read_table(folder / "out/boundary.ply");
   CHECK(boundary.names == Names{"x", "y", "z", "scalar_probability", "scalar_id", "scalar_loop", "quality"});
   CHECK(boundary.rows == Rows{{0.1, 2, 3, 0.75, 5'000'000'001.0, 0, 0.75}});
 }
@@ -155,8 +155,8 @@ TEST_CASE("points.ply keeps every property of the input and adds the results", "
   FilesConfig config;
   config.results.points = true;
   config.output = {.points_format = PointsFormat::kPly, .points_normals = true};
-  write_results(FakeDetection().with_results(3), scan, config, folder.path());
-  const Table table = read_table(folder / "points.ply");
+  write_results(FakeDetection().with_results(3), scan, config, folder / "out");
+  const Table table = read_table(folder / "out/points.ply");
   CHECK(table.names == Names{"red", "x", "y", "z", "scalar_probability", "scalar_angle", "scalar_halfdisc",
                              "scalar_shape", "scalar_boundary", "scalar_coherent", "scalar_loop", "quality",
                              "nx", "ny", "nz"});
@@ -164,7 +164,7 @@ TEST_CASE("points.ply keeps every property of the input and adds the results", "
   CHECK(table.rows[0][1] == 0.1f);
   CHECK(std::isnan(table.rows[0][2]));
   CHECK(table.rows[2] == std::vector<double>{7, 7, 8, 9, 2, 0.25, 0.5, 0.75, 1, 0, -1, 2, 0, 0, 1});
-  const auto reader = open_scan(folder / "points.ply", {});
+  const auto reader = open_scan(folder / "out/points.ply", {});
   CHECK(reader->layout().find("red")->type == Scalar::kUint8);
   CHECK(reader->layout().find("x")->type == Scalar::kFloat32);
   CHECK(reader->layout().find("scalar_coherent")->type == Scalar::kUint8);
@@ -208,39 +208,30 @@ TEST_CASE("normals of the input stay, and are not written a second time", "[io]"
   FilesConfig config;
   config.results.points = true;
   config.output = {.points_format = PointsFormat::kPly, .points_normals = true};
-  write_results(FakeDetection().with_results(1), scan, config, folder.path());
-  const Table table = read_table(folder / "points.ply");
+  write_results(FakeDetection().with_results(1), scan, config, folder / "out");
+  const Table table = read_table(folder / "out/points.ply");
   CHECK(table.names.size() == 6 + 8);
   CHECK(table.rows.at(0)[3] == 1);
 }
 
-TEST_CASE("an input in the place of a result is never replaced", "[io]") {
+TEST_CASE("an earlier result that is an input is never replaced", "[io]") {
   FilesConfig with_points;
   with_points.results.points = true;
   with_points.output.points_format = PointsFormat::kPly;
-  for (const bool is_result : {false, true}) {
-    const ScratchFolder folder;
-    std::string content = ply(kXyz, 1, "1 2 3\n");
-    if (is_result) {
-      FileScan first({folder.write("a.ply", content)}, {});
-      write_results(FakeDetection().with_results(1), first, with_points, folder.path());
-      content = read_file(folder / "points.ply");
-    }
-    FileScan scan({folder.write("points.ply", content)}, {});
-    const auto detection = FakeDetection().with_results(1);
-    const Names before = folder.names();
-    for (const Overwrite overwrite : {Overwrite::kOwn, Overwrite::kAny}) {
-      CHECK(error_of([&] {
-              write_results(detection, scan, with_points, folder.path(), overwrite);
-            }).find("points.ply: is an input") != std::string::npos);
-      // Without --points, only an earlier result would go.
-      const std::string error =
-          error_of([&] { write_results(detection, scan, {}, folder.path(), overwrite); });
-      CHECK((error.find("points.ply: is an input") != std::string::npos) == is_result);
-    }
-    CHECK(read_file(folder / "points.ply") == content);
-    if (is_result) CHECK(folder.names() == before);
+  const ScratchFolder folder;
+  FileScan first({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
+  const auto detection = FakeDetection().with_results(1);
+  write_results(detection, first, with_points, folder / "out");
+  const std::string content = read_file(folder / "out/points.ply");
+  std::filesystem::create_hard_link(folder / "out/points.ply", folder / "linked.ply");
+  for (const char* name : {"out/points.ply", "linked.ply"}) {
+    FileScan scan({folder / name}, {});
+    for (const FilesConfig& config : {with_points, FilesConfig{}})
+      CHECK_THAT(error_of([&] { write_results(detection, scan, config, folder / "out"); }),
+                 Contains(std::string(name) + ": is an input in the place of a result"));
   }
+  CHECK(read_file(folder / "out/points.ply") == content);
+  CHECK(folder.names() == Names{"a.ply", "linked.ply", "out"});
 }
 
 TEST_CASE("an input that changed during the run is an error that leaves no result", "[io]") {
@@ -251,7 +242,7 @@ TEST_CASE("an input that changed during the run is an error that leaves no resul
   config.output.points_format = PointsFormat::kPly;
   for (const std::size_t results : {1u, 3u}) {
     CHECK(error_of([&] {
-            write_results(FakeDetection().with_results(results), scan, config, folder.path());
+            write_results(FakeDetection().with_results(results), scan, config, folder / "out");
           }).find("the input has changed") != std::string::npos);
     CHECK(folder.names() == Names{"a.ply"});
   }
@@ -280,20 +271,20 @@ TEST_CASE("a disk that takes no more of any result leaves none", "[io]") {
                                                                              {"points.ply", &few},
                                                                              {"holes.json", &many_loops}};
   for (const auto& [name, detection] : largest) {
-    const std::vector<std::filesystem::path> written = write_results(*detection, scan, config, folder.path());
+    const std::vector<std::filesystem::path> written = write_results(*detection, scan, config, folder / "out");
     const auto bytes = [&] {
       std::uintmax_t most = 0;
       for (const auto& file : written) {
         most = std::max(most, std::filesystem::file_size(file));
         if (file.filename() != name)
-          CHECK(std::filesystem::file_size(file) < std::filesystem::file_size(folder / name));
+          CHECK(std::filesystem::file_size(file) < std::filesystem::file_size(folder / "out" / name));
       }
       return most;
     }();
-    for (const auto& file : written) std::filesystem::remove(file);
+    std::filesystem::remove_all(folder / "out");
     CHECK(error_of([&, &detection = *detection] {
             const FileSizeLimit full(bytes - 1);
-            write_results(detection, scan, config, folder.path());
+            write_results(detection, scan, config, folder / "out");
           }).find(name + ": cannot be written: File too large") != std::string::npos);
     CHECK(folder.names() == Names{"a.ply"});
   }
