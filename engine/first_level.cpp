@@ -106,8 +106,7 @@ PartReader shared_points(PointSource& scan, const SealedPlan& sealed, const Task
 void choose_normals(Level& level, const Job& job) {
   if (!level.store.has_normals()) return;
   const NormalsUse use = job.config.normals.use;
-  if (use != NormalsUse::kEstimated)
-    level.given_normals = check_normals(level.store, job.config, job.arena);
+  if (use != NormalsUse::kEstimated) level.given_normals = check_normals(level.store, job.config, job.arena);
   if (use == NormalsUse::kEstimated || (use == NormalsUse::kFitting && !level.given_normals.fit()))
     level.store.leave_out_normals();
 }

@@ -2,8 +2,8 @@
 #include "io/report/report.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/files/result_folder.hpp"
 #include "io/files/number.hpp"
+#include "io/files/result_folder.hpp"
 #include "io/loops/loop_measures.hpp"
 #include "io/report/base64.hpp"
 #include "io/report/page.hpp"

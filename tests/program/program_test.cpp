@@ -264,8 +264,7 @@ TEST_CASE("a run says which programs cannot read the 64-bit coordinates that it 
   const auto output = [&](const std::string& scan, const std::string& format,
                           const std::vector<std::string>& more = {}) {
     std::vector<std::string> words = {
-        "detect",          scan,   "--out",      (scratch / "out").string(), "--points",
-        "--points-format", format};
+        "detect", scan, "--out", (scratch / "out").string(), "--points", "--points-format", format};
     words.insert(words.end(), more.begin(), more.end());
     return run_program(words).out;
   };
@@ -331,9 +330,9 @@ TEST_CASE("temporary and kept folders are not in the folder of the results") {
   const std::string scan = scratch.write("scan.txt", sheet(20));
   for (const char* option : {"--workspace", "--scratch"}) {
     for (const char* folder : {"out", "out/inside"})
-      check_failure(
-          run_program({"detect", scan, "--out", (scratch / "out").string(), option, (scratch / folder).string()}),
-          2, "is in the folder of the results; allowed: another one for " + std::string(option));
+      check_failure(run_program({"detect", scan, "--out", (scratch / "out").string(), option,
+                                 (scratch / folder).string()}),
+                    2, "is in the folder of the results; allowed: another one for " + std::string(option));
   }
   CHECK_FALSE(fs::exists(scratch / "out"));
 }

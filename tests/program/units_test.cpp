@@ -65,8 +65,8 @@ TEST_CASE("plan, work and finish give the files of detect") {
   INFO(finished.err);
   REQUIRE(finished.exit_code == 0);
   const fs::path alone = run.folder / "alone";
-  REQUIRE(run_program({"detect", run.list(), "--out", alone.string(), "--points", "--points-normals", "--k", "14",
-                       "--bounds", "0,0,290,290", "--quiet"})
+  REQUIRE(run_program({"detect", run.list(), "--out", alone.string(), "--points", "--points-normals", "--k",
+                       "14", "--bounds", "0,0,290,290", "--quiet"})
               .exit_code == 0);
   CHECK(fs::exists(alone / "points" / "a.csv"));
   test::check_same_results(run.folder / "out", alone);

@@ -38,16 +38,9 @@ struct Run {
   fs::path workspace = folder / "workspace";
 
   std::vector<std::string> arguments(const fs::path& out, std::vector<std::string> more = {}) const {
-    std::vector<std::string> all = {"detect",
-                                    scan,
-                                    "--out",
-                                    out.string(),
-                                    "--tile-points",
-                                    std::to_string(points / 150),
-                                    "--points",
-                                    "--quiet",
-                                    "--threads",
-                                    "2"};
+    std::vector<std::string> all = {
+        "detect",   scan,      "--out",     out.string(), "--tile-points", std::to_string(points / 150),
+        "--points", "--quiet", "--threads", "2"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }

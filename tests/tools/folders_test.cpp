@@ -38,8 +38,7 @@ class NoMoreFiles {
 TEST_CASE("a folder is locked for one at a time, and free again afterwards") {
   const ScratchFolder folder;
   std::optional<io::FolderLock> first(folder.path());
-  CHECK_THROWS_WITH(io::FolderLock(folder.path()),
-                    folder.path().string() + ": another run is at work there");
+  CHECK_THROWS_WITH(io::FolderLock(folder.path()), folder.path().string() + ": another run is at work there");
   first.reset();
   CHECK_NOTHROW(io::FolderLock(folder.path()));
 }

@@ -49,8 +49,9 @@ TEST_CASE("a file that the command did not write is refused by its name, or repl
   for (const std::string content : {"precious", "mine", "", " mine: old"}) {
     const std::string file = folder.write("a", content);
     CHECK(error_of([&] { write(file); }) ==
-          file + ": exists, and this command did not write it; choose another place, or replace it with "
-                 "--overwrite");
+          file +
+              ": exists, and this command did not write it; choose another place, or replace it with "
+              "--overwrite");
     CHECK(read_file(file) == content);
     write(file, Overwrite::kAny);
     CHECK(read_file(file) == "mine: new");

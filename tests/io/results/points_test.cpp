@@ -94,9 +94,7 @@ TEST_CASE("files of one name from two folders are an error before the work, but 
   const ScratchFolder folder;
   for (const char* name : {"a", "b"}) std::filesystem::create_directory(folder / name);
   const FileScan scan({folder.write("a/x.xyz", kText), folder.write("b/x.txt", kText)}, {});
-  const auto check = [&](const FilesConfig& config) {
-    return error_of([&] { check_points(scan, config); });
-  };
+  const auto check = [&](const FilesConfig& config) { return error_of([&] { check_points(scan, config); }); };
   CHECK_THAT(check(with_points()), Contains("b/x.txt: its results and those of ") &&
                                        Contains("a/x.xyz would both be points/x.csv; rename one, or "
                                                 "--points-format ply writes one file for all"));

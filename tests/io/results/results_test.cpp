@@ -271,7 +271,8 @@ TEST_CASE("a disk that takes no more of any result leaves none", "[io]") {
                                                                              {"points.ply", &few},
                                                                              {"holes.json", &many_loops}};
   for (const auto& [name, detection] : largest) {
-    const std::vector<std::filesystem::path> written = write_results(*detection, scan, config, folder / "out");
+    const std::vector<std::filesystem::path> written =
+        write_results(*detection, scan, config, folder / "out");
     const auto bytes = [&] {
       std::uintmax_t most = 0;
       for (const auto& file : written) {
