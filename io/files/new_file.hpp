@@ -3,7 +3,7 @@
 //
 // The name may be free, or the name of an own file: a regular file that the same command has written, which
 // its mark shows. With Overwrite::kAny it may be the name of any regular file. Links, folders, pipes and
-// devices are refused. The content goes to a private folder beside the name first. A failure leaves the name
+// devices are refused. The content goes to a private folder next to the name first. A failure leaves the name
 // as it was.
 #pragma once
 

@@ -4,7 +4,7 @@
 // 1. A name may be free, or the name of an empty folder, or of an *earlier result*: a folder whose list,
 //    `.lacuna`, names all of its files. A folder that holds anything else is refused, and so is a link to no
 //    folder.
-// 2. Files are written to `.NAME.lacuna/results`, beside the folder. One run at a time uses `.NAME.lacuna`;
+// 2. Files are written to `.NAME.lacuna/results`, next to the folder. One run at a time uses `.NAME.lacuna`;
 //    what a killed run has left there goes with the next run.
 // 3. commit: the list is added, and all files are brought to the disk. Then one rename gives the folder its
 //    name. An earlier result changes places with the new one, and is removed.
