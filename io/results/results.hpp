@@ -16,7 +16,7 @@
 
 namespace lacuna::io {
 
-// Throws `Error` if an input lies among the earlier results that the folder replaces, or if the annotated
+// Throws `Error` if an input is an earlier result that the folder replaces. Throws, too, if the annotated
 // scan cannot be written in its format. write_results checks it, too; a program checks before the work.
 LACUNA_API void check_results(const FileScan& scan, const FilesConfig& config, const ResultFolder& folder);
 
