@@ -29,11 +29,11 @@ extern "C" bool lacuna_find_scale(const std::string& crs, const Eigen::Vector3d&
   if (!read_crs(crs, system) || system.IsProjected() == 0) return false;
   const double metre = system.GetLinearUnits();
   const auto conversion = conversion_to_degrees(system);
-  if (!conversion) return false;
+  if (!conversion.plan) return false;
   const double half = 50 / metre;  // of a step that is short for an ellipsoid and long for rounding
   const auto at = [&](double x, double y, Eigen::Vector3d& degrees) {
     degrees = {place.x() + x, place.y() + y, 0};
-    return convert_to_degrees(*conversion, degrees);
+    return convert_to_degrees(conversion, degrees);
   };
   Eigen::Vector3d here, west, east, south, north;
   if (!at(0, 0, here) || !at(-half, 0, west) || !at(half, 0, east) || !at(0, -half, south) ||
@@ -70,8 +70,8 @@ extern "C" bool lacuna_convert_to_degrees(const std::string& crs, std::span<Eige
   OGRSpatialReference system;
   if (!read_crs(crs, system)) return false;
   const auto conversion = conversion_to_degrees(system);
-  return conversion && std::all_of(places.begin(), places.end(), [&](Eigen::Vector3d& place) {
-           return convert_to_degrees(*conversion, place);
+  return conversion.plan && std::all_of(places.begin(), places.end(), [&](Eigen::Vector3d& place) {
+           return convert_to_degrees(conversion, place);
          });
 }
 

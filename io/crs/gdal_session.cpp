@@ -48,19 +48,25 @@ bool read_crs(const std::string& text, OGRSpatialReference& crs) {
   return !flat.empty() && flat != text && read_exact_crs(flat, crs);
 }
 
-std::unique_ptr<OGRCoordinateTransformation> conversion_to_degrees(OGRSpatialReference& crs) {
+DegreesConversion conversion_to_degrees(OGRSpatialReference& crs) {
   OGRSpatialReference target;
   const bool is_geocentric = crs.IsGeocentric() != 0;
-  constexpr int kFlat = 4326, kSolid = 4979;  // WGS 84, with z as it is or with the height
-  if (target.importFromEPSG(is_geocentric ? kSolid : kFlat) != OGRERR_NONE) return nullptr;
+  constexpr int kFlat = 4326, kSolid = 4979;  // WGS 84, flat or with the height
+  if (target.importFromEPSG(is_geocentric ? kSolid : kFlat) != OGRERR_NONE) return {};
   target.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  DegreesConversion conversion;
+  if (crs.IsProjected() != 0)
+    conversion.metres_of_z = crs.GetTargetLinearUnits(crs.IsCompound() != 0 ? "VERT_CS" : nullptr);
   if (!is_geocentric) crs.StripVertical();
-  return std::unique_ptr<OGRCoordinateTransformation>(OGRCreateCoordinateTransformation(&crs, &target));
+  conversion.plan.reset(OGRCreateCoordinateTransformation(&crs, &target));
+  return conversion;
 }
 
-bool convert_to_degrees(OGRCoordinateTransformation& conversion, Eigen::Vector3d& position) {
+bool convert_to_degrees(const DegreesConversion& conversion, Eigen::Vector3d& position) {
   double &x = position.x(), &y = position.y(), &z = position.z();
-  return conversion.Transform(1, &x, &y, &z) && std::abs(x) <= 180 && std::abs(y) <= 90;
+  if (!conversion.plan->Transform(1, &x, &y, &z)) return false;
+  z *= conversion.metres_of_z;
+  return std::abs(x) <= 180 && std::abs(y) <= 90;
 }
 
 GdalSetting::GdalSetting(const char* key, const char* value) : key_(key) {

@@ -37,11 +37,16 @@ bool read_exact_crs(const std::string& text, OGRSpatialReference& crs);
 // Works likewise, but leaves out a vertical part that GDAL does not understand: the horizontal part holds.
 bool read_crs(const std::string& text, OGRSpatialReference& crs);
 
-// Converts positions of a system to longitude and latitude of WGS 84. z stays as it is. Geocentric positions
-// get the height above the ellipsoid. Null where GDAL has no way. Takes the vertical part off `crs`.
-std::unique_ptr<OGRCoordinateTransformation> conversion_to_degrees(OGRSpatialReference& crs);
+// Converts positions of a system to longitude and latitude of WGS 84. z becomes metres, as RFC 7946 demands,
+// above what it was above. Geocentric positions get the height above the ellipsoid.
+struct DegreesConversion {
+  std::unique_ptr<OGRCoordinateTransformation> plan;  // null where GDAL has no way
+  double metres_of_z = 1;
+};
+// Takes the vertical part off `crs`.
+DegreesConversion conversion_to_degrees(OGRSpatialReference& crs);
 // False where the position has no longitude and latitude.
-bool convert_to_degrees(OGRCoordinateTransformation& conversion, Eigen::Vector3d& position);
+bool convert_to_degrees(const DegreesConversion& conversion, Eigen::Vector3d& position);
 
 // A setting of GDAL, for this thread alone.
 class GdalSetting {

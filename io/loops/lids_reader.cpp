@@ -36,7 +36,7 @@ class LidLines {
     } else if (key == "v" && visits_.vertex) {
       Eigen::Vector3d vertex;
       for (double& component : vertex) component = words.number<double>("a vertex has x y z");
-      visits_.vertex(vertex);
+      visits_.vertex(hole_, vertex);
     } else if (key == "f" && visits_.triangle) {
       std::array<std::uint64_t, 3> triangle;
       for (std::uint64_t& corner : triangle)

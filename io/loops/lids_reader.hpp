@@ -28,7 +28,7 @@ struct LidRecord {
 // from 0, over the file.
 struct LidVisits {
   std::function<void(const LidRecord&)> hole = {};
-  std::function<void(const Eigen::Vector3d&)> vertex = {};
+  std::function<void(const LidRecord&, const Eigen::Vector3d&)> vertex = {};
   std::function<void(const LidRecord&, const std::array<std::uint64_t, 3>&)> triangle = {};
 };
 

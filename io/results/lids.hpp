@@ -24,8 +24,8 @@ void write_lids_obj(const Detection& detection, OutputFile& out);
 
 // Both files come from the complete lids.obj, which the functions stream. They throw `Error`.
 //
-// lids.ply: element vertex with x y z in the coordinates of loops.ply; element face with list vertex_indices
-// and loop, the id of the hole.
+// lids.ply: element vertex with x y z in the coordinates of loops.ply, and scalar_loop, the id of the hole.
+// Element face has list vertex_indices alone, since meshio 5 reads no faces with more.
 void write_lids_ply(const std::filesystem::path& lids_obj, const Detection& detection, const FileScan& scan,
                     const OutputConfig& config, OutputFile& out);
 // lids.csv: a line for each hole. lid_area is empty if the hole has no lid, and reason if it has one.

@@ -76,19 +76,19 @@ class LoopsWriter {
   // stays as it is without such a way.
   bool convert() {
     conversion_ = conversion_to_degrees(crs_);
-    if (!converts_all()) conversion_.reset();
+    if (!converts_all()) conversion_.plan.reset();
     failures_.forget();
     if (task_.format == GisFormat::kGeoPackage) {
-      if (conversion_) crs_ = *conversion_->GetTargetCS();
+      if (conversion_.plan) crs_ = *conversion_.plan->GetTargetCS();
       return true;
     }
     has_crs_ = false;  // a GeoJSON names none
     crs_.Clear();
-    return conversion_ != nullptr;
+    return conversion_.plan != nullptr;
   }
 
   bool converts_all() {
-    if (!conversion_) return false;
+    if (!conversion_.plan) return false;
     for (std::size_t id = 0; id < task_.detection.loops.size(); ++id) {
       if (!line_of(task_.detection.read_points(id))) return false;
       for (const InnerRing& ring : task_.detection.inner_rings_of(id)) {
@@ -189,7 +189,7 @@ class LoopsWriter {
     line->setNumPoints(count + 1);
     for (int i = 0; i <= count; ++i) {
       Eigen::Vector3d at = loop[static_cast<std::size_t>(i % count)].position;
-      if (conversion_ && !convert_to_degrees(*conversion_, at)) return nullptr;
+      if (conversion_.plan && !convert_to_degrees(conversion_, at)) return nullptr;
       line->setPoint(i, at.x(), at.y(), at.z());
     }
     return line;
@@ -198,7 +198,7 @@ class LoopsWriter {
   const GisTask& task_;
   GdalFailures failures_;
   OGRSpatialReference crs_;
-  std::unique_ptr<OGRCoordinateTransformation> conversion_;  // of a GeoJSON
+  DegreesConversion conversion_;  // of a GeoJSON
   bool has_crs_ = false, has_transaction_ = false;
   Dataset dataset_;
   std::vector<Layer> layers_;

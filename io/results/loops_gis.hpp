@@ -45,8 +45,8 @@ enum class GisCrs : std::uint8_t {
 // a measure is not finite. With polygons, a GeoPackage has these in a layer of their own, and GeoJSON
 // has polygons in place of lines. A hole has its islands as inner rings, an outer curve its holes. The
 // coordinates are the scan's, with all digits. The coordinates of a GeoJSON are longitude and latitude of
-// WGS 84 if the system is known, as RFC 7946 demands. There z stays as it is, but for geocentric scans it is
-// the ellipsoidal height. Holds one polygon in memory. Equal loops give equal bytes. Throws `Error` with
+// WGS 84 if the system is known, as RFC 7946 demands. There z is in metres; for geocentric scans it is the
+// ellipsoidal height. Holds one polygon in memory. Equal loops give equal bytes. Throws `Error` with
 // GDAL's text.
 using WriteLoopsGis = GisCrs(const GisTask& task);
 

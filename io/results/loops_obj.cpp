@@ -37,10 +37,12 @@ void write_loops_obj(const ExplainedDetection& detection, OutputFile& out) {
       for (const double component : point.position) append_plain(line += " ", component);
       out.write(line += "\n");
     });
-    out.write("l");
-    for (std::uint64_t i = 0; i < loop.points; ++i) out.write(" " + std::to_string(next + i));
-    out.write(" " + std::to_string(next) + "\n");
+    const std::uint64_t first = next;
     next += loop.points;
+    for (std::uint64_t a = first; a < next; ++a) {
+      const std::uint64_t b = a + 1 < next ? a + 1 : first;
+      out.write("l " + std::to_string(a) + " " + std::to_string(b) + "\n");
+    }
   }
 }
 

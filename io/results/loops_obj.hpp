@@ -13,8 +13,9 @@ namespace lacuna::io {
 // The file begins with this text, by which a program recognises an earlier one.
 inline constexpr std::string_view kObjMark = "# lacuna detect, loops\n";
 
-// Writes for each loop, in order: its measures as comments, its object "hole_0" or "outer_0" (the id), its
-// points, and one closed polyline. Coordinates have all digits. Holds one loop in memory. Throws `Error`.
+// Writes for each loop, in order: its measures as comments, its object "hole_0" or "outer_0" (the id), and
+// its points. A line `l a b` for each edge follows. Blender 3.4 and MeshLab 2020.09 read only the first edge
+// of a longer line. Coordinates have all digits. Holds one loop in memory. Throws `Error`.
 void write_loops_obj(const ExplainedDetection& detection, OutputFile& out);
 
 }  // namespace lacuna::io

@@ -104,11 +104,13 @@ void FileScan::choose_z_factors() {
     const std::string& flat = !stated_.unit.empty() ? stated_.unit
                               : units_[i].empty()   ? common_unit_
                                                     : units_[i];
+    const std::string said = stated_.crs.empty() ? z_units_[i] : vertical_unit(stated_.crs);
     if (!stated_.unit_z.empty()) {
       z_units_[i] = stated_.unit_z;
     } else if (!stated_.unit.empty() && stated_.unit != units_[i]) {
       z_units_[i].clear();
     }
+    is_any = is_any || said != z_units_[i];
     const auto metres = metres_of_unit(flat), metres_of_z = metres_of_unit(z_units_[i]);
     if (config_.unit_z != LengthUnit::kInput && !metres)
       throw Error(files_[i].string() +

@@ -86,17 +86,17 @@ def read(reader, file):
     return reader.GetOutput()
 
 
-def lines_of(data):
+def edges_of(data):
     for i in range(data.GetNumberOfCells()):
         ids = data.GetCell(i).GetPointIds()
-        ids = [ids.GetId(k) for k in range(ids.GetNumberOfIds())]
-        assert ids[0] == ids[-1]
-        yield [data.GetPoint(k) for k in ids[:-1]]
+        assert ids.GetNumberOfIds() == 2
+        yield (*data.GetPoint(ids.GetId(0)), *data.GetPoint(ids.GetId(1)))
 
 
 # VTK
-for line, loop in zip(lines_of(read(vtkOBJReader(), "near/loops.obj")), near["loops"], strict=True):
-    equal(line, loop["coordinates"], 1e-7)
+edges = [(*a, *b) for loop in near["loops"]
+         for a, b in zip(loop["coordinates"], loop["coordinates"][1:] + loop["coordinates"][:1], strict=True)]
+equal(list(edges_of(read(vtkOBJReader(), "near/loops.obj"))), edges, 1e-7)
 print("VTK reads loops.obj")
 data = read(vtkPLYReader(), "near/loops.ply")
 equal([data.GetPoint(i) for i in range(data.GetNumberOfPoints())], [point[:3] for point in points], 1e-7)

@@ -153,6 +153,38 @@ for name, reasons in {
     assert warning.count("\n") == (2 if name == "nonsense" else 1), warning
 END
 
+# Feet: z of a GeoJSON is in metres, as RFC 7946 demands. The other files have it in the unit of x and y.
+python3 - <<'END'
+for name, unit in (("feet", 1), ("mixed", 1200 / 3937)):
+    with open(f"{name}.xyz", "w") as text:
+        for line in open("none.xyz"):
+            x, y, z = map(float, line.split())
+            print(f"{5_500_000 + x:.3f} {y - 3_300_000:.3f} {z * unit:.6f}", file=text)
+END
+"$program" detect feet.xyz --crs EPSG:2227 --out feet "${formats[@]}" --quiet
+"$program" detect mixed.xyz --crs EPSG:2227+5703 --out mixed "${formats[@]}" --quiet
+"$program" detect feet.xyz --crs EPSG:2227+5703 --unit-z us-ft --out said "${formats[@]}" --quiet
+"$program" stations feet --height 20 --range 1000 >/dev/null
+for run in feet mixed said; do
+  ogr2ogr -f GeoJSON "$run.gpkg.json" "$run/loops.gpkg" -lco SIGNIFICANT_FIGURES=17
+done
+python3 - <<'END'
+import json
+from pathlib import Path
+
+FOOT = 1200 / 3937
+for run in ("feet", "mixed", "said"):
+    loops = json.loads(Path(run, "holes.json").read_text())["loops"]
+    assert len(loops) == 5
+    for file, unit in ((f"{run}/loops.geojson", FOOT), (f"{run}.gpkg.json", 1)):
+        for feature, loop in zip(json.loads(Path(file).read_text())["features"], loops, strict=True):
+            assert feature["properties"]["unit"] == "us-ft"
+            found, expected = ([point[2] for point in line] for line in (feature["geometry"]["coordinates"][:-1], loop["coordinates"]))
+            assert max(abs(a - unit * b) for a, b in zip(found, expected, strict=True)) < 1e-9, (run, file)
+for feature in json.loads(Path("feet/next_stations.geojson").read_text())["features"]:
+    assert abs(feature["geometry"]["coordinates"][2] - FOOT * feature["properties"]["z"]) < 1e-9
+END
+
 # Places to stand next: GDAL converts them back to those of the scan.
 "$program" stations heights --height 20 --range 1000 >/dev/null
 ogr2ogr -f GeoJSON next.json heights/next_stations.geojson -t_srs EPSG:25832 -lco RFC7946=NO -lco SIGNIFICANT_FIGURES=17

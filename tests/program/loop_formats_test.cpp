@@ -3,6 +3,7 @@
 #include "tests/support/earth_sheet.hpp"
 #include "tests/support/run_program.hpp"
 
+#include <array>
 #include <map>
 #include <sstream>
 #include <string>
@@ -58,6 +59,7 @@ std::vector<ReadLoop> read_obj(const std::string& file) {
   std::vector<ReadLoop> loops;
   std::vector<Point> vertices;
   std::map<std::string, double> comments;
+  std::vector<std::array<std::size_t, 2>> edges;
   std::istringstream lines(file);
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
@@ -75,12 +77,19 @@ std::vector<ReadLoop> read_obj(const std::string& file) {
       CHECK(name.substr(end + 1) == std::to_string(loops.size()));
       loops.push_back({name.substr(0, end), std::exchange(comments, {}), {}});
     } else if (key == "l") {
-      std::vector<std::size_t> indices;
-      for (std::size_t index = 0; words >> index;) indices.push_back(index);
-      REQUIRE(indices.size() > 3);
-      CHECK(indices.front() == indices.back());
-      indices.pop_back();
-      for (const std::size_t index : indices) loops.back().points.push_back(vertices.at(index - 1));
+      // One edge a line: some programs read only the first edge of a longer one.
+      std::array<std::size_t, 2>& edge = edges.emplace_back();
+      words >> edge[0] >> edge[1];
+      CHECK_FALSE(words >> name);
+      loops.back().points.push_back(vertices.at(edge[0] - 1));
+    }
+  }
+  std::size_t next = 0;
+  for (const ReadLoop& loop : loops) {
+    const std::size_t first = next;
+    for (; next < first + loop.points.size(); ++next) {
+      const std::size_t end = next + 1 < first + loop.points.size() ? next + 1 : first;
+      CHECK(edges[next] == std::array{next + 1, end + 1});
     }
   }
   return loops;
