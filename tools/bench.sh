@@ -25,9 +25,6 @@ bench/results/DATE.csv with a table of medians (DATE.txt), the README's table (D
   --peer-points N       largest synthetic scan that peers get, millions of points    default 4
   --timeout SECONDS     for one run; what takes longer is left out    default 3600
   --against PROGRAM     another build of lacuna in turns with this one, called "against"
-  --formats             the readers of all formats: bench/results/DATE.formats.json; and whole runs on 10 million
-                        points in some of them
-  --stages              the kernel benchmarks of each stage too: bench/results/DATE.stages.json
   --build DIR           default build-bench
   --work DIR            scans and results of runs; scans are kept     default bench/work
   -h, --help
@@ -50,8 +47,6 @@ peer_programs=(pcl open3d)
 peer_points=4
 timeout=3600
 against=
-formats=0
-stages=0
 build=$root/build-bench
 work=$root/bench/work
 detect_options=()
@@ -74,9 +69,9 @@ done
 # ---- programs
 
 tools/install.sh
-install_packages libbenchmark-dev liblzf-dev gnuplot-nox python3 time
-cmake -G Ninja -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DLACUNA_BENCH=ON >/dev/null
-cmake --build "$build" --parallel "$(nproc)" --target lacuna lacuna-bench lacuna_stages lacuna_formats
+install_packages gnuplot-nox python3 time
+cmake -G Ninja -S . -B "$build" -DCMAKE_BUILD_TYPE=Release >/dev/null
+cmake --build "$build" --parallel "$(nproc)" --target lacuna lacuna-bench
 lacuna=$build/lacuna
 
 if ((peers)); then
@@ -195,22 +190,6 @@ if ((real)); then
   ((found)) || echo "bench.sh: no scans in $data" >&2
 fi
 
-if ((formats)); then
-  order=file
-  kind=file
-  samples=$work/formats-10M
-  if [[ ! -d $samples ]]; then
-    mkdir -p "$samples.new"
-    "$build/bench/lacuna_formats" write "$samples.new" 10000000
-    mv "$samples.new" "$samples"
-  fi
-  for name in ply-binary-float.ply las-1.2-format-3.las laz-1.2-format-3.laz laz-1.4-format-7.laz e57-float.e57; do
-    scan=$samples/$name
-    case=formats-10M-${name%.*}
-    for thread_count in "${threads[@]}"; do run_case 0; done
-  done
-fi
-
 # ---- what came of it
 
 {
@@ -229,12 +208,6 @@ if [[ -e $csv ]]; then
   # Paths as arguments: they may hold what gnuplot takes for its own.
   python3 bench/summarise.py plot "$csv" >"$work/plot.dat"
   [[ ! -s $work/plot.dat ]] || gnuplot -c bench/plot.gp "$work/plot.dat" "$stem.svg"
-fi
-if ((formats)); then
-  "$build/bench/lacuna_formats" --benchmark_out="$stem.formats.json" --benchmark_out_format=json
-fi
-if ((stages)); then
-  "$build/bench/lacuna_stages" --benchmark_out="$stem.stages.json" --benchmark_out_format=json
 fi
 echo
 ls -1 "$stem".*

@@ -81,8 +81,8 @@ run_tests build --label-regex "$( ((all)) && echo '^(fast|slow)$' || echo '^fast
 
 # ---- memory errors and undefined behaviour: readers, writers and what is on disk; with --all the whole libraries
 
-# These measure memory and threads, of which the sanitizers take their own, or disk.
-measures='memory_test|disk_check_test'
+# These measure memory and threads, of which the sanitizers take their own.
+measures='memory_test'
 export ASAN_OPTIONS=quarantine_size_mb=16  # freed memory that is not used again; 256 took a third more time
 export LSAN_OPTIONS=suppressions=$PWD/tests/support/leaks_of_others.txt:print_suppressions=0
 build build-sanitize lacuna_tests -DLACUNA_SANITIZE=address -DLACUNA_PYTHON=OFF "-DLACUNA_TESTED=$( ((all)) && echo 'engine|io' || echo 'engine/(store|bucket|workspace|run)|io')"

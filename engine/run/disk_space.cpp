@@ -6,27 +6,15 @@
 #include <cstdio>
 #include <system_error>
 
-#include <sys/stat.h>
-
 namespace lacuna {
 
-std::optional<Disk> disk_of(const std::filesystem::path& folder) {
-  struct stat status {};
+void require_space(const std::filesystem::path& folder, std::uint64_t bytes) {
   std::error_code error;
   const std::filesystem::space_info space = std::filesystem::space(folder, error);
-  if (error || ::stat(folder.c_str(), &status) != 0) return {};
-  return Disk{.number = status.st_dev, .free = space.available};
-}
-
-std::string too_small(const std::filesystem::path& folder, const Disk& disk, const std::string& needs) {
-  return folder.string() + ": " + print_size(disk.free) + " are free on this disk, and the run needs " +
-         needs;
-}
-
-void require_space(const std::filesystem::path& workspace, std::uint64_t bytes) {
-  const std::optional<Disk> disk = disk_of(workspace);
-  if (disk && disk->free < bytes)
-    throw Error(too_small(workspace, *disk, "at least " + print_size(bytes)) + kOtherScratch);
+  if (error || space.available >= bytes) return;
+  throw Error(folder.string() + ": " + print_size(space.available) +
+              " are free on this disk, and the run needs at least " + print_size(bytes) +
+              "; --scratch names a folder on another one");
 }
 
 std::string print_size(std::uint64_t bytes) {

@@ -21,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kPointsFolder = "points";  // in the output folder
+
 enum class FileFormat : std::uint8_t { kPly, kCsv, kLas, kLaz };
 
 struct WrittenFormat {
@@ -66,6 +68,12 @@ FileFormat own_format(const FileScan& scan, std::size_t file) {
 
 bool is_in_folder(const OutputConfig& config) {
   return config.points_format == PointsFormat::kInput;
+}
+
+// Returns "points.ply", "points.csv", or "points/".
+std::string points_name(const OutputConfig& config) {
+  if (is_in_folder(config)) return std::string(kPointsFolder) + "/";
+  return config.points_format == PointsFormat::kCsv ? "points.csv" : "points.ply";
 }
 
 // Throws `Error` if two files would have the same name.
@@ -175,11 +183,6 @@ class AnnotatedFile {
 
 }  // namespace
 
-std::string points_name(const OutputConfig& config) {
-  if (is_in_folder(config)) return std::string(kPointsFolder) + "/";
-  return config.points_format == PointsFormat::kCsv ? "points.csv" : "points.ply";
-}
-
 void check_points(const FileScan& scan, const FilesConfig& config) {
   for (const PointsFile& file : wanted_files(scan, config))
     written(file.format).form(plan_of(scan, config.output, file, {}));
@@ -212,26 +215,6 @@ void write_points(const Detection& detection, const FileScan& scan, const FilesC
   });
   while (next < files.size()) open_next();
   open->finish();
-}
-
-PointsBytes points_bytes(const FileScan& scan, const OutputConfig& config, std::uint64_t rows) {
-  PointsBytes bytes;
-  std::uint64_t left = rows;
-  const std::vector<PointsFile> files = points_files(scan, config);
-  for (const PointsFile& file : files) {
-    const bool is_last = &file == &files.back();
-    const std::uint64_t own = is_last ? left : std::min(left, scan.rows(file.files.first));
-    left -= own;
-    const PointsPlan plan = plan_of(scan, config, file, {});
-    const auto form = written(file.format).form(plan);
-    std::uint64_t row_bytes = form->row_bytes() + bytes_of(plan.results);
-    const bool is_certain = file.format == FileFormat::kPly || file.format == FileFormat::kLas;
-    if (file.format == FileFormat::kLaz) row_bytes /= 2;
-    if (file.format == FileFormat::kCsv) row_bytes += row_bytes / 2;
-    bytes.all += own * row_bytes;
-    if (is_certain) bytes.certain += own * row_bytes;
-  }
-  return bytes;
 }
 
 }  // namespace lacuna::io

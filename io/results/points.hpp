@@ -18,16 +18,9 @@
 #include "io/options/options.hpp"
 #include "io/scan/file_scan.hpp"
 
-#include <cstdint>
 #include <filesystem>
-#include <string>
 
 namespace lacuna::io {
-
-inline constexpr const char* kPointsFolder = "points";  // in the output folder
-
-// Returns "points.ply", "points.csv", or "points/".
-std::string points_name(const OutputConfig& config);
 
 // Throws `Error` if the annotated scan of the config cannot be written, as far as headers and names show it.
 // Two files of the scan may have the same name, or a format may not hold its results. Cheap, for a program to
@@ -37,12 +30,5 @@ void check_points(const FileScan& scan, const FilesConfig& config);
 // Writes the annotated scan, if the config wants it. Memory: a batch of one file at a time. Throws `Error`.
 void write_points(const Detection& detection, const FileScan& scan, const FilesConfig& config,
                   const ResultFolder& folder);
-
-// The disk space of the annotated scan, for so many rows. Text and LAZ are a guess, and not in
-// `certain`. Throws `Error` if the formats cannot hold the results.
-struct PointsBytes {
-  std::uint64_t all = 0, certain = 0;
-};
-PointsBytes points_bytes(const FileScan& scan, const OutputConfig& config, std::uint64_t rows);
 
 }  // namespace lacuna::io

@@ -63,9 +63,6 @@ void write_boundary(const Detection& detection, const FileScan& scan, const Outp
 void write_sample(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                   OutputFile& out);
 
-// Bytes of its rows; 4 more from 2^32 points on.
-std::uint64_t sample_row_bytes(const FileScan& scan, const OutputConfig& config);
-
 // For the writers: x, y and z of their type, and the id. PLY has no integer of 64 bits: ids
 // are uint, or, from 2^32 points on, double, which is exact up to 2^53.
 std::vector<PlyProperty> position_and_id(const Detection& detection, const FileScan& scan,

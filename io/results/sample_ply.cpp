@@ -56,12 +56,6 @@ class ColourRows {
 
 }  // namespace
 
-std::uint64_t sample_row_bytes(const FileScan& scan, const OutputConfig& config) {
-  const std::uint64_t position = 3 * size_of(coordinate_type(scan, config));
-  const std::uint64_t id = sizeof(std::uint32_t);
-  return position + id + kComputed.size() * sizeof(float) + colour_columns(scan, config).stride;
-}
-
 void write_sample(const Detection& detection, const FileScan& scan, const OutputConfig& config,
                   OutputFile& out) {
   PlyElement vertex{.name = "vertex",

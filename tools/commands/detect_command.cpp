@@ -20,7 +20,6 @@
 #include "tools/console/shown_progress.hpp"
 #include "tools/console/terminal.hpp"
 #include "tools/console/visible_text.hpp"
-#include "tools/run/disk_check.hpp"
 #include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
 #include "tools/run/own_process.hpp"
@@ -169,8 +168,6 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   const MadeFolder parent(scratch_parent(config.run, out));
   const TemporaryFolder scratch(parent.path(), "lacuna-");
   for (const std::string& warning : memory_warnings(config)) spdlog::warn("{}", warning);
-  for (const std::string& warning : check_disks(scan, config, parent.path(), out.temporary()))
-    spdlog::warn("{}", warning);
   const std::unique_ptr<Progress> progress = arguments.show_progress(config);
 
   const std::unique_ptr<StationViews> stations = watch_stations(scan, config.output, scratch.path());

@@ -6,8 +6,6 @@
 #include "engine/store/temporary_folder.hpp"
 #include "io/formats.hpp"
 #include "io/loops/json.hpp"
-#include "io/results/points.hpp"
-#include "io/results/result_bytes.hpp"
 #include "io/scan/file_scan.hpp"
 #include "io/stations/station_views.hpp"
 #include "tools/commands/commands.hpp"
@@ -21,7 +19,6 @@
 #include "tools/run/input_files.hpp"
 #include "tools/run/own_process.hpp"
 #include "tools/run/parameter_options.hpp"
-#include "tools/run/run_costs.hpp"
 #include "tools/run/scan_warnings.hpp"
 
 #include <algorithm>
@@ -62,13 +59,36 @@ struct FileInfo {
 
 struct RunInfo {
   Inspection inspection;
-  RunCosts costs;
-  std::string points_file;
-  std::optional<std::uint64_t> points_bytes;  // with --points; empty: they cannot be written
-  ResultBytes results;
   std::vector<StationSummary> stations;
   std::uint64_t stations_bytes = 0;
 };
+
+// What a run takes for each point: the least is of an even scan with default options, the most of a rough one
+// with little memory and all results. docs/usage.md has the measurements.
+struct Need {
+  double least, most;
+
+  Need times(double count) const { return {least * count, most * count}; }
+};
+constexpr Need kTemporaryBytes{40, 800};
+constexpr Need kKeptBytes{90, 600};   // more, with --workspace
+constexpr Need kMicroseconds{1, 20};  // of processor time
+
+struct Needs {
+  Need temporary, kept, seconds;
+};
+
+Needs needs_of(const Summary& summary) {
+  const auto points = static_cast<double>(summary.counts.points);
+  return {.temporary = kTemporaryBytes.times(points),
+          .kept = kKeptBytes.times(points),
+          .seconds = kMicroseconds.times(1e-6 * points / static_cast<double>(summary.threads))};
+}
+
+std::string print_sizes(const Need& bytes) {
+  return print_size(static_cast<std::uint64_t>(bytes.least)) + " to " +
+         print_size(static_cast<std::uint64_t>(bytes.most));
+}
 
 // Avoids a pass over the file if its head has all numbers.
 AttributeCounts counts_of_file(ScanReader& reader, std::size_t rows_at_a_time) {
@@ -90,17 +110,6 @@ FileInfo read_file_info(const FileScan& scan, std::size_t file, const ReadOption
           .counts = counts_of_file(*reader, scan.batch_rows(file))};
 }
 
-// Some scans have more columns than a format holds with the results.
-std::optional<std::uint64_t> size_of_points(const FileScan& scan, const FilesConfig& config,
-                                            std::uint64_t rows) {
-  try {
-    return points_bytes(scan, config.output, rows).all;
-  } catch (const Error&) {
-    if (config.results.points) throw;
-    return std::nullopt;
-  }
-}
-
 RunInfo inspect_run(FileScan& scan, const FilesConfig& config) {
   RunInfo run;
   NoProgress silence;
@@ -114,13 +123,6 @@ RunInfo inspect_run(FileScan& scan, const FilesConfig& config) {
     run.stations = stations->summaries();
     run.stations_bytes = stations->disk_bytes();
   }
-  const Summary& summary = run.inspection.summary;
-  const Counts& counts = summary.counts;
-  const std::uint64_t points = counts.points - counts.dropped - counts.thinned_out;
-  run.points_file = points_name(config.output);
-  run.points_bytes = size_of_points(scan, config, counts.points);
-  run.results = result_bytes(scan, config, counts.points, points, summary.strays.rest);
-  run.costs = run_costs(scan, config, counts.points, points);
   return run;
 }
 
@@ -163,6 +165,7 @@ void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const 
   }
   if (!run.stations.empty()) std::cout << "\n" << print_stations(run.stations, scan.length_unit());
   const Summary& summary = run.inspection.summary;
+  const Needs needs = needs_of(summary);
   std::cout << "\na run of lacuna detect\n  points        " << print_count(summary.counts.points);
   std::cout << print_left_out(summary.counts, scan.filtered_out());
   if (!scan.common_crs().empty()) std::cout << "\n  crs           " << crs_name(scan.common_crs());
@@ -185,18 +188,13 @@ void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const 
             << print_count(summary.tile_points) << " points"
             << "\n  cells         " << print_count(run.inspection.cells) << ", of size "
             << run.inspection.cell_size << "\n  memory limit  " << print_size(summary.memory_limit)
-            << "\n  threads       " << summary.threads << "\n  workspace     about "
-            << print_size(run.costs.disk) << " on disk\n";
+            << "\n  threads       " << summary.threads << "\n  disk          " << print_sizes(needs.temporary)
+            << " in temporary files, and the results\n  kept folder   " << print_sizes(needs.kept)
+            << " more, with --workspace\n  time          " << print_duration(needs.seconds.least) << " to "
+            << print_duration(needs.seconds.most) << "\n";
   if (!run.stations.empty())
     std::cout << "  stations      " << print_size(run.stations_bytes)
               << " more on disk, where causes of holes are found\n";
-  std::cout << "  results       about " << print_size(run.results.all())
-            << " on disk, and more with more holes\n  " << run.points_file << "    "
-            << (run.points_bytes ? print_size(*run.points_bytes) +
-                                       (run.results.points > 0 ? ", in these results" : ", with --points")
-                                 : "cannot hold all columns; --points-format ply can")
-            << "\n  time          about " << print_duration(run.costs.seconds)
-            << " on a machine that does nothing else\n";
 }
 
 Json returns_of(const AttributeCounts& counts) {
@@ -239,12 +237,12 @@ void print_json(const std::vector<FileInfo>& files, const FileScan& scan, const 
   root["cell_size"] = run.inspection.cell_size;
   root["memory_limit"] = summary.memory_limit;
   root["threads"] = summary.threads;
-  root["workspace_bytes"] = run.costs.disk;
+  const Needs needs = needs_of(summary);
+  const auto json_of = [](const Need& need) { return Json{{"least", need.least}, {"most", need.most}}; };
+  root["temporary_bytes"] = json_of(needs.temporary);
+  root["kept_bytes"] = json_of(needs.kept);
   root["stations_bytes"] = run.stations_bytes;
-  root["results_bytes"] = run.results.all();
-  root["points_file"] = run.points_file;
-  root["points_bytes"] = run.points_bytes ? Json(*run.points_bytes) : Json();
-  root["estimated_seconds"] = run.costs.seconds;
+  root["seconds"] = json_of(needs.seconds);
   std::cout << print(root, 2) << "\n";
 }
 

@@ -11,11 +11,9 @@
 #include "tools/console/measures_text.hpp"
 #include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
-#include "tools/run/run_costs.hpp"
 #include "tools/run/signals.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -30,11 +28,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns whole minutes that a task takes at most. A whole run on its points takes more than twice as long as
-// a step, and is the bound.
-std::uint64_t minutes_of(const Step& step, const FileScan& scan, const Config& config) {
-  const std::uint64_t points = step.points / step.tasks + 1;
-  return static_cast<std::uint64_t>(std::ceil(1 + run_costs(scan, config, points, points).seconds / 60));
+// Returns whole minutes that a task takes at most. The bound is a whole run of one thread on its points, of a
+// rough scan (docs/usage.md, "Memory and disk").
+std::uint64_t minutes_of(const Step& step) {
+  constexpr std::uint64_t kPointsAMinute = 3'000'000;  // 20 microseconds a point
+  return 2 + step.points / step.tasks / kPointsAMinute;
 }
 
 struct PlanArguments {
@@ -46,9 +44,7 @@ struct PlanArguments {
   RunArguments run;
 };
 
-void print_plan(const PlanArguments& arguments, const std::vector<Step>& steps, const FileScan& scan,
-                const Config& config) {
-  const std::uint64_t memory = config.run.memory_limit;
+void print_plan(const PlanArguments& arguments, const std::vector<Step>& steps, std::uint64_t memory) {
   std::vector<std::vector<std::string>> rows = {{"step", "tasks", "points", "memory of a task", "minutes"}};
   const auto add = [&](const std::string& name, std::size_t tasks, std::uint64_t points,
                        std::uint64_t minutes) {
@@ -61,11 +57,11 @@ void print_plan(const PlanArguments& arguments, const std::vector<Step>& steps, 
   };
   std::uint64_t all = 0;
   for (const Step& step : steps) {
-    add(step.name(), step.tasks, step.points, minutes_of(step, scan, config));
+    add(step.name(), step.tasks, step.points, minutes_of(step));
     all += step.kind == Step::Kind::kEvaluate ? step.points : 0;
   }
   // All tiles are read again, and their loops found; the levels that are no steps are made.
-  add("finish", 1, all, minutes_of({.points = all}, scan, config));
+  add("finish", 1, all, minutes_of({.points = all}));
   if (!arguments.tsv) std::cout << print_table(rows);
 }
 
@@ -82,7 +78,7 @@ void run_plan(const PlanArguments& arguments) {
   const FolderLock alone(folder.path());
   const std::vector<std::uint64_t> parts = scan->parts();
   const std::uint64_t points = std::accumulate(parts.begin(), parts.end(), std::uint64_t{0});
-  print_plan(arguments, plan(*scan, config, arguments.tasks, points), *scan, config);
+  print_plan(arguments, plan(*scan, config, arguments.tasks, points), config.run.memory_limit);
 }
 
 struct WorkArguments {
