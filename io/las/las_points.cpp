@@ -230,16 +230,13 @@ class CompressedPoints final : public LasPoints {
     }
   }
 
-  // Refuses a last chunk with more points than the header counts. Without chunks, other data may follow the
-  // points.
-  void check_end(const laz::Chunk& chunk, const laz::ChunkDecoder& decoder) const {
-    const bool is_last = chunk.offset == chunks_.back().offset;
-    if (!is_last || trusts_header_ || layout_.compressor == laz::compressor::kPointwise) return;
-    if (decoder.has_more_than(chunk.points))
-      throw laz::Corrupt(
-          "the last chunk holds more points than the header counts; --trust header leaves them, and `laszip` "
-          "or "
-          "`lasinfo -repair` count them");
+  // Refuses a chunk with other points than are counted. Without chunks, other data may follow the points.
+  void check_end(const laz::Chunk& chunk, laz::ChunkDecoder& decoder) const {
+    if (trusts_header_ || layout_.compressor == laz::compressor::kPointwise) return;
+    if (decoder.has_other_than(chunk.points))
+      throw laz::Corrupt("a chunk does not end with the " + std::to_string(chunk.points) +
+                         " points that header and chunk table count; --trust header reads these, and "
+                         "`laszip` or `lasinfo -repair` count the others");
   }
 
   const InputFile& in_;

@@ -25,8 +25,13 @@ class ArithmeticDecoder {
     if (value_ == length_) throw Corrupt("the compressed points begin with bytes that no encoder writes");
   }
 
-  std::uint64_t unread_bytes() const {
-    return left_end_ - left_at_ + static_cast<std::uint64_t>(end_ - next_);
+  // Whether the bytes end here as ArithmeticEncoder::finish() ends them. It rounds a place in the interval
+  // up, to whole steps.
+  bool is_at_end() const {
+    const bool is_long = length_ > 2 * kMinLength;
+    const std::uint32_t most = is_long ? kMinLength : kMinLength / 2;
+    const std::uint32_t step = is_long ? kMinLength : kMinLength / 256;
+    return left_at_ == left_end_ && next_ == end_ && value_ <= most && value_ > most - step;
   }
 
   // Not to be copied: the bytes may lie in its buffer.

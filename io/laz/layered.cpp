@@ -198,7 +198,7 @@ class LayeredDecoder final : public RecordDecoder {
     for (std::size_t at = 0; at < records.size(); at += record_bytes_) records_.code(records.data() + at);
   }
 
-  bool has_more_than(std::uint64_t points) const override { return points_ > points; }
+  bool has_other_than(std::uint64_t points) const override { return points_ > points; }
 
  private:
   std::size_t record_bytes_;

@@ -25,15 +25,20 @@ void ChunkDecoder::decode(std::span<std::byte> records) {
     records = records.subspan(record_bytes);
   }
   if (records.empty()) return;
-  if (!rest_) {
-    rest_ = layout_.compressor == compressor::kLayeredChunked ? layered_decoder(layout_, bytes_, first_)
-                                                              : pointwise_decoder(layout_, bytes_, first_);
-  }
+  begin_rest();
   rest_->decode(records);
 }
 
-bool ChunkDecoder::has_more_than(std::uint64_t points) const {
-  return rest_ && rest_->has_more_than(points);
+void ChunkDecoder::begin_rest() {
+  if (rest_) return;
+  rest_ = layout_.compressor == compressor::kLayeredChunked ? layered_decoder(layout_, bytes_, first_)
+                                                            : pointwise_decoder(layout_, bytes_, first_);
+}
+
+bool ChunkDecoder::has_other_than(std::uint64_t points) {
+  if (bytes_.size() == first_.size()) return false;  // a point alone
+  begin_rest();
+  return rest_->has_other_than(points);
 }
 
 std::uint64_t decoder_bytes(const Layout& layout) {

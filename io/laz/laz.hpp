@@ -132,11 +132,13 @@ class ChunkDecoder {
 
   // The next records, never more than the chunk has.
   void decode(std::span<std::byte> records);
-  // Whether the chunk holds more records than those `points` that are decoded. Chunks of layers say how many
-  // they hold. Others have bytes left, of which a few are no sign: some records take less than a byte.
-  bool has_more_than(std::uint64_t points) const;
+  // Whether the chunk holds other records than those `points` that are decoded. Chunks of layers say how many
+  // they hold. Others end in the state that an encoder leaves. Records that equal the one before may take no
+  // bits that show in it.
+  bool has_other_than(std::uint64_t points);
 
  private:
+  void begin_rest();
   const Layout& layout_;
   const ChunkBytes& bytes_;
   std::vector<std::byte> first_;         // the first record; empty before it was read

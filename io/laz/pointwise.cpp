@@ -126,10 +126,7 @@ class PointwiseDecoder final : public RecordDecoder {
       items_.code(decoder_, records.data() + at);
   }
 
-  bool has_more_than(std::uint64_t) const override {
-    constexpr std::uint64_t kFew = 16;
-    return decoder_.unread_bytes() > kFew;
-  }
+  bool has_other_than(std::uint64_t) const override { return !decoder_.is_at_end(); }
 
  private:
   std::size_t record_bytes_;

@@ -13,8 +13,8 @@ class RecordDecoder {
  public:
   virtual ~RecordDecoder() = default;
   virtual void decode(std::span<std::byte> records) = 0;
-  // As `ChunkDecoder::has_more_than`.
-  virtual bool has_more_than(std::uint64_t points) const = 0;
+  // As `ChunkDecoder::has_other_than`.
+  virtual bool has_other_than(std::uint64_t points) const = 0;
 };
 
 }  // namespace lacuna::io::laz

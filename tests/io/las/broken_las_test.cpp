@@ -168,10 +168,32 @@ TEST_CASE("LAZ whose header counts fewer points than its last chunk has is an er
     for (const std::uint64_t memory :
          {std::uint64_t{3} << 20, std::uint64_t{64} << 20}) {  // by blocks, whole
       INFO(file.name << " within " << memory);
-      CHECK_THAT(error_of([&] { read_table(path, 999, {.columns = "", .memory = memory}); }),
-                 Catch::Contains("the last chunk holds more points than the header counts; --trust header"));
+      CHECK_THAT(
+          error_of([&] { read_table(path, 999, {.columns = "", .memory = memory}); }),
+          Catch::Contains(
+              "a chunk does not end with the 20000 points that header and chunk table count; --trust"));
       const ReadOptions trusting{.columns = "", .memory = memory, .trust = Trust::kHeader};
       CHECK(read_table(path, 999, trusting).rows.size() == 50'000);
+    }
+  }
+}
+
+TEST_CASE("LAZ: every count that is too small for the only chunk is an error", "[io]") {
+  const ScratchFolder folder;
+  constexpr std::uint64_t kPoints = 500;
+  for (const int format : {0, 1, 2, 3, 6, 7, 8}) {
+    for (const std::uint16_t version : {format < 6 ? 2 : 3, format < 6 ? 2 : 4}) {
+      WholeFile file = compressed(format < 6 ? 2 : 4, format, version, {kPoints});
+      for (const std::uint64_t count : {1, 2, 250, 490, 495, 496, 497, 498, 499}) {
+        if (format < 6) {
+          put(file.bytes, 107, static_cast<std::uint32_t>(count));
+        } else {
+          put(file.bytes, 247, count);
+        }
+        INFO(file.name << " " << count);
+        CHECK_THAT(error_of([&] { read_table(folder.write("a.laz", file.bytes)); }),
+                   Catch::Contains("a chunk does not end with the " + std::to_string(count) + " "));
+      }
     }
   }
 }
