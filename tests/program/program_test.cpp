@@ -31,23 +31,6 @@ using test::run_program;
 using test::ScratchFolder;
 using test::sheet;
 
-TEST_CASE("a folder of Entwine's point tiles is the scan in its files", "[program]") {
-  const ScratchFolder folder;
-  std::filesystem::create_directories(folder / "ept" / "ept-data");
-  folder.write("ept/ept.json", R"({"dataType": "laszip", "points": 3})");
-  folder.write("ept/ept-data/0-0-0-0.xyz", "1 2 3\n4 5 6\n");
-  folder.write("ept/ept-data/1-0-0-0.xyz", "7 8 9\n");
-  for (const auto& name : {folder / "ept", folder / "ept" / "ept.json"}) {
-    const auto json = nlohmann::json::parse(run_program({"info", "--json", name.string()}).out);
-    CHECK(json["files"].size() == 2);
-    CHECK(json["points"] == 3);
-  }
-  folder.write("ept/ept.json", R"({"dataType": "zstandard"})");
-  check_failure(run_program({"info", (folder / "ept").string()}), 1, "allowed: laszip");
-  folder.write("ept/ept.json", "[");
-  check_failure(run_program({"info", (folder / "ept").string()}), 1, "has no \"dataType\"");
-}
-
 TEST_CASE("info counts classes and returns", "[program]") {
   const ScratchFolder folder;
   const std::string scan = folder.write("a.txt",

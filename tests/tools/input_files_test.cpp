@@ -2,6 +2,7 @@
 #include "tools/run/input_files.hpp"
 
 #include "engine/run/error.hpp"
+#include "tests/io/io_support.hpp"
 #include "tests/io/las/las_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -15,6 +16,7 @@ using namespace io;
 namespace {
 
 namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
 using Paths = std::vector<fs::path>;
 
 Paths files_of(const std::vector<fs::path>& given) {
@@ -112,6 +114,78 @@ TEST_CASE("a folder without a scan, an empty list and one that is missing are er
   CHECK_THROWS_WITH(expand_inputs({as_list(list)}, {}), Catch::Matchers::Contains("names no file"));
   CHECK_THROWS_WITH(expand_inputs({"@missing.txt"}, {}),
                     Catch::Matchers::Contains("missing.txt: cannot be opened"));
+}
+
+// An EPT folder of tiles of two points, each in its file of the hierarchy.
+struct Ept {
+  test::ScratchFolder scratch;
+  fs::path folder = scratch / "ept";
+
+  Ept() {
+    fs::create_directories(folder / "ept-data");
+    fs::create_directories(folder / "ept-hierarchy");
+    write("ept.json", R"({"dataType": "laszip", "points": 6})");
+    write("ept-hierarchy/0-0-0-0.json", R"({"0-0-0-0": 2, "1-0-0-0": -1, "1-1-0-0": 0})");
+    write("ept-hierarchy/1-0-0-0.json", R"({"1-0-0-0": 2, "2-0-0-1": 2})");
+    for (const char* tile : {"0-0-0-0", "1-0-0-0", "2-0-0-1"}) write_tile(tile, 2);
+  }
+  void write(const std::string& name, const std::string& bytes) const { scratch.write("ept/" + name, bytes); }
+  void write_tile(const std::string& name, int points) const {
+    test::LasFile las;
+    for (int i = 0; i < points; ++i) las.points.push_back(test::las_point(20, i, 0, 0));
+    write("ept-data/" + name + ".laz", las.bytes());
+  }
+  std::string error() const {
+    return test::error_of([&] { files_of({folder}); });
+  }
+};
+
+TEST_CASE("a folder of Entwine's point tiles is the scan in its files") {
+  const Ept ept;
+  const fs::path data = ept.folder / "ept-data";
+  const Paths tiles = {data / "0-0-0-0.laz", data / "1-0-0-0.laz", data / "2-0-0-1.laz"};
+  CHECK(files_of({ept.folder}) == tiles);
+  CHECK(files_of({ept.folder / "ept.json"}) == tiles);
+  ept.write("ept.json", R"({"dataType": "zstandard"})");
+  CHECK_THAT(ept.error(), Contains("allowed: laszip"));
+  ept.write("ept.json", "[");
+  CHECK_THAT(ept.error(), Contains("has no \"dataType\""));
+}
+
+TEST_CASE(
+    "point tiles that are not as ept.json and the hierarchy say are an error, which --skip-damaged ends") {
+  const auto fails = [](const Ept& ept, const std::string& reason) {
+    CHECK_THAT(ept.error(), Contains(reason) && Contains("; --skip-damaged reads the tiles that are there"));
+    CHECK(expand_inputs({ept.folder}, {}, {.skip_damaged = true}).size() >= 2);
+  };
+  const auto hierarchy = [&](const std::string& json, const std::string& reason) {
+    const Ept ept;
+    ept.write("ept-hierarchy/0-0-0-0.json", json);
+    fails(ept, reason);
+  };
+  Ept missing;
+  fs::remove(missing.folder / "ept-data" / "2-0-0-1.laz");
+  fails(missing, "2-0-0-1.laz: is missing; of the 4 tiles in the hierarchy, 1 cannot be found");
+  Ept unknown;
+  unknown.write_tile("1-1-0-0", 2);
+  unknown.write_tile("3-0-0-0", 2);
+  fails(unknown, "3-0-0-0.laz: is no tile of the hierarchy");
+  Ept shorter;
+  shorter.write_tile("2-0-0-1", 1);
+  fails(shorter, "2-0-0-1.laz: has 1 points, but the hierarchy counts 2");
+  Ept sum;
+  sum.write("ept.json", R"({"dataType": "laszip", "points": 7})");
+  fails(sum, "ept.json: counts 7 points, but the tiles of its hierarchy have 6");
+  sum.write("ept.json", R"({"dataType": "laszip"})");
+  fails(sum, "ept.json: has no number \"points\"");
+  Ept cut;
+  fs::remove(cut.folder / "ept-hierarchy" / "1-0-0-0.json");
+  fails(cut, "1-0-0-0.json: is missing");
+  hierarchy("{", "0-0-0-0.json: is missing, or no JSON object");
+  hierarchy(R"({"0-0-0-0": -1})", "0-0-0-0.json: the hierarchy names this file more than once");
+  hierarchy(R"({"0-0-0-0": 2, "1-0-0-0": 2, "1-0-0-1": -2})", "is not the number of points of a tile, or -1");
+  hierarchy(R"({"../a": -1})", "is not the number of points of a tile, or -1");
+  hierarchy(R"({"0-0-0-0": 2, "2-0-0-1": 2, "1-0-0-0": -1})", "counts tile 2-0-0-1 more than once");
 }
 
 }  // namespace

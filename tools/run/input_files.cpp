@@ -9,14 +9,13 @@
 #include "io/rows/pose.hpp"
 #include "io/rows/scan_reader.hpp"
 #include "tools/console/visible_text.hpp"
+#include "tools/run/ept.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 #include <system_error>
 #include <utility>
 
-#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
 namespace lacuna::tools {
@@ -136,26 +135,17 @@ void leave_out_damaged(const ReadOptions& options, std::vector<ScanInput>& files
   if (files.empty()) throw Error(first + "; no other file is left");
 }
 
-// Returns the ept.json that a name stands for: itself, or the one in a folder. Empty if there is none.
-fs::path find_ept(const fs::path& input) {
-  std::error_code error;
-  const fs::path file = fs::is_directory(input, error) ? input / "ept.json" : input;
-  return file.filename() == "ept.json" && fs::is_regular_file(file, error) ? file : fs::path();
-}
-
-// Entwine's point tiles (https://entwine.io/en/latest/entwine-point-tile.html): each point is in one of the
-// files of ept-data.
 void add_ept(const fs::path& ept, const ReadOptions& options, const InputConfig& config,
              std::vector<ScanInput>& files) {
-  std::ifstream in(ept);
-  const auto json = nlohmann::json::parse(in, nullptr, false);
-  const auto type = json.is_object() ? json.find("dataType") : json.end();
-  if (type == json.end() || !type->is_string())
-    throw Error(ept.string() + ": has no \"dataType\", which each ept.json has");
-  if (*type != "laszip")
-    throw Error(ept.string() + ": its points are of the type \"" + visible(type->get<std::string>()) +
-                "\"; allowed: laszip");
-  add_folder(ept.parent_path() / "ept-data", options, config, files);
+  const fs::path data = ept_data(ept);
+  try {
+    check_ept(ept, options);
+  } catch (const Error& error) {
+    const std::string reason = visible(error.what());
+    if (!config.skip_damaged) throw Error(reason + "; --skip-damaged reads the tiles that are there");
+    spdlog::warn("{}; the tiles that are there are read", reason);
+  }
+  add_folder(data, options, config, files);
 }
 
 Pose find_pose(const fs::path& folder, std::string_view text) {

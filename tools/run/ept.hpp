@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Entwine's point tiles (https://entwine.io/en/latest/entwine-point-tile.html): a folder of LAZ files.
+#pragma once
+
+#include "io/rows/scan_reader.hpp"
+
+#include <filesystem>
+
+namespace lacuna::tools {
+
+// Returns the ept.json that a name stands for: itself, or the one in a folder. Empty if there is none.
+std::filesystem::path find_ept(const std::filesystem::path& input);
+
+// Returns the folder of the tiles. Throws `Error` if they are no LAZ files.
+std::filesystem::path ept_data(const std::filesystem::path& ept);
+
+// Throws `Error` unless the tiles are those of the hierarchy, which may have several files. Their points must
+// add up to the number in ept.json, and a tile must have as many as the hierarchy counts. The function opens
+// each tile once. Memory: the hierarchy, about 200 bytes for each tile.
+void check_ept(const std::filesystem::path& ept, const io::ReadOptions& options);
+
+}  // namespace lacuna::tools
