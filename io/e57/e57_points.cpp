@@ -10,7 +10,7 @@
 namespace lacuna::io {
 namespace {
 
-constexpr std::size_t kSectionHeader = 32, kPacketHeader = 4, kDataHeader = 6;
+constexpr std::size_t kSectionHeader = 32, kPacketHeader = 4, kDataHeader = 6, kMostPadding = 3;
 constexpr std::size_t kMostHeld = std::size_t{8} << 20;
 
 enum PacketType : std::uint8_t { kIndex = 0, kData = 1, kEmpty = 2 };
@@ -18,7 +18,7 @@ enum PacketType : std::uint8_t { kIndex = 0, kData = 1, kEmpty = 2 };
 }  // namespace
 
 E57Points::E57Points(PagedFile& pages, const E57Scan& scan, std::size_t number)
-    : pages_(pages), number_(number), left_(scan.records) {
+    : pages_(pages), number_(number), records_(scan.records), left_(scan.records) {
   for (const E57Field& field : scan.fields) streams_.emplace_back(field);
   const std::string name = "the points of scan " + std::to_string(number);
   pages_.seek(scan.points_at, name);
@@ -34,8 +34,10 @@ E57Points::E57Points(PagedFile& pages, const E57Scan& scan, std::size_t number)
     fail(begin, "the section of its points has " + std::to_string(length) + " bytes; 32 to " +
                     std::to_string(pages_.size() - begin) + " are possible here");
   }
-  end_ = begin + length;
-  pages_.seek(load<std::uint64_t>(&head[16]), name);
+  const auto packets_at = load<std::uint64_t>(&head[16]);
+  end_ = records_ == 0 && packets_at == 0 ? pages_.position() : begin + length;
+  if (end_ == pages_.position()) return;  // no packets of no points
+  pages_.seek(packets_at, name);
   if (pages_.position() < begin + kSectionHeader || pages_.position() > end_) {
     fail(begin, "its first packet is not in the section of its points");
   }
@@ -48,6 +50,24 @@ std::size_t E57Points::ready(std::size_t most) {
     if (count > 0 || left_ == 0) return count;
     read_packet();
   }
+}
+
+bool E57Points::holds_more() const {
+  return std::ranges::any_of(streams_, &FieldStream::holds_more) &&
+         std::ranges::all_of(streams_, [](const FieldStream& stream) { return stream.ready(1) == 1; });
+}
+
+void E57Points::require_end() {
+  while (!holds_more()) {
+    if (end_ - pages_.position() < kPacketHeader) return;
+    read_packet();
+  }
+  fail_more();
+}
+
+void E57Points::fail_more() const {
+  fail(pages_.position(), "its packets hold more than the " + std::to_string(records_) +
+                              " points of its recordCount; --trust header reads these alone");
 }
 
 void E57Points::read_packet() {
@@ -77,6 +97,8 @@ void E57Points::read_data(std::uint64_t place, std::size_t bytes) {
   packet_.resize(bytes);
   pages_.read(packet_.data() + kPacketHeader, bytes - kPacketHeader);
   const std::size_t fields = bytes < kDataHeader ? 0 : load<std::uint16_t>(&packet_[kPacketHeader]);
+  if (records_ == 0 && bytes > kDataHeader + 2 * fields + kMostPadding) fail_more();
+  if (records_ == 0) return;
   if (fields != streams_.size()) {
     fail(place, "a packet of " + std::to_string(fields) + " fields; its points have " +
                     std::to_string(streams_.size()));

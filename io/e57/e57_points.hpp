@@ -35,14 +35,20 @@ class E57Points {
     streams_[field].take(count, to, added);
   }
   void pass(std::size_t count) { left_ -= count; }
+  // Throws `Error` if the packets hold more points than the scan declares, and no point is left to be taken.
+  // One point of integers alone may be taken for padding.
+  void require_end();
 
  private:
   void read_packet();
   void read_data(std::uint64_t place, std::size_t bytes);
+  bool holds_more() const;
+  [[noreturn]] void fail_more() const;
   [[noreturn]] void fail(std::uint64_t place, const std::string& reason) const;
 
   PagedFile& pages_;
   std::size_t number_;
+  std::uint64_t records_;
   std::uint64_t left_;
   std::uint64_t end_ = 0;  // of the section, logical
   std::vector<FieldStream> streams_;

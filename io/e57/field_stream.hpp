@@ -8,6 +8,8 @@
 #include "io/e57/e57_header.hpp"
 #include "io/rows/scalar.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,6 +24,9 @@ class FieldStream {
 
   // Returns the number of values that can be taken, at most `most`.
   std::size_t ready(std::size_t most) const;
+  // Whether more bits are held than padding explains. libE57Format pads integers to words of
+  // 8 to 64 bits, other programs to bytes.
+  bool holds_more() const { return held_bits() >= std::max(8U, std::bit_ceil(field_.bits)); }
   std::size_t held_bytes() const { return static_cast<std::size_t>(held_bits() / 8); }
 
   // Adds bytes behind the bytes held. Cost: linear, whatever is held.

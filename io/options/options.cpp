@@ -99,7 +99,8 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
       {"input", "where", &input.where, 0, 0, "a condition such as Classification == 2 and PointSourceId != 7",
        "Points take part where this condition of their attributes holds; empty: all."},
       {"input", "trust", named(input.trust, kTrust), 0, 2, "neither, header or file",
-       "Which number of points holds where the header of LAS counts others than follow; neither: an error."},
+       "Which number of points holds where the header of LAS or E57 counts others than follow; neither: an "
+       "error."},
       {"input", "crs", &input.crs, 0, 0,
        "a code such as EPSG:25832, well-known text, or a file that has one of them",
        "Coordinate reference system of the scan, over what its files state; empty: as they state it."},
