@@ -27,11 +27,12 @@ struct E57Field {
 
 // An entry of data3D.
 struct E57Scan {
-  std::uint64_t points_at = 0;  // physical offset of the section of its points
+  std::uint64_t points_at = 0;  // physical offset of the section of its points; 0: none
   std::uint64_t records = 0;
   std::vector<E57Field> fields;  // in the order of their bytestreams; none where there are no records
   Pose pose = Pose::Identity();
-  bool has_pose = false;  // the file states it
+  bool has_pose = false;           // the file states it
+  bool has_zero_rotation = false;  // its quaternion is 0 0 0 0, taken for no rotation
 };
 
 struct E57Header {

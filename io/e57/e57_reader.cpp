@@ -21,8 +21,9 @@ constexpr std::size_t kTogether = 512;  // rows that stay in the cache while fie
 
 class E57Reader final : public ScanReader {
  public:
-  explicit E57Reader(const std::filesystem::path& file)
-      : header_(read_e57_header(file)),
+  E57Reader(const std::filesystem::path& file, Trust trust)
+      : trusts_header_(trust == Trust::kHeader),
+        header_(read_e57_header(file)),
         pages_(file, header_.page_bytes),
         columns_(e57_columns(pages_, header_)) {}
 
@@ -52,6 +53,15 @@ class E57Reader final : public ScanReader {
     return scanners;
   }
 
+  std::vector<ReaderNote> notes() const override {
+    const auto count = std::ranges::count_if(header_.scans, &E57Scan::has_zero_rotation);
+    return {{.count = static_cast<std::uint64_t>(count),
+             .thing = "scan",
+             .what =
+                 " with the quaternion 0 0 0 0, taken for no rotation; a pose in a list of files can turn "
+                 "the file"}};
+  }
+
   bool next(RowBatch& batch, std::size_t max_rows) override {
     assert(max_rows > 0);
     const std::size_t stride = columns_.layout.stride;
@@ -63,6 +73,7 @@ class E57Reader final : public ScanReader {
       const std::size_t count = points_->ready(std::min(rows - batch.count, kTogether));
       put({.data = batch.bytes.data() + batch.count * stride, .stride = stride, .count = count});
       points_->pass(count);
+      if (points_->left() == 0 && !trusts_header_) points_->require_end();
       batch.count += count;
     }
     batch.bytes.resize(batch.count * stride);
@@ -75,8 +86,12 @@ class E57Reader final : public ScanReader {
     while (!points_ || points_->left() == 0) {
       if (next_scan_ == header_.scans.size()) return false;
       const E57Scan& scan = header_.scans[next_scan_++];
-      if (scan.records == 0) continue;
+      if (scan.records == 0 && (scan.points_at == 0 || trusts_header_)) continue;
       points_.emplace(pages_, scan, next_scan_ - 1);
+      if (scan.records == 0) {
+        points_->require_end();
+        continue;
+      }
       scan_columns_ = e57_scan_columns(scan, columns_);
     }
     return true;
@@ -109,6 +124,7 @@ class E57Reader final : public ScanReader {
     }
   }
 
+  bool trusts_header_;
   E57Header header_;
   PagedFile pages_;
   E57Columns columns_;
@@ -123,8 +139,8 @@ bool looks_like_e57(const FileStart& start) {
   return start.first_bytes.starts_with("ASTM-E57");
 }
 
-std::unique_ptr<ScanReader> open_e57(const std::filesystem::path& file, const ReadOptions&) {
-  return std::make_unique<E57Reader>(file);
+std::unique_ptr<ScanReader> open_e57(const std::filesystem::path& file, const ReadOptions& options) {
+  return std::make_unique<E57Reader>(file, options.trust);
 }
 
 }  // namespace lacuna::io

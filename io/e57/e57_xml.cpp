@@ -119,8 +119,9 @@ void check_codecs(const Xml& xml, pugi::xml_node points) {
   }
 }
 
-Pose read_pose(const Xml& xml, pugi::xml_node node) {
-  Pose pose = Pose::Identity();
+void read_pose(const Xml& xml, pugi::xml_node node, E57Scan& scan) {
+  constexpr double kZero = 1e-6;  // a rounded 0; other lengths than 1 are of writers that scale quaternions
+  Pose& pose = scan.pose;
   const auto value = [&](pugi::xml_node of, const char* name) {
     const pugi::xml_node child = of.child(name);
     if (!child) xml.fail(of, in_quotes(of.name()) + " has no " + in_quotes(name));
@@ -133,13 +134,13 @@ Pose read_pose(const Xml& xml, pugi::xml_node node) {
   if (const pugi::xml_node rotation = node.child("rotation")) {
     const Eigen::Quaterniond turn(value(rotation, "w"), value(rotation, "x"), value(rotation, "y"),
                                   value(rotation, "z"));
-    if (!(std::isfinite(turn.norm()) && turn.norm() > 0)) {
+    if (!std::isfinite(turn.norm())) {
       xml.fail(rotation, "the rotation of a pose has the length " + std::to_string(turn.norm()) +
                              "; a quaternion must have the length 1");
     }
-    pose.linear() = turn.normalized().toRotationMatrix();
+    scan.has_zero_rotation = turn.norm() < kZero;
+    if (!scan.has_zero_rotation) pose.linear() = turn.normalized().toRotationMatrix();
   }
-  return pose;
 }
 
 // Scans with a section in common, and columns of one value, take no bytes for each value.
@@ -160,8 +161,10 @@ E57Scan read_scan(const Xml& xml, pugi::xml_node node, std::uint64_t& values) {
   const pugi::xml_node points = node.child("points");
   if (!points) return scan;
   scan.records = number<std::uint64_t>(xml, points, "recordCount", std::nullopt);
-  if (scan.records == 0) return scan;
-  scan.points_at = number<std::uint64_t>(xml, points, "fileOffset", std::nullopt);
+  const bool is_empty = scan.records == 0;
+  const auto missing = is_empty ? std::optional<std::uint64_t>(0) : std::nullopt;
+  scan.points_at = number<std::uint64_t>(xml, points, "fileOffset", missing);
+  if (is_empty) return scan;
   check_codecs(xml, points);
   std::uint64_t bits = 0;
   for (const pugi::xml_node field : points.child("prototype").children()) {
@@ -178,7 +181,7 @@ E57Scan read_scan(const Xml& xml, pugi::xml_node node, std::uint64_t& values) {
   }
   count_values(xml, points, scan, values);
   scan.has_pose = !node.child("pose").empty();
-  scan.pose = read_pose(xml, node.child("pose"));
+  read_pose(xml, node.child("pose"), scan);
   return scan;
 }
 

@@ -67,6 +67,7 @@ class LasReader final : public ScanReader {
   const RowLayout& layout() const override { return columns_.layout(); }
   std::optional<std::uint64_t> expected_rows() const override { return header_.points; }
   bool is_slow() const override { return header_.is_compressed; }
+  bool has_noise_classes() const override { return true; }
   std::string crs() const override { return header_.crs.text(); }
   bool is_geographic() const override { return header_.crs.is_geographic(); }
   std::string length_unit() const override { return header_.crs.length_unit(); }

@@ -77,6 +77,7 @@ class ObjLines {
 struct ObjContent {
   std::uint64_t vertices = 0;
   std::uint64_t normals = 0;
+  std::uint64_t faces = 0;
   bool has_colours = false;
   bool has_own_normals = true;  // no face gives a vertex the normal of another number
 };
@@ -107,8 +108,10 @@ ObjContent survey(const std::filesystem::path& file) {
       ++content.vertices;
     } else if (word == "vn") {
       ++content.normals;
-    } else if (word == "f" && content.has_own_normals) {
-      while (words.next(word)) content.has_own_normals &= has_own_normal(word, content);
+    } else if (word == "f" || word == "fo") {
+      ++content.faces;
+      while (content.has_own_normals && words.next(word))
+        content.has_own_normals = has_own_normal(word, content);
     }
   }
   return content;
@@ -139,6 +142,7 @@ class ObjReader final : public ScanReader {
   std::string format() const override { return "OBJ"; }
   const RowLayout& layout() const override { return layout_; }
   std::optional<std::uint64_t> expected_rows() const override { return content_.vertices; }
+  std::vector<ReaderNote> notes() const override { return {note_of_faces(content_.faces)}; }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
     return fill_batch(batch, max_rows, layout_.stride, [&](std::byte* to) {

@@ -55,6 +55,7 @@ class BinaryStl final : public ScanReader {
   std::string format() const override { return "STL, binary"; }
   const RowLayout& layout() const override { return layout_; }
   std::optional<std::uint64_t> expected_rows() const override { return triangles_ * 3; }
+  std::vector<ReaderNote> notes() const override { return {note_of_faces(triangles_)}; }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
     return fill_batch(batch, max_rows, kVertexBytes, [&](std::byte* to) {
@@ -81,6 +82,17 @@ class AsciiStl final : public ScanReader {
   std::string format() const override { return "STL, ascii"; }
   const RowLayout& layout() const override { return layout_; }
   std::optional<std::uint64_t> expected_rows() const override { return std::nullopt; }
+
+  // Reads the whole file.
+  std::vector<ReaderNote> notes() const override {
+    InputFile in(in_.file());
+    std::uint64_t facets = 0;
+    while (const auto line = in.next_line()) {
+      LineWords words(in, *line);
+      facets += first_word(words) == "facet" ? 1 : 0;
+    }
+    return {note_of_faces(facets)};
+  }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
     return fill_batch(batch, max_rows, layout_.stride, [&](std::byte* to) {

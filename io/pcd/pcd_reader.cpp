@@ -27,6 +27,7 @@ class PcdReader final : public ScanReader {
     const auto place = rows_.header().scanner();
     return place ? std::vector{ScannerPose{.place = *place}} : std::vector<ScannerPose>{};
   }
+  bool has_scanner_at_zero() const override { return !rows_.header().scanner(); }
   std::optional<std::uint64_t> expected_rows() const override { return rows_.header().rows; }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {

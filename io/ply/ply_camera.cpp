@@ -46,8 +46,7 @@ std::optional<Eigen::Vector3d> read_ply_camera(const std::filesystem::path& file
     if (header.format == PlyFormat::kAscii) in.fail_at_line(in.line(), reason);
     in.fail_at_byte(begin, reason);
   }
-  if (places[0].isZero(0)) return std::nullopt;
-  return header.offset ? places[0] + *header.offset : places[0];
+  return places[0];
 }
 
 }  // namespace lacuna::io

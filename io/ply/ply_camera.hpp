@@ -12,11 +12,11 @@
 
 namespace lacuna::io {
 
-// Returns the properties view_px, view_py and view_pz of element `camera`, in the coordinates of the scan.
-// Returns nothing unless the element has these properties and exactly one row. Returns nothing at 0 0 0, too,
-// which programs write if they know no viewpoint. `header` is the file's header, after require_size(). Cost:
-// the function passes over rows before the camera. They are bytes in binary files without lists, and lines or
-// words in all others. Throws `Error` if the file ends before the camera, or a number is not finite.
+// Returns the properties view_px, view_py and view_pz of element `camera`, in the coordinates of the file.
+// Returns nothing unless the element has these properties and exactly one row. `header` is the file's header,
+// after require_size(). Cost: the function passes over rows before the camera. They are bytes in binary files
+// without lists, and lines or words in all others. Throws `Error` if the file ends before the camera, or a
+// number is not finite.
 std::optional<Eigen::Vector3d> read_ply_camera(const std::filesystem::path& file, const PlyHeader& header);
 
 }  // namespace lacuna::io

@@ -5,12 +5,9 @@
 #include "io/files/property_name.hpp"
 #include "io/rows/scalar.hpp"
 
-#include <mutex>
 #include <set>
 #include <span>
 #include <string_view>
-
-#include <spdlog/spdlog.h>
 
 namespace lacuna::io {
 namespace {
@@ -91,15 +88,6 @@ void parse_property(Parser& parser, Words words) {
   element.properties.push_back(std::move(property));
 }
 
-// A run opens a file several times, but one warning is enough.
-void warn_once(const InputFile& in, const std::string& reason) {
-  static std::mutex mutex;
-  static std::set<std::string> given;
-  std::string warning = in.file().string() + ": line " + std::to_string(in.line()) + ": " + reason;
-  const std::lock_guard lock(mutex);
-  if (given.insert(warning).second) spdlog::warn("{}", warning);
-}
-
 // X Y Z and NX NY NZ are names of position and normal, unless there are x y z too.
 void set_known_names(PlyHeader& header) {
   for (PlyElement& element : header.elements) {
@@ -129,7 +117,7 @@ bool parse_line(Parser& parser, Words words) {
   } else if (words[0] == "property") {
     parse_property(parser, words);
   } else if (words.size() == 1 && words[0] == "bye") {
-    warn_once(parser.in, "'bye' is no keyword of a header; the line is ignored");
+    ++parser.header.byes;
   } else {
     parser.fail("unknown keyword " + in_quotes(words[0]) +
                 "; allowed are format, comment, obj_info, element, property and end_header");

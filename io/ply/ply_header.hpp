@@ -35,12 +35,13 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::kAscii;
   std::vector<PlyElement> elements;
-  LocalOffset offset;  // of the coordinates, as a comment states it
+  LocalOffset offset;      // of the coordinates, as a comment states it
+  std::uint64_t byes = 0;  // lines "bye", which are no keyword
 };
 
 // Reads up to and with "end_header" and its line end. All lines of the file end with a carriage return alone
-// if the first one does (Rhinoceros). Names of position and normal may be capitals: X is x. A line "bye",
-// which Stanford's archive has in some headers, is a warning to the log, once in a run. "Created by ..." is a
+// if the first one does (Rhinoceros). Names of position and normal may be capitals: X is x. Lines "bye",
+// which Stanford's archive has in some headers, are counted. "Created by ..." is a
 // comment (Blender 2.4). Names are unique among the elements and within each element. The counts are as
 // declared: nothing may be allocated by them. Throws `Error` with the line.
 PlyHeader read_ply_header(InputFile& in);

@@ -41,7 +41,7 @@ class PlyReader final : public ScanReader {
     element_ = vertex;
     layout_ = header_.elements[vertex].layout();
     left_ = header_.elements[vertex].count;
-    scanner_ = read_ply_camera(file, header_);
+    camera_ = read_ply_camera(file, header_);
     for (std::size_t i = 0; i < vertex; ++i) skip_rows(in_, header_.format, header_.elements[i]);
   }
 
@@ -50,11 +50,22 @@ class PlyReader final : public ScanReader {
 
   std::vector<Eigen::Vector3d> no_return_places() const override {
     std::vector<Eigen::Vector3d> places{Eigen::Vector3d::Zero()};
-    if (scanner_) places.push_back(*scanner_);
+    for (const ScannerPose& scanner : scanners()) places.push_back(scanner.place);
     return places;
   }
+  bool has_scanner_at_zero() const override { return camera_ && camera_->isZero(0); }
   std::vector<ScannerPose> scanners() const override {
-    return scanner_ ? std::vector{ScannerPose{.place = *scanner_}} : std::vector<ScannerPose>{};
+    if (!camera_ || has_scanner_at_zero()) return {};
+    return {{.place = *camera_ + header_.offset.value_or(Eigen::Vector3d::Zero())}};
+  }
+  std::vector<ReaderNote> notes() const override {
+    std::vector<ReaderNote> notes{
+        {.count = header_.byes, .thing = "line", .what = " 'bye', no keyword of a header; ignored"}};
+    for (const PlyElement& element : header_.elements) {
+      if (element.name == "face") notes.push_back(note_of_faces(element.count));
+      if (element.name == "tristrips") notes.push_back(note_of_faces(element.count, "triangle strip"));
+    }
+    return notes;
   }
   const LocalOffset& offset() const { return header_.offset; }
 
@@ -88,8 +99,8 @@ class PlyReader final : public ScanReader {
   PlyHeader header_;
   std::size_t element_ = 0;  // of the header, the vertices
   RowLayout layout_;
-  std::optional<Eigen::Vector3d> scanner_;  // of its camera
-  std::uint64_t left_ = 0;                  // vertices not yet read
+  std::optional<Eigen::Vector3d> camera_;
+  std::uint64_t left_ = 0;  // vertices not yet read
   bool finished_ = false;
 };
 

@@ -23,6 +23,9 @@ class MovedReader : public ScanReader {
   bool is_slow() const final { return reader_->is_slow(); }
   std::vector<ScannerPose> scanners() const override { return reader_->scanners(); }
   std::vector<Eigen::Vector3d> no_return_places() const override { return reader_->no_return_places(); }
+  bool has_scanner_at_zero() const final { return reader_->has_scanner_at_zero(); }
+  bool has_noise_classes() const final { return reader_->has_noise_classes(); }
+  std::vector<ReaderNote> notes() const final { return reader_->notes(); }
 
   bool next(RowBatch& batch, std::size_t max_rows) final {
     if (!reader_->next(rows_, max_rows)) return false;

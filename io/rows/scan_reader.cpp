@@ -18,4 +18,12 @@ std::string ScanReader::length_unit() const {
   return io::length_unit(crs());
 }
 
+ReaderNote note_of_faces(std::uint64_t count, const char* thing) {
+  return {.count = count,
+          .thing = thing,
+          .what =
+              "; only their vertices are read; CloudCompare or MeshLab sample points on faces, which show "
+              "the whole surface"};
+}
+
 }  // namespace lacuna::io

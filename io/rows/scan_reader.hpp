@@ -58,6 +58,16 @@ struct ScannerPose {
   std::optional<std::uint32_t> source;  // the value of its rows in the column `scan`; empty: all rows
 };
 
+// What a reader does not read as the user may expect: `count` times `thing`, and what is done with them.
+struct ReaderNote {
+  std::uint64_t count;  // 0: nothing to say
+  std::string thing;    // its plural has an s
+  std::string what;
+};
+
+// The note that the faces of a mesh are not read.
+ReaderNote note_of_faces(std::uint64_t count, const char* thing = "face");
+
 // The bytes of rows that readers and writers of files hold at a time.
 inline constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
 
@@ -87,6 +97,11 @@ class LACUNA_API ScanReader {
   virtual std::vector<ScannerPose> scanners() const { return {}; }
   // Returns positions that mean a ray without return: 0 0 0, and the scanner's own if the file has it.
   virtual std::vector<Eigen::Vector3d> no_return_places() const { return {Eigen::Vector3d::Zero()}; }
+  // Whether the file states 0 0 0 as the place of its scanner. Programs that know no place write it.
+  virtual bool has_scanner_at_zero() const { return false; }
+  // Whether the classes 7 and 18 are noise. In other formats than LAS, they are labels of any meaning.
+  virtual bool has_noise_classes() const { return false; }
+  virtual std::vector<ReaderNote> notes() const { return {}; }
 };
 
 struct ReadOptions {

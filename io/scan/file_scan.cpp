@@ -55,6 +55,8 @@ FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint6
     add_units(*reader);
     is_geographic_.push_back(reader->is_geographic());
     formats_.push_back(reader->format());
+    notes_.push_back(reader->notes());
+    has_scanner_at_zero_.push_back(!poses_.back() && reader->has_scanner_at_zero());
     reads_slowly_ = reads_slowly_ || reader->is_slow();
     has_normals_ = has_normals_ || has_vectors(layouts_.back(), kNormalNames);
     has_scanners_ = has_scanners_ || !reader->scanners().empty();
@@ -215,7 +217,7 @@ bool FileScan::next(PointBatch& batch) {
     return true;
   }
   if (last_file_ - first_file_ < files_.size()) return false;  // other files may have points
-  if (filtered_out_.total() > 0 && before_filters_.kept == 0)
+  if (filtered_out_.total() > 0 && !has_point_)
     throw Error(describe_no_row_left(config_, filtered_out_, before_filters_));
   if (!has_point_ && !files_.empty() && !arrays_[0]) throw Error(describe_no_point());
   if (observer_) observer_->end();

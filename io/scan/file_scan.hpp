@@ -88,6 +88,10 @@ class LACUNA_API FileScan : public PointSource {
   const std::vector<std::optional<std::uint64_t>>& expected_rows() const { return expected_rows_; }
   // Returns the format of each file, as ScanReader::format says.
   const std::vector<std::string>& formats() const { return formats_; }
+  // Returns what each file's reader notes.
+  const std::vector<std::vector<ReaderNote>>& notes() const { return notes_; }
+  // Whether a file states 0 0 0 as its scanner's place, and no pose moves it.
+  bool has_scanner_at_zero(std::size_t file) const { return has_scanner_at_zero_[file]; }
   // Returns the CRS of each file; empty if it names none, or has a pose.
   const std::vector<std::string>& crs() const { return crs_; }
   // Returns the unit of length of each file; empty if it names none.
@@ -147,7 +151,8 @@ class LACUNA_API FileScan : public PointSource {
   std::vector<RowLayout> layouts_;
   std::vector<std::string> crs_, units_, z_units_, formats_;
   std::vector<double> z_factors_;
-  std::vector<bool> is_geographic_;
+  std::vector<std::vector<ReaderNote>> notes_;
+  std::vector<bool> is_geographic_, has_scanner_at_zero_;
   StatedCrs stated_;
   std::string known_crs_;  // well-known text of the last code that was looked up
   std::string common_crs_, common_unit_;

@@ -34,7 +34,7 @@ RowFilter::RowFilter(const InputConfig& config, const std::filesystem::path& fil
     return property == nullptr ? std::nullopt : std::optional(Values{.property = *property, .values = {}});
   };
   if (!config.keep_withheld) withheld_ = column_if_any("withheld");
-  if (!config.keep_noise) class_ = column_if_any("classification");
+  if (!config.keep_noise && reader.has_noise_classes()) class_ = column_if_any("classification");
   if (!config.where.empty()) where_.emplace(config.where, file.string(), reader.layout());
   is_active_ = config.drop_origin || bounds_ || !boxes_.empty() || withheld_ || class_ || where_;
 }
@@ -81,10 +81,7 @@ void RowFilter::apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions
     Eigen::Vector3d& position = positions[row];
     if (!position.allFinite()) continue;
     std::uint64_t* const count = refusing(row, position, filtered, before);
-    if (count == nullptr) {
-      ++before.kept;
-      continue;
-    }
+    if (count == nullptr) continue;
     ++*count;
     position.setConstant(std::numeric_limits<double>::quiet_NaN());
   }

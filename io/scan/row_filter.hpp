@@ -53,7 +53,6 @@ inline std::uint64_t FilteredOut::total() const {
 // Facts about the rows, for the error if the filters leave no row.
 struct BeforeFilters {
   Eigen::AlignedBox3d bounds;  // of all finite rows but those without a return
-  std::uint64_t kept = 0;      // finite rows that every filter accepts
 };
 
 // Returns the message of an error: which filter left out how many rows, and what these are.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every parameter changes the results of a small scan, or the list says what it needs for that.
 #include "io/options/options.hpp"
+#include "tests/io/las/las_file.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/run_program.hpp"
@@ -73,9 +74,14 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"tile_points", "150"},
 };
 
+struct Scan {
+  std::string text, noise;  // files
+};
+
 // A rough sheet with two holes, and pairs of sheets that join in creases. The points have two classes and
-// returns, and one is at 0 0 0. Withheld points make the first hole smaller, and noise the second one.
-std::string scan_text() {
+// returns, and one is at 0 0 0. Withheld points make the first hole smaller, and noise the second one. The
+// noise is in LAS, since the classes of text are labels.
+Scan made_scan() {
   Cloud cloud = plane(32).punched({9, 9}, 2).punched({21, 20}, 5).jittered(0.5, 1).noisy(0.12, 2);
   for (const int degrees : {40, 60, 80, 100, 120}) {
     cloud = cloud.joined(crease(14, degrees).jittered(0.4, 3).translated({60, 2.0 * degrees, 0}));
@@ -83,20 +89,32 @@ std::string scan_text() {
   std::ostringstream text;
   text.precision(17);
   text << "x y z classification return_number number_of_returns withheld\n0 0 0 2 1 1 0\n";
+  test::LasFile noise{.scale = {1e-6, 1e-6, 1e-6}, .offset = {0, 0, 0}};
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const auto is_within = [&](double x, double y, double radius) {
       return (cloud.positions[i].head<2>() - Eigen::Vector2d(x, y)).norm() < radius;
     };
-    const char* const other = i % 7 == 0 ? " 6" : " 2";
-    text << cloud.positions[i].transpose() << (is_within(21, 20, 6) ? " 7" : other)
-         << (i % 5 == 0 ? " 2 2" : " 1 1") << (is_within(9, 9, 3) ? " 1\n" : " 0\n");
+    if (is_within(21, 20, 6)) {
+      const Eigen::Vector3i steps = (cloud.positions[i] * 1e6).cast<int>();
+      noise.points.push_back(test::las_point(20, steps.x(), steps.y(), steps.z()));
+      test::put(noise.points.back(), 14, std::uint8_t{9});  // the only return
+      test::put(noise.points.back(), 15, std::uint8_t{7});
+      continue;
+    }
+    text << cloud.positions[i].transpose() << (i % 7 == 0 ? " 6" : " 2") << (i % 5 == 0 ? " 2 2" : " 1 1")
+         << (is_within(9, 9, 3) ? " 1\n" : " 0\n");
   }
-  return text.str();
+  return {.text = text.str(), .noise = noise.bytes()};
 }
 
 class Runs {
  public:
-  Runs() : scan_(scratch_.write("scan.txt", scan_text())) {}
+  Runs() {
+    const Scan scan = made_scan();
+    scratch_.write("scan.txt", scan.text);
+    scratch_.write("noise.las", scan.noise);
+    scan_ = "@" + scratch_.write("list.txt", "scan.txt\nnoise.las\n");
+  }
 
   // All bytes of the results. Some files have parameters or times in them. Of these it takes the loops of
   // holes.json with their system and unit, and the names of the others.

@@ -116,4 +116,116 @@ TEST_CASE("z in another unit is brought into the unit of x and y, but for the an
   CHECK(input_warnings(stated).empty());
 }
 
+namespace {
+
+constexpr const char* kFaces =
+    "; only their vertices are read; CloudCompare or MeshLab sample points on faces";
+
+// LAS of format 0, with a point of each of these classes.
+std::string las_of_classes(const std::vector<int>& classes) {
+  LasFile las;
+  for (const int number : classes) {
+    las.points.push_back(las_point(20, static_cast<int>(las.points.size()), 2, 3));
+    put(las.points.back(), 15, static_cast<std::uint8_t>(number));
+  }
+  return las.bytes();
+}
+
+// Two points, 1.7 apart.
+std::string pcd(double corner, const std::string& viewpoint) {
+  const std::string low = std::to_string(corner), high = std::to_string(corner + 1);
+  return "VERSION .7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nVIEWPOINT " +
+         viewpoint + " 1 0 0 0\nPOINTS 2\nDATA ascii\n" + low + " " + low + " 0\n" + high + " " + high +
+         " 1\n";
+}
+
+Strings warnings_of_filters(const std::string& file, const InputConfig& config) {
+  FileScan scan({file}, config);
+  Eigen::AlignedBox3d bounds;
+  scan.rewind();
+  for (PointBatch batch; scan.next(batch);) {
+    for (const Eigen::Vector3d& position : batch.positions) {
+      if (position.allFinite()) bounds.extend(position);
+    }
+  }
+  return filter_warnings(scan, config, bounds);
+}
+
+}  // namespace
+
+TEST_CASE("faces of a mesh are a warning with their number, in every format that has them") {
+  const ScratchFolder folder;
+  const std::string vertices =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string places = "0 0 0\n1 0 0\n0 1 0\n", list = " list uchar int vertex_indices\n";
+  const auto ply = folder.write("a.ply", vertices + "element face 2\nproperty" + list + "end_header\n" +
+                                             places + "3 0 1 2\n3 2 1 0\n"),
+             strips = folder.write("b.ply", vertices + "element tristrips 1\nproperty" + list +
+                                                "end_header\n" + places + "3 0 1 2\n"),
+             points = folder.write("c.ply",
+                                   vertices + "element face 0\nproperty" + list + "end_header\n" + places),
+             obj = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string facet =
+      " FACET normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+  const auto ascii = folder.write("a.stl", "solid\n" + facet + facet + facet + "endsolid\n");
+  std::string bytes(84 + 4 * 50, '\0');
+  put(bytes, 80, std::uint32_t{4});
+  const auto binary = folder.write("b.stl", bytes);
+  const auto warning = [&](const std::vector<ScanInput>& files) {
+    const Strings warnings = input_warnings(FileScan(files, {}));
+    REQUIRE(warnings.size() == 1);
+    return warnings[0];
+  };
+  CHECK_THAT(warning({ply}), Contains("a.ply: 2 faces" + std::string(kFaces)));
+  CHECK_THAT(warning({strips}), Contains("b.ply: 1 triangle strip" + std::string(kFaces)));
+  CHECK_THAT(warning({obj}), Contains("a.obj: 1 face" + std::string(kFaces)));
+  CHECK_THAT(warning({ascii}), Contains("a.stl: 3 faces" + std::string(kFaces)));
+  CHECK_THAT(warning({binary}), Contains("b.stl: 4 faces" + std::string(kFaces)));
+  CHECK_THAT(warning({{points}, {ply, parse_pose("1 2 3 0 0 0 1")}, {obj}, {ascii}}),
+             Contains("a.ply, and 2 more files: 6 faces" + std::string(kFaces)));
+  CHECK(input_warnings(FileScan({points}, {})).empty());
+}
+
+TEST_CASE("points of LAS that are left out as noise are a warning where they are many") {
+  const ScratchFolder folder;
+  std::vector<int> classes(97, 2);
+  classes.insert(classes.end(), {7, 18, 7});
+  const auto few = folder.write("few.las", las_of_classes(classes));
+  CHECK(warnings_of_filters(few, {}).empty());
+  classes.push_back(7);
+  const auto many = folder.write("many.las", las_of_classes(classes));
+  CHECK(warnings_of_filters(many, {}) == Strings{"4 points, 4 %, are left out as noise, of the classes 7 and "
+                                                 "18; --keep-noise keeps them"});
+  CHECK(warnings_of_filters(many, {.keep_noise = true}).empty());
+}
+
+TEST_CASE(
+    "--drop-origin that drops nothing is a warning where the scanner is said to be at 0 0 0, far away") {
+  const ScratchFolder folder;
+  const auto warnings = [&](double corner, const std::string& viewpoint, bool drops) {
+    return warnings_of_filters(folder.write("a.pcd", pcd(corner, viewpoint)), {.drop_origin = drops});
+  };
+  CHECK(warnings(100, "0 0 0", true).size() == 1);
+  CHECK(warnings(100, "0 0 0", false).empty());
+  CHECK(warnings(100, "99 99 2", true).empty());
+  CHECK(warnings(-0.5, "0 0 0", true).empty());
+  const auto ply = [&](const std::string& camera, const std::string& rows) {
+    return warnings_of_filters(
+        folder.write(
+            "a.ply",
+            "ply\nformat ascii 1.0\nelement camera 1\nproperty float view_px\nproperty float view_py\n"
+            "property float view_pz\nelement vertex 2\nproperty double x\nproperty double y\n"
+            "property double z\nend_header\n" +
+                camera + "\n" + rows),
+        {.drop_origin = true});
+  };
+  const Strings warned = ply("0 0 0", "1000 2000 3\n1010 2010 3\n");
+  REQUIRE(warned.size() == 1);
+  CHECK_THAT(warned[0], Contains("a.ply: the place of the scanner is 0 0 0, far from the points") &&
+                            Contains("--leave-out drops a box"));
+  CHECK(ply("1005 2005 4", "1000 2000 3\n1010 2010 3\n").empty());
+  CHECK(ply("0 0 0", "10 -10 3\n-10 10 3\n").empty());
+  CHECK(ply("0 0 0", "1000 2000 3\n0 0 0\n").empty());  // it drops a point
+}
+
 }  // namespace lacuna::test

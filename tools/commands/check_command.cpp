@@ -9,6 +9,7 @@
 #include "tools/console/visible_text.hpp"
 #include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
+#include "tools/run/scan_warnings.hpp"
 #include "tools/run/signals.hpp"
 
 #include <filesystem>
@@ -16,6 +17,8 @@
 #include <memory>
 #include <optional>
 #include <vector>
+
+#include <spdlog/spdlog.h>
 
 namespace lacuna::tools {
 using namespace io;
@@ -48,6 +51,12 @@ void run_check(const CheckArguments& arguments) {
   const std::unique_ptr<Progress> progress =
       make_progress(arguments.run.quiet ? ProgressStyle::kNone : arguments.run.progress, {{"area", 1}});
   const AreaCheck check = check_area(area, *scan, config, *progress);
+  const PlanGrid& grid = area.grid;
+  const Eigen::Vector2d size(static_cast<double>(grid.columns), static_cast<double>(grid.rows));
+  const Eigen::Vector2d min = grid.from_cells({0, 0}), max = grid.from_cells(size);
+  const Eigen::AlignedBox3d bounds(Eigen::Vector3d(min.x(), min.y(), 0),
+                                   Eigen::Vector3d(max.x(), max.y(), 0));
+  for (const std::string& warning : filter_warnings(*scan, config.input, bounds)) spdlog::warn("{}", warning);
   const std::string_view unit = scan->length_unit();
   const std::string answer = print_is_covered(check, unit);
   std::string text = answer + "\n\n";

@@ -256,7 +256,10 @@ void run_info(const InfoArguments& arguments) {
   } else {
     print_text(files, scan, run);
   }
+  for (const std::string& warning : input_warnings(scan)) spdlog::warn("{}", warning);
   const Summary& summary = run.inspection.summary;
+  for (const std::string& warning : filter_warnings(scan, config.input, summary.strays.rest))
+    spdlog::warn("{}", warning);
   if (const std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
     spdlog::warn("{}", strays);
 }

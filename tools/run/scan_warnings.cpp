@@ -18,6 +18,7 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <system_error>
@@ -58,13 +59,38 @@ std::optional<std::size_t> find_file(const FileScan& scan, const IsIt& is_it) {
   return std::nullopt;
 }
 
+std::string more_files(std::size_t count) {
+  if (count == 0) return "";
+  return ", and " + print_count(count) + (count == 1 ? " more file" : " more files");
+}
+
 // Returns the number of later files for which it holds, as ", and 3 more files".
 template <class IsIt>
 std::string and_more(const FileScan& scan, std::size_t first, const IsIt& is_it) {
   std::size_t count = 0;
   for (std::size_t i = first + 1; i < scan.files().size(); ++i) count += is_it(i) ? 1 : 0;
-  if (count == 0) return "";
-  return ", and " + print_count(count) + (count == 1 ? " more file" : " more files");
+  return more_files(count);
+}
+
+// One warning has the notes of all files that are alike.
+void warn_of_notes(const FileScan& scan, std::vector<std::string>& warnings) {
+  struct Alike {
+    std::size_t first, others = 0;  // files
+    std::uint64_t count = 0;
+  };
+  std::map<std::pair<std::string, std::string>, Alike> notes;
+  for (std::size_t i = 0; i < scan.files().size(); ++i) {
+    for (const ReaderNote& note : scan.notes()[i]) {
+      if (note.count == 0) continue;
+      const auto [at, is_new] = notes.try_emplace({note.thing, note.what}, Alike{.first = i});
+      at->second.others += is_new ? 0 : 1;
+      at->second.count += note.count;
+    }
+  }
+  for (const auto& [note, alike] : notes)
+    warnings.push_back(file_name(scan, alike.first) + more_files(alike.others) + ": " +
+                       print_count(alike.count) + " " + note.first + (alike.count == 1 ? "" : "s") +
+                       note.second);
 }
 
 void warn_of_other_systems(const FileScan& scan, std::vector<std::string>& warnings) {
@@ -222,6 +248,7 @@ std::vector<std::string> input_warnings(const FileScan& scan) {
   std::vector<std::string> warnings;
   for (const std::size_t i : scan.repeated())
     warnings.push_back(file_name(scan, i) + ": given more than once; its points are the same");
+  warn_of_notes(scan, warnings);
   if (scan.stated_crs().crs.empty()) {
     warn_of_other_systems(scan, warnings);
     warn_of_missing_systems(scan, warnings);
@@ -284,9 +311,31 @@ std::string normals_warning(const GivenNormals& normals) {
   return text.str();
 }
 
+std::vector<std::string> filter_warnings(const FileScan& scan, const InputConfig& config,
+                                         const Eigen::AlignedBox3d& bounds) {
+  constexpr double kMostNoise = 0.03;
+  std::vector<std::string> warnings;
+  std::uint64_t points = 0;
+  for (std::size_t i = 0; i < scan.files().size(); ++i) points += scan.rows(i);
+  const FilteredOut& left_out = scan.filtered_out();
+  const double share =
+      static_cast<double>(left_out.noise) / static_cast<double>(std::max<std::uint64_t>(points, 1));
+  if (share > kMostNoise)
+    warnings.push_back(print_count(left_out.noise) + " points, " + std::to_string(std::lround(100 * share)) +
+                       " %, are left out as noise, of the classes 7 and 18; --keep-noise keeps them");
+  if (!config.drop_origin || left_out.origin > 0 || bounds.isEmpty()) return warnings;
+  const auto is_at_zero = [&](std::size_t i) { return scan.has_scanner_at_zero(i); };
+  const auto first = find_file(scan, is_at_zero);
+  if (first && bounds.exteriorDistance(Eigen::Vector3d::Zero().eval()) > bounds.diagonal().norm())
+    warnings.push_back(file_name(scan, *first) + and_more(scan, *first, is_at_zero) +
+                       ": the place of the scanner is 0 0 0, far from the points, and --drop-origin dropped "
+                       "none; rays without return may be at the true place, where --leave-out drops a box");
+  return warnings;
+}
+
 std::vector<std::string> scan_warnings(const FileScan& scan, const Summary& summary,
                                        const FilesConfig& config) {
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = filter_warnings(scan, config.input, summary.strays.rest);
   if (std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
     warnings.push_back(std::move(strays));
   if (std::string normals = normals_warning(summary.given_normals); !normals.empty())

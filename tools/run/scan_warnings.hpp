@@ -22,7 +22,8 @@ void require_lengths(const io::FileScan& scan);
 // Returns, before a run, one line for each file that is given more than once, also by another name. Another
 // line comes for each file whose coordinate reference system differs from the first. One line names all files
 // without a system if others have one. One line names files with another unit, and one names files that
-// contradict --crs or --unit. One line names files whose z is in another unit.
+// contradict --crs or --unit. One line names files whose z is in another unit. Then come the notes of
+// readers.
 std::vector<std::string> input_warnings(const io::FileScan& scan);
 
 // Warns before a run of a memory limit above the machine's memory.
@@ -39,11 +40,17 @@ std::string stray_warning(const Strays& strays, double resolution);
 // Returns the share of given normals that do not fit the surface, where it is a tenth or more; else nothing.
 std::string normals_warning(const GivenNormals& normals);
 
+// Returns, after the scan was read, a line where many points are left out as noise. Another line comes where
+// --drop-origin dropped nothing, since the scanner's place in a file is 0 0 0. Then 0 0 0 lies farther from
+// the bounds of the points than these are wide.
+std::vector<std::string> filter_warnings(const io::FileScan& scan, const io::InputConfig& config,
+                                         const Eigen::AlignedBox3d& bounds);
+
 // Names stations that do not count, because they cannot have measured all of their points.
 std::vector<std::string> station_warnings(const std::vector<io::StationSummary>& stations);
 
-// Warns after a run of strays, given normals that do not fit, too few points for their neighbourhoods, and
-// coordinates too coarse for their spacing. Warns, too, of rows that LAS or LAZ cannot hold.
+// Returns the warnings of filter_warnings after a run. Others are of strays, given normals that do not fit,
+// too few points for their neighbourhoods, and coordinates too coarse for their spacing.
 std::vector<std::string> scan_warnings(const io::FileScan& scan, const Summary& summary,
                                        const io::FilesConfig& config);
 

@@ -156,6 +156,54 @@ TEST_CASE("a pose of E57 turns and moves points, and turns normals", "[e57]") {
   CHECK(std::isnan(table.rows[1][3]));
 }
 
+TEST_CASE("a rotation of E57 by the quaternion 0 0 0 0, or nearly so, is none, and noted", "[e57]") {
+  const E57Folder folder;
+  for (const double w : {0.0, 1e-9, -1e-300}) {
+    E57TestScan zero = one_point();
+    zero.pose = e57_pose({w, 0, 0, 0}, {10, 20, 30});
+    E57TestScan half = one_point();
+    half.pose = e57_pose({0, 0, 0, 0.01}, {0, 0, 0});  // half a turn about z
+    const Table table = folder.read({zero, one_point(), zero, half});
+    REQUIRE(table.rows.size() == 4);
+    CHECK(Row(table.rows[0].begin(), table.rows[0].begin() + 3) == Row{11, 22, 33});
+    CHECK(table.rows[3][0] == Approx(-1));
+    const auto notes = open_scan(folder.folder / "a.e57", {})->notes();
+    REQUIRE(notes.size() == 1);
+    CHECK(notes[0].count == 2);
+    CHECK(notes[0].what.find("no rotation") != std::string::npos);
+  }
+}
+
+TEST_CASE("E57 whose packets hold more points than its recordCount is an error, unless it is trusted",
+          "[e57]") {
+  const E57Folder folder;
+  Random random(5);
+  constexpr std::size_t kPoints = 700;
+  const auto floats = position(drawn(random, kPoints), drawn(random, kPoints), drawn(random, kPoints));
+  std::vector<std::int64_t> numbers(kPoints);
+  for (std::int64_t& number : numbers) number = static_cast<std::int64_t>(random() % 100'000);
+  std::vector<E57Values> integers;
+  for (const char* name : {"cartesianX", "cartesianY", "cartesianZ"})
+    integers.push_back(e57_scaled(name, 0, 100'000, 0.001, 0, numbers));
+  for (const bool is_float : {true, false}) {
+    for (const std::size_t packets : {std::size_t{1}, std::size_t{4}}) {
+      E57TestScan scan{.fields = is_float ? floats : integers, .packets = packets};
+      CHECK(folder.read({scan, scan}).rows.size() == 2 * kPoints);
+      // Two points of 17 bits are no padding of a word of 32 bits; one may be.
+      for (const std::size_t fewer : {std::size_t{1}, std::size_t{2}, kPoints / 2, kPoints - 1, kPoints}) {
+        if (!is_float && fewer == 1) continue;   // may be padding
+        scan.fields[0].count = kPoints - fewer;  // the encoder states it
+        INFO(is_float << " " << packets << " " << fewer);
+        CHECK_THAT(folder.error({scan, one_point()}),
+                   Contains("scan 0: its packets hold more than the " + std::to_string(kPoints - fewer) +
+                            " points of its recordCount; --trust header"));
+        const ReadOptions trusting{.columns = "", .trust = Trust::kHeader};
+        CHECK(read_table(folder.folder / "a.e57", 1000, trusting).rows.size() == kPoints - fewer + 1);
+      }
+    }
+  }
+}
+
 TEST_CASE("a rotation of E57 is that of its quaternion", "[e57]") {
   const E57Folder folder;
   Random random(3);
@@ -329,7 +377,7 @@ TEST_CASE("what E57 may hold but is not read is named", "[e57]") {
   CHECK_THAT(folder.error({scan}), Contains("packed by 'zipCodec'"));
   scan.codecs.replace(scan.codecs.find("zip"), 3, "bitPack");
   CHECK(folder.error({scan}).empty());
-  scan.pose = e57_pose({0, 0, 0, 0}, {0, 0, 0});
+  scan.pose = e57_pose({1e200, 0, 0, 1e200}, {0, 0, 0});
   CHECK_THAT(folder.error({scan}), Contains("a quaternion must have the length 1"));
   scan.pose = e57_pose({1, 0, 0, 0}, {0, NAN, 0});
   const std::string error = folder.error({scan});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/scan/file_scan.hpp"
 #include "tests/io/io_support.hpp"
+#include "tests/io/las/las_file.hpp"
 
 #include <cmath>
 
@@ -85,11 +86,18 @@ TEST_CASE("filters that leave no point are an error that names each of them and 
         "lies from 1 1 1 to 4 4 4; --where leaves out 3");
 }
 
-TEST_CASE("withheld points and noise do not take part, unless they are kept") {
+TEST_CASE("withheld points and noise of LAS do not take part, unless they are kept") {
   const ScratchFolder folder;
-  const auto file = folder.write("a.csv",
-                                 "x,y,z,Classification,Withheld\n1,1,1,2,0\n2,2,2,7,0\n3,3,3,18,0\n"
-                                 "4,4,4,2,1\n5,5,5,7,1\n");
+  const auto las = [&](const std::vector<int>& classes) {
+    LasFile las;
+    for (const int number : classes) {
+      las.points.push_back(las_point(20, 1, 2, 3));
+      put(las.points.back(), 15, static_cast<std::uint8_t>(number));
+    }
+    return folder.write("a.las", las.bytes());
+  };
+  constexpr int kWithheld = 128;
+  const auto file = las({2, 7, 18, 2 | kWithheld, 7 | kWithheld});
   const Filtered usual = read_filtered({file}, {});
   CHECK(usual.kept == std::vector{0});
   CHECK(usual.out.withheld == 2);
@@ -97,9 +105,29 @@ TEST_CASE("withheld points and noise do not take part, unless they are kept") {
   CHECK(read_filtered({file}, {.keep_withheld = true}).kept == std::vector{0, 3});
   CHECK(read_filtered({file}, {.keep_noise = true}).kept == std::vector{0, 1, 2});
   CHECK(read_filtered({file}, {.keep_noise = true, .where = "Classification == 7"}).kept == std::vector{1});
-  const auto noise = folder.write("b.csv", "x,y,z,classification\n1,1,1,7\n");
-  CHECK_THAT(error_of([&] { read_filtered({noise}, {}); }),
+  const std::vector<ScanInput> posed = {{file, parse_pose("1 2 3 0 0 0 1")}};
+  CHECK(read_filtered(posed, {}).out.noise == 2);
+  CHECK_THAT(error_of([&] { read_filtered({las({7})}, {}); }),
              Contains("1 are noise, which --keep-noise keeps"));
+}
+
+TEST_CASE("filters that leave no point of one file are no error where another file has points") {
+  const ScratchFolder folder;
+  LasFile las{.points = {las_point(20, 1, 2, 3)}};
+  put(las.points[0], 15, std::uint8_t{7});
+  const auto noise = folder.write("a.las", las.bytes()), text = folder.write("b.txt", "x y z\n1 2 3\n");
+  CHECK(read_filtered({noise, text}, {}).kept == std::vector{1});
+}
+
+TEST_CASE("the classes 7 and 18 of other formats than LAS are labels, which take part") {
+  const ScratchFolder folder;
+  const auto csv = folder.write("a.csv", "x,y,z,Classification,Withheld\n1,1,1,7,0\n2,2,2,18,0\n3,3,3,7,1\n");
+  const auto ply =
+      folder.write("a.ply",
+                   "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+                   "property float z\nproperty uchar classification\nend_header\n1 1 1 7\n2 2 2 18\n");
+  CHECK(read_filtered({csv}, {}).kept == std::vector{0, 1});
+  CHECK(read_filtered({ply}, {}).kept == std::vector{0, 1});
 }
 
 TEST_CASE("a condition of any attributes says which points take part") {
