@@ -31,8 +31,6 @@ TASKS = 3
 # Level 1 has so few points that one task makes it.
 STEPS = {"survey": TASKS, "tiles": 1, "bucket": TASKS, "level-0": TASKS, "evaluate-0": TASKS, "level-1": 1,
          "evaluate-1": TASKS}
-BOX = "1.2,1.2,-9,1.45,1.45,9"
-UPDATES = ["add", "leave-out", "replace"]
 
 
 def contents(folder):
@@ -70,21 +68,14 @@ class Setting:
     def __init__(self, program, bench, folder, seed):
         self.program, self.bench, self.folder, self.seed = program, bench, folder, seed
         self.a, self.b = self.path("a.ply"), self.path("b.ply")
-        self.added, self.moved = self.path("added.ply"), self.path("moved.ply")
         self.synth(self.a, "100000", "--holes", "8")
         self.synth(self.b, "2000", "--holes", "1", "--translate", "0.3", "0.3", "0.2")
-        self.synth(self.moved, "2000", "--holes", "1", "--translate", "0.9", "0.3", "0.2")
-        self.synth(self.added, "2000", "--holes", "1", "--translate", "2", "2", "0.2")
-        self.scans = {"detect": [self.a, self.b], "add": [self.a, self.b, self.added],
-                      "leave-out": [self.a, self.b], "replace": [self.a, self.moved]}
-        self.right = {}
-        for name in self.scans:
-            out = self.path("right-" + name)
-            run = self.run(["detect", *self.scans[name], *self.box(name), "--out", out, *self.options()])
-            if run.code != 0:
-                sys.exit("the undisturbed run failed: %s" % run)
-            self.right[name] = contents(out)
-            assert len(self.right[name]) == len(RESULTS)
+        out = self.path("right")
+        run = self.run(["detect", self.a, self.b, "--out", out, *self.options()])
+        if run.code != 0:
+            sys.exit("the undisturbed run failed: %s" % run)
+        self.right = contents(out)
+        assert len(self.right) == len(RESULTS)
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -95,9 +86,6 @@ class Setting:
 
     def options(self, threads=1):
         return ["--points", "--points-format", "ply", "--tile-points", "2000", "--threads", str(threads)]
-
-    def box(self, name):
-        return ["--leave-out=" + BOX] if name == "leave-out" else []
 
     def start(self, arguments, before=()):
         quiet = [] if "--quiet" in arguments else ["--quiet"]
@@ -131,13 +119,6 @@ class Slot:
         self.keep("empty")
         self.do(self.detect(), "detect")
         self.keep("done")
-        self.changes = {}
-        for name in UPDATES:
-            self.begin("done")
-            self.do(self.update(name), "update " + name)
-            self.must_be(name)
-            with open(os.path.join(self.out, "changes.json"), "rb") as file:
-                self.changes[name] = file.read()
         self.clear()
         self.do(self.plan(), "plan")
         self.keep("planned")
@@ -146,23 +127,19 @@ class Slot:
                 self.do(self.work(step, task), step)
             self.keep(step)
         self.do(self.finish(), "finish")
-        self.must_be("detect")
+        if self.problem():
+            sys.exit(self.problem())
 
     def path(self, name):
         return os.path.join(self.folder, name)
 
     # The commands.
     def detect(self, threads=1):
-        return ["detect", *self.setting.scans["detect"], "--workspace", self.workspace, "--out", self.out,
+        return ["detect", self.setting.a, self.setting.b, "--workspace", self.workspace, "--out", self.out,
                 *self.setting.options(threads)]
 
-    def update(self, name):
-        change = {"add": ["--add", self.setting.added], "leave-out": self.setting.box("leave-out"),
-                  "replace": ["--replace", self.setting.b + "=" + self.setting.moved]}[name]
-        return ["update", self.workspace, *change, "--threads", "1"]
-
     def plan(self):
-        return ["plan", *self.setting.scans["detect"], "--workspace", self.workspace, "--tasks", str(TASKS),
+        return ["plan", self.setting.a, self.setting.b, "--workspace", self.workspace, "--tasks", str(TASKS),
                 *self.setting.options()]
 
     def work(self, step, task=0):
@@ -196,55 +173,43 @@ class Slot:
         for name in os.listdir(self.path("state-" + state)):
             shutil.copytree(os.path.join(self.path("state-" + state), name), self.path(name))
 
-    # What is wrong with the results, for runs of one of these names; None: nothing.
-    def problem(self, *names):
-        found = contents(self.out)
-        if any(found == self.setting.right[name] for name in names):
+    # What is wrong with the results; None: nothing.
+    def problem(self):
+        found, right = contents(self.out), self.setting.right
+        if found == right:
             return None
-        right = self.setting.right[names[0]]
-        other = [name for name in RESULTS if found.get(name) != right[name]]
-        return "results differ from those of %s: %s" % ("/".join(names), " ".join(other))
-
-    def must_be(self, name):
-        if self.problem(name):
-            sys.exit(self.problem(name))
+        return "results differ: %s" % " ".join(name for name in RESULTS if found.get(name) != right[name])
 
     # None, "part" where files lie there without holes.json, or what is wrong.
-    def half_written(self, *names):
+    def half_written(self):
         found = contents(self.out)
         if not found:
             return None
-        return self.problem(*names) if "holes.json" in found else "part"
+        return self.problem() if "holes.json" in found else "part"
 
 
 class Case:
-    """A command, from the state that it begins with to the results that prove it."""
+    """A command, and the state that it begins with."""
 
-    def __init__(self, name, state, arguments, result, seconds, then_finish=False):
+    def __init__(self, name, state, arguments, seconds, then_finish=False):
         self.name, self.state, self.arguments = name, state, arguments
-        self.result, self.seconds, self.then_finish = result, seconds, then_finish
-
-    def is_update(self):
-        return self.arguments[0] == "update"
+        self.seconds, self.then_finish = seconds, then_finish
 
 
 def case_of(slot, name, draw):
     if name == "detect":
-        return Case(name, "empty", slot.detect(draw.choice([1, 1, 2])), "detect", slot.seconds["detect"])
+        return Case(name, "empty", slot.detect(draw.choice([1, 1, 2])), slot.seconds["detect"])
     if name == "plan":
-        return Case(name, "empty", slot.plan(), "detect", slot.seconds["plan"], True)
+        return Case(name, "empty", slot.plan(), slot.seconds["plan"], True)
     if name == "finish":
         state = draw.choice(["planned", "evaluate-0", "evaluate-1"])
-        return Case(name, state, slot.finish(), "detect", slot.seconds["detect"])
-    if name.startswith("update"):
-        kind = name.partition(" ")[2] or draw.choice(UPDATES)
-        return Case("update --" + kind, "done", slot.update(kind), kind, slot.seconds["update " + kind])
+        return Case(name, state, slot.finish(), slot.seconds["detect"])
     before = dict(zip(STEPS, ["planned", *STEPS]))
-    return Case("work " + name, before[name], slot.work(name, draw.randrange(STEPS[name])), "detect",
+    return Case("work " + name, before[name], slot.work(name, draw.randrange(STEPS[name])),
                 slot.seconds[name], True)
 
 
-COMMANDS = ["detect", "plan", *STEPS, "finish", "update"]
+COMMANDS = ["detect", "plan", *STEPS, "finish"]
 
 
 class Count:
@@ -281,8 +246,8 @@ class Count:
         return "\n".join(lines)
 
 
-def check_results_folder(slot, case, row, count, note, is_kill):
-    half = slot.half_written(*({"detect", case.result} if case.is_update() else {case.result}))
+def check_results_folder(slot, row, count, note, is_kill):
+    half = slot.half_written()
     if half == "part" and is_kill:
         count.add(row, part=1)
     elif half:
@@ -295,18 +260,9 @@ def run_again(slot, case, row, count, note, may_fail=False):
     if run.code == 0 and case.then_finish:
         run = slot.setting.run(slot.finish())
     if run.code == 0:
-        problem = slot.problem(case.result)
+        problem = slot.problem()
         if problem:
             return count.wrong(row, "%s: again: %s" % (note, problem))
-        if case.is_update():
-            try:
-                with open(os.path.join(slot.out, "changes.json"), "rb") as file:
-                    changes = file.read()
-            except FileNotFoundError:
-                return count.wrong(row, "%s: again: no changes.json" % note)
-            if changes != slot.changes[case.result]:
-                return count.wrong(row, "%s: again: changes.json is another: %r" % (
-                    note, re.findall(rb'"counts".*?}', changes.replace(b"\n", b" "))))
         return count.add(row, again=1)
     if may_fail and run.is_clear_failure():
         return count.add(row, again_line=1)
@@ -316,7 +272,7 @@ def run_again(slot, case, row, count, note, may_fail=False):
 def note_first(slot, case, run, row, count, note):
     """How the disturbed run ended. Returns whether that was right."""
     if run.code == 0:
-        problem = None if case.then_finish else slot.problem(case.result)
+        problem = None if case.then_finish else slot.problem()
         if problem:
             count.wrong(row, "%s: exit code 0, but %s" % (note, problem))
             return False
@@ -346,13 +302,13 @@ def kill_once(setting, arguments, seconds, sent, draw):
 def kills(share, count, add_job):
     """SIGKILL, SIGTERM and SIGINT come at random moments, at times several in a row."""
     share_of = {"detect": 120, "plan": 20, "survey": 20, "tiles": 10, "bucket": 30, "level-0": 40, "evaluate-0": 50,
-                "level-1": 50, "evaluate-1": 40, "finish": 80, "update": 120}
+                "level-1": 50, "evaluate-1": 40, "finish": 80}
     for name in COMMANDS:
         for i in range(max(1, round(share_of[name] * share / 1.9))):
             def job(slot, draw, name=name):
                 case = case_of(slot, name, draw)
                 slot.begin(case.state)
-                row = ("kill at a random moment", re.sub(" --.*", "", case.name))
+                row = ("kill at a random moment", case.name)
                 killed = 0
                 notes = []
                 for _ in range(draw.choice([1, 1, 1, 1, 2, 2, 3])):
@@ -367,14 +323,12 @@ def kills(share, count, add_job):
                         break
                     notes.append(sent.name)
                     if run.code not in (-sent, 128 + sent):
-                        if case.is_update() and run.is_clear_failure() and slot.problem(case.result) is None:
-                            break
                         return count.wrong(row, "%s: %s" % (" ".join(notes), run))
                     killed += 1
                     count.add(row, tried=1, stopped=1)
                     if sent != signal.SIGKILL and run.seconds > 2:
                         count.wrong(row, "%s took %.1f s" % (sent.name, run.seconds))
-                    check_results_folder(slot, case, row, count, " ".join(notes), "SIGKILL" in notes)
+                    check_results_folder(slot, row, count, " ".join(notes), "SIGKILL" in notes)
                 if killed:
                     run_again(slot, case, row, count, " ".join(notes))
             add_job(job)
@@ -382,8 +336,7 @@ def kills(share, count, add_job):
 
 def kills_at_calls(share, count, add_job):
     """SIGKILL comes at calls that change names: random moments seldom fall on these."""
-    for name, calls in (("detect", 30), ("finish", 20), ("update add", 30), ("update leave-out", 30),
-                        ("update replace", 20)):
+    for name, calls in (("detect", 30), ("finish", 20)):
         for i in range(max(1, round(calls * share))):
             def job(slot, draw, name=name, i=i, calls=max(1, round(calls * share))):
                 case = case_of(slot, name, draw)
@@ -396,7 +349,7 @@ def kill_at(slot, case, call, draw, count, where):
     k = place_of(slot, case, call, where)
     if k is None:
         return
-    row = ("kill at a call", re.sub(" --.*", "", case.name))
+    row = ("kill at a call", case.name)
     note = "%s: SIGKILL at %s %d" % (case.name, call, k)
     slot.begin(case.state)
     run = slot.setting.run(case.arguments, strace(call, "signal=SIGKILL", k))
@@ -405,9 +358,8 @@ def kill_at(slot, case, call, draw, count, where):
         count.add(row, stopped=1)
     elif not note_first(slot, case, run, row, count, note):
         return
-    check_results_folder(slot, case, row, count, note, True)
-    if not (run.code == 0 and case.is_update()):  # which is complete: the same change is not made twice
-        run_again(slot, case, row, count, note)
+    check_results_folder(slot, row, count, note, True)
+    run_again(slot, case, row, count, note)
 
 
 # 2. Calls that fail once.
@@ -461,7 +413,7 @@ def place_of(slot, case, call, where):
 
 def calls_that_fail(share, count, add_job):
     """Each call of the store and the writers fails once, at places spread over the run."""
-    for name in ("detect", "finish", "update"):
+    for name in ("detect", "finish"):
         for call in CALLS:
             places = max(1, round((9 if call in ("rename", "openat", "mmap", "fsync", "pwrite64", "renameat2")
                                    else 5) * share))
@@ -482,9 +434,8 @@ def calls_that_fail(share, count, add_job):
                     run = slot.setting.run(case.arguments, strace(call, "error=" + error, k))
                     count.add(row, tried=1)
                     if note_first(slot, case, run, row, count, note):
-                        check_results_folder(slot, case, row, count, note, False)
-                        if not (run.code == 0 and case.is_update()):
-                            run_again(slot, case, row, count, note)
+                        check_results_folder(slot, row, count, note, False)
+                        run_again(slot, case, row, count, note)
                 add_job(job)
 
 
@@ -510,21 +461,19 @@ def size_of(folder):
 def full_disks(share, count, add_job):
     """The workspace on a disk that is full; then its folder is copied to a larger one, and goes on."""
     sizes = max(1, round(20 * share))
-    for what in ("detect", "update", "results"):
+    for what in ("detect", "results"):
         for i in range(sizes if what == "detect" else max(1, sizes // 2)):
             def job(slot, draw, what=what, i=i, sizes=sizes if what == "detect" else max(1, sizes // 2)):
-                case = case_of(slot, "update" if what == "update" else "detect", draw)
+                case = case_of(slot, "detect", draw)
                 row = ("full disk", "detect, its results" if what == "results" else what)
                 full = size_of(os.path.join(slot.path("state-done"), "workspace"))
                 part = (i + draw.random()) / sizes * 1.1
-                disk_bytes = 65536 + int({"detect": part, "update": 1.02 + part, "results": part / 4}[what] * full)
+                disk_bytes = 65536 + int({"detect": part, "results": part / 4}[what] * full)
                 note = "%s: disk of %d KiB" % (case.name, disk_bytes // 1024)
                 slot.begin(case.state)
                 with Disk(slot.path("disk"), disk_bytes) as disk:
                     small = os.path.join(disk.at, "folder")
                     place = slot.out if what == "results" else slot.workspace
-                    if what == "update":
-                        shutil.copytree(slot.workspace, small)
                     arguments = [small if argument == place else argument for argument in case.arguments]
                     if i % 2 and what != "results":
                         arguments += ["--scratch", slot.folder]
@@ -540,9 +489,8 @@ def full_disks(share, count, add_job):
                         remove(slot.workspace)
                         shutil.copytree(small, slot.workspace)
                 if is_right:
-                    check_results_folder(slot, case, row, count, note, False)
-                    if not (run.code == 0 and what == "update"):
-                        run_again(slot, case, row, count, note)
+                    check_results_folder(slot, row, count, note, False)
+                    run_again(slot, case, row, count, note)
             add_job(job)
 
 
@@ -610,34 +558,15 @@ def harm(folder, draw):
     return "%s %s" % (how, name + (" (%s)" % stream if how == "flip" else ""))
 
 
-def stop_update(slot, case, draw):
-    """An update that is killed while the parts of the run before are in `before`."""
-    for _ in range(20):
-        slot.begin("done")
-        kill_once(slot.setting, case.arguments, case.seconds, signal.SIGKILL, draw)
-        if os.path.exists(os.path.join(slot.workspace, "before", "run")):
-            return True
-    return False
-
-
 def damage(share, count, add_job):
     """Bits flipped, files cut, removed, swapped, overwritten with zeros, made longer."""
-    for i in range(max(5, round(110 * share))):
+    for i in range(max(3, round(66 * share))):
         def job(slot, draw, i=i):
-            what = ["detect", "finish", "update", "update, stopped before", "work, then finish"][i % 5]
-            case = case_of(slot, "update" if "update" in what else "detect" if what == "detect" else "finish", draw)
-            folder = slot.workspace
-            if what == "update, stopped before":
-                if not stop_update(slot, case, draw):
-                    return
-                folder = os.path.join(slot.workspace, draw.choice(["before", "before", "."]))
-            else:
-                slot.begin("done")
-            if what == "work, then finish":
-                slot.begin(draw.choice(["evaluate-0", "evaluate-1"]))
-            if "update" not in what:
-                remove(slot.out)
-            done = ", ".join(harm(folder, draw) for _ in range(draw.choice([1, 1, 1, 2, 3])))
+            what = ["detect", "finish", "work, then finish"][i % 3]
+            case = case_of(slot, "detect" if what == "detect" else "finish", draw)
+            slot.begin(draw.choice(["evaluate-0", "evaluate-1"]) if what == "work, then finish" else "done")
+            remove(slot.out)
+            done = ", ".join(harm(slot.workspace, draw) for _ in range(draw.choice([1, 1, 1, 2, 3])))
             row = ("damage", what)
             note = "%s: %s" % (case.name, done)
             count.add(row, tried=1)
@@ -649,7 +578,7 @@ def damage(share, count, add_job):
                     return count.wrong(row, "%s: %s" % (note, run))
             run = slot.setting.run(case.arguments)
             if note_first(slot, case, run, row, count, note):
-                check_results_folder(slot, case, row, count, note, False)
+                check_results_folder(slot, row, count, note, False)
                 if run.code != 0:
                     run_again(slot, case, row, count, note, may_fail=True)
         add_job(job)
@@ -685,7 +614,7 @@ def damaged_counts(share, count, add_job):
 
 def two_at_once(share, count, add_job):
     """Two of each command on one workspace, and work while finish runs."""
-    pairs = [("detect", "detect")] * 2 + [("update", "update"), ("update", "detect"), ("finish", "finish")]
+    pairs = [("detect", "detect")] * 2 + [("finish", "finish")]
     pairs += [(step, step) for step in STEPS] + [(step, "finish") for step in STEPS]
     for names in pairs:
         for i in range(max(1, round(5 * share))):
@@ -713,15 +642,10 @@ def two_at_once(share, count, add_job):
                     count.add(row, line=1)
                 else:
                     count.add(row, right=1)
-                results = {case.result} if runs[0].code == 0 else {"detect"} if names[1] == "detect" else {case.result}
-                if names == ("update", "detect") and all(run.code == 0 for run in runs):
-                    results = {case.result, "detect"}
-                if any(run.code == 0 for run in runs) and not is_unit and slot.problem(*results):
-                    return count.wrong(row, "%s: %s, then %s: %s" % (note, runs[0], runs[1], slot.problem(*results)))
-                if names[1] == "finish" and runs[1].code == 0 and slot.problem("detect"):
-                    return count.wrong(row, "%s: finish: %s" % (note, slot.problem("detect")))
-                if case.is_update():
-                    return  # complete: the same change is not made twice
+                if any(run.code == 0 for run in runs) and not is_unit and slot.problem():
+                    return count.wrong(row, "%s: %s, then %s: %s" % (note, runs[0], runs[1], slot.problem()))
+                if names[1] == "finish" and runs[1].code == 0 and slot.problem():
+                    return count.wrong(row, "%s: finish: %s" % (note, slot.problem()))
                 run_again(slot, case, row, count, note)
             add_job(job)
 

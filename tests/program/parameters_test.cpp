@@ -122,7 +122,7 @@ class Runs {
     return bytes_of(test::detect(scan_, scratch_ / ("out-" + std::to_string(runs_++)), {"--config", file}));
   }
 
-  // Returns the same of a run in the workspace, or its error.
+  // Returns the same of a run that goes on in the kept folder, or its error.
   std::string kept_results(const io::FilesConfig& config) {
     const std::string file = scratch_.write("c.toml", print_config(config));
     const fs::path out = scratch_ / ("out-" + std::to_string(runs_++));

@@ -63,8 +63,8 @@ struct RunInfo {
   std::uint64_t stations_bytes = 0;
 };
 
-// What a run takes for each point: the least is of an even scan with default options, the most of a rough one
-// with little memory and all results. docs/usage.md has the measurements.
+// What a run takes for each point (measured: docs/usage.md). An even scan with default options takes the
+// least, a rough one with little memory and all results the most.
 struct Need {
   double least, most;
 
