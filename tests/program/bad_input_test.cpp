@@ -225,8 +225,8 @@ TEST_CASE("a disk that is too small for a GeoPackage ends the check of an area w
       test::skip("cannot mount a small disk");
       return;
     }
-    const ProgramResult result = without_warnings(run_program(
-        {"check", scan, "--area", area, "--void-size", "4", "--out", disk.path().string(), "--quiet"}));
+    const ProgramResult result = run_program({"check", scan, "--area", area, "--void-size", "4", "--out",
+                                              (disk.path() / "out").string(), "--quiet"});
     CHECK(result.exit_code == 1);  // the scan has a void
     CHECK(result.err.size() < 300 + disk.path().string().size());
     failed += result.err.find("full") != result.err.npos ? 1 : 0;
