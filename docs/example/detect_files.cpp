@@ -4,22 +4,19 @@
 #include <lacuna/lacuna_io.hpp>
 
 #include <cstdio>
-#include <filesystem>
 #include <vector>
 
 int main(int count, char** arguments) {
   try {
     if (count < 3) throw lacuna::Error("usage: detect_files OUT SCAN...");
-    const std::filesystem::path out = arguments[1], scratch = out / "scratch";
     lacuna::io::FilesConfig config;
     config.output.report = true;
     lacuna::io::FileScan scan({arguments + 2, arguments + count}, config.input);
-    std::filesystem::create_directories(scratch);
+    lacuna::io::ResultFolder out(arguments[1]);
     lacuna::NoProgress silence;
-    const auto found = lacuna::detect(scan, config, scratch, silence);
+    const auto found = lacuna::detect(scan, config, out.temporary(), silence);
     lacuna::io::write_results({*found}, scan, config, out);
-    std::filesystem::remove(scratch);
-    std::printf("%zu loops in %s\n", found->loops.size(), out.c_str());
+    std::printf("%zu loops in %s\n", found->loops.size(), out.path().c_str());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "detect_files: %s\n", error.what());
     return 1;

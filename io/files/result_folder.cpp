@@ -118,8 +118,7 @@ ResultFolder::ResultFolder(const fs::path& folder) : folder_(folder) {
 
   root_ = target_.parent_path() / ("." + target_.filename().string() + kList);
   do {
-    if (::mkdir(root_.c_str(), 0777) != 0 && errno != EEXIST)
-      fail(target_.parent_path(), "cannot write to the folder", errno);
+    if (::mkdir(root_.c_str(), 0777) != 0 && errno != EEXIST) fail(folder, "cannot create the folder", errno);
     lock_.reset();
     lock_.emplace(root_);
   } while (!lock_->holds(root_));

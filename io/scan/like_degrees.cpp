@@ -78,11 +78,14 @@ bool fill_their_bounds(std::span<const Eigen::Vector3d> positions, const Eigen::
 
 bool is_far_smoother(std::span<const Eigen::Vector3d> positions) {
   constexpr std::size_t kFewest = 100, kQueries = 256;
-  constexpr double kSteep = 3, kSteeper = 10, kSmooth = 0.15, kFewestSteps = 20;
+  constexpr double kSteep = 3, kSteeper = 10, kSmooth = 0.15, kFewestSteps = 20, kRounding = 1e-9;
   if (positions.size() < kFewest) return false;
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& position : positions) box.extend(position);
-  if (box.sizes().z() == 0 || !fill_their_bounds(positions, box)) return false;
+  const Eigen::Array2d sizes = box.sizes().head<2>().array();
+  // A wall that was turned upright has only the rounding of its depth.
+  const bool is_wall = sizes.minCoeff() > 0 && sizes.minCoeff() < kRounding * sizes.maxCoeff();
+  if (is_wall || box.sizes().z() == 0 || !fill_their_bounds(positions, box)) return false;
   std::vector<double> far, high;  // from the nearest position, seen from above
   for (std::size_t i = 0; i < positions.size(); i += std::max<std::size_t>(1, positions.size() / kQueries)) {
     double nearest = std::numeric_limits<double>::infinity(), z = 0;

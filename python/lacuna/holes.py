@@ -289,7 +289,8 @@ class Holes:
 
     def _copy_files(self, target: Path) -> list[Path]:
         target.mkdir(parents=True, exist_ok=True)
-        return [Path(shutil.copy2(file, target)) for file in sorted(self._folder.iterdir()) if file.is_file()]
+        copied = [Path(shutil.copy2(file, target)) for file in sorted(self._folder.iterdir()) if file.is_file()]
+        return [file for file in copied if not file.name.startswith(".")]
 
     def report(self, file: Union[str, os.PathLike]) -> Path:
         """Writes the scan and its holes in 3D as one HTML file, for a browser. Returns its name."""

@@ -129,11 +129,12 @@ TEST_CASE("next_stations.geojson is in longitude, latitude and height, with plac
     Eigen::Vector3d place;
     std::vector<double> coordinates;
   };
+  constexpr double kTwelveFeet = 12 * 1200.0 / 3937;  // in metres, as RFC 7946 has heights
   const Case cases[] = {
       {"EPSG:25832", kPlace, {9, kLatitude, 100}},
       {"EPSG:25832+7837", kPlace, {9, kLatitude, 100}},
-      {"EPSG:2263", {984'250, 0, 12}, {-74, 40 + 1 / 6.0, 12}},  // the origin of the system, in feet
-      {"EPSG:2263+6360", {984'250, 0, 12}, {-74, 40 + 1 / 6.0, 12}},
+      {"EPSG:2263", {984'250, 0, 12}, {-74, 40 + 1 / 6.0, kTwelveFeet}},  // the origin of the system, in feet
+      {"EPSG:2263+6360", {984'250, 0, 12}, {-74, 40 + 1 / 6.0, kTwelveFeet}},
       {"EPSG:4978", {6'378'237, 0, 0}, {0, 0, 100}},  // geocentric
   };
   for (const Case& c : cases) {

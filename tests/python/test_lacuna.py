@@ -248,7 +248,6 @@ class Files(Folder):
         with self.assertRaisesRegex(lacuna.Error, "holes.csv"):
             holes.save(self.folder)
         self.assertEqual(os.listdir(self.folder), ["holes.csv"])
-        holes.save(self.folder, overwrite=True)
         with self.assertRaisesRegex(lacuna.Error, "holes.json: cannot be read"):
             lacuna.load(self.folder / "nothing")
         (self.folder / "holes.json").write_text("{}")

@@ -257,7 +257,8 @@ TEST_CASE("points of LAS that are left out as noise are a warning where they are
 }
 
 TEST_CASE(
-    "--drop-origin that drops nothing is a warning where the scanner is said to be at 0 0 0, far away") {
+    "the option --drop-origin that drops nothing is a warning where the scanner is said to be at 0 0 0, far "
+    "away") {
   const ScratchFolder folder;
   const auto warnings = [&](double corner, const std::string& viewpoint, bool drops) {
     return warnings_of_filters(folder.write("a.pcd", pcd(corner, viewpoint)), {.drop_origin = drops});

@@ -112,17 +112,18 @@ TEST_CASE("small scans in lengths are not taken for degrees") {
   std::mt19937 draw(1);
   std::uniform_real_distribution<double> share(0, 1);
   std::normal_distribution<double> noise(0, 0.002);
-  Positions wall, exact, pole, sphere, stairs;
+  Positions wall, exact, turned, pole, sphere, stairs;
   for (int i = 0; i < 4096; ++i) {
     wall.emplace_back(5 + noise(draw), i / 1000 * 0.01, i % 1000 * 0.01);
     exact.emplace_back(5, i / 1000 * 0.01, i % 1000 * 0.01);
+    turned.emplace_back(i / 64, -1e-15 * (i % 64), i % 64);  // rounded when it was turned upright
     const double turn = 2 * std::numbers::pi * share(draw), z = 2 * share(draw) - 1, r = std::sqrt(1 - z * z);
     pole.emplace_back(0.1 * std::cos(turn), 0.1 * std::sin(turn), 10 * z);
     sphere.emplace_back(r * std::cos(turn), r * std::sin(turn), z);
     const double x = 5 * share(draw);
     stairs.emplace_back(x, share(draw), rounded(x, 0));
   }
-  for (const Positions& lengths : {wall, exact, pole, sphere, stairs}) {
+  for (const Positions& lengths : {wall, exact, turned, pole, sphere, stairs}) {
     CHECK_FALSE(look_like_degrees(lengths));
     CHECK_FALSE(look_like_degrees(swapped(lengths)));
   }
