@@ -127,6 +127,8 @@ ResultFolder::ResultFolder(const fs::path& folder) : folder_(folder) {
   if (exists) fs::permissions(staged(), fs::status(target_).permissions(), error);
 }
 
+ResultFolder::~ResultFolder() = default;
+
 std::vector<fs::path> ResultFolder::earlier_files() const {
   std::vector<fs::path> files;
   for (const std::string& name : replaced_files(target_, folder_)) files.push_back(folder_ / name);

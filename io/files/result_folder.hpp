@@ -26,11 +26,12 @@
 
 namespace lacuna::io {
 
-class LACUNA_API ResultFolder {
+class ResultFolder {
  public:
   // Makes missing parents of the folder. Throws `Error` if the name may not be taken, or if another run
   // writes results of this name.
-  explicit ResultFolder(const std::filesystem::path& folder);
+  LACUNA_API explicit ResultFolder(const std::filesystem::path& folder);
+  LACUNA_API ~ResultFolder();
 
   const std::filesystem::path& path() const { return folder_; }  // as it was given
   std::filesystem::path staged() const { return root_ / "results"; }

@@ -180,6 +180,6 @@ class LACUNA_API FileScan : public PointSource {
 };
 
 // Throws `Error` if an earlier result that the folder replaces is an input of the scan.
-LACUNA_API void check_not_input(const ResultFolder& folder, const FileScan& scan);
+void check_not_input(const ResultFolder& folder, const FileScan& scan);
 
 }  // namespace lacuna::io

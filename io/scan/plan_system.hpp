@@ -2,7 +2,6 @@
 // Whether x and y of a scan are its plan, and where on Earth it lies.
 #pragma once
 
-#include "engine/export.hpp"
 #include "io/scan/file_scan.hpp"
 
 #include <optional>
@@ -13,14 +12,14 @@
 namespace lacuna::io {
 
 // Returns a position of a file that is likely to be one of its surface; nothing if its first rows have none.
-LACUNA_API std::optional<Eigen::Vector3d> find_place(const FileScan& scan, std::size_t file);
+std::optional<Eigen::Vector3d> find_place(const FileScan& scan, std::size_t file);
 
 // Returns the system in which the user can work instead, such as "EPSG:32632".
-LACUNA_API std::string utm_zone(double longitude, double latitude);
+std::string utm_zone(double longitude, double latitude);
 
 // Throws `Error` where a file is geocentric, with the way to a projected system; `option` needs the plan. Its
 // system says so. Without a system and a unit, its first position says so: the distance from 0 0 0 is a
 // radius of the Earth in metres.
-LACUNA_API void require_plan(const FileScan& scan, const std::string& option);
+void require_plan(const FileScan& scan, const std::string& option);
 
 }  // namespace lacuna::io
