@@ -219,45 +219,64 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
   }
 }
 
-TEST_CASE("a kept run with another parameter gives the results of a fresh run, or is refused") {
+namespace {
+
+// A run in a kept folder, then another one with one parameter changed, and back: each gives the results of a
+// fresh run, or is refused. `is_tried` chooses the parameters.
+template <class IsTried>
+void check_kept_runs(const io::FilesConfig& config, const IsTried& is_tried) {
   Scan scan = made_scan();
   std::string& text = scan.text;
   for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos; at += 9) text.insert(at, " 0 0.6 1");
   text.replace(text.find(" 0 0.6 1"), 8, " nx ny nz");
   Runs runs(scan);
+  io::FilesConfig counted;
+  const std::size_t count = parameters(counted).size();
+  for (std::size_t i = 0; i < count; i += count / draws(count)) {
+    io::FilesConfig changed = config;
+    const Parameter parameter = parameters(changed)[i];
+    const std::string_view passed[] = {"workspace", "recursive", "skip_damaged", "unit_z", "area"};
+    const bool is_passed = std::find(std::begin(passed), std::end(passed), parameter.key) != std::end(passed);
+    if (is_passed || !is_tried(parameter)) continue;
+    if (parameter.key == "method") {
+      changed.loops.method =
+          config.loops.method == LoopMethod::kPaper ? LoopMethod::kTangential : LoopMethod::kPaper;
+    } else {
+      set_other(parameter, runs.workspace() + "-scratch");
+    }
+    if (!changed.input.columns.empty()) changed.input.columns += " nx ny nz";
+    INFO(name_of(config.loops.method) << ", min_hole " << config.scale.min_hole << ": " << parameter.key);
+    const std::string fresh = runs.results(changed);
+    runs.forget();
+    const std::string first = runs.kept_results(config);
+    REQUIRE_THAT(first, !Contains("lacuna: error"));
+    const std::string kept = runs.kept_results(changed);
+    const bool is_refused = kept.find("the workspace of another run") != kept.npos;
+    CHECK(is_refused == (parameter.changes == Changes::kPoints));
+    if (is_refused) continue;
+    CHECK((kept == fresh));
+    CHECK((runs.kept_results(config) == first));  // and back
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a kept run with another parameter of the evaluation gives the results of a fresh run") {
+  io::FilesConfig config;
+  config.scale.min_hole = 4;
+  check_kept_runs(config, [](const Parameter& parameter) {
+    return !parameter.is_constant &&
+           (parameter.changes == Changes::kEvaluation || parameter.changes == Changes::kOutputs);
+  });
+}
+
+TEST_CASE("a kept run with any other parameter gives the results of a fresh run, or is refused", "[.slow]") {
   std::vector<io::FilesConfig> configs(3);
   configs[1].loops.method = LoopMethod::kPaper;
   configs[1].results.points = true;
   configs[2].scale.min_hole = 4;
-  for (const io::FilesConfig& config : configs) {
-    const std::size_t count = parameters(configs[0]).size();
-    std::size_t refused = 0, same = 0;
-    for (std::size_t i = 0; i < count; i += count / draws(count)) {
-      io::FilesConfig changed = config;
-      const Parameter parameter = parameters(changed)[i];
-      const std::string_view passed[] = {"workspace", "recursive", "skip_damaged", "unit_z", "area"};
-      if (std::find(std::begin(passed), std::end(passed), parameter.key) != std::end(passed)) continue;
-      if (parameter.key == "method") {
-        changed.loops.method =
-            config.loops.method == LoopMethod::kPaper ? LoopMethod::kTangential : LoopMethod::kPaper;
-      } else {
-        set_other(parameter, runs.workspace() + "-scratch");
-      }
-      if (!changed.input.columns.empty()) changed.input.columns += " nx ny nz";
-      INFO(name_of(config.loops.method) << ", min_hole " << config.scale.min_hole << ": " << parameter.key);
-      const std::string fresh = runs.results(changed);
-      runs.forget();
-      const std::string first = runs.kept_results(config);
-      REQUIRE_THAT(first, !Contains("lacuna: error"));
-      const std::string kept = runs.kept_results(changed);
-      const bool is_refused = kept.find("the workspace of another run") != kept.npos;
-      CHECK((is_refused || kept == fresh));
-      is_refused ? ++refused : ++same;
-      if (is_refused) continue;
-      CHECK(runs.kept_results(config) == first);  // and back
-    }
-    CHECK(same > refused);
-  }
+  for (const io::FilesConfig& config : configs)
+    check_kept_runs(config, [](const Parameter&) { return true; });
 }
 
 TEST_CASE("the two methods do not give the same loops") {
