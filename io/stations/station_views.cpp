@@ -59,8 +59,8 @@ void find_field(StationView& view) {
 }  // namespace
 
 double StationView::certainty() const {
-  return points == 0 || spread.is_narrow() ? 0
-                                           : 1 - static_cast<double>(conflicts) / static_cast<double>(points);
+  if (points == 0 || (spread.is_narrow() && !is_of_scan)) return 0;
+  return 1 - static_cast<double>(conflicts) / static_cast<double>(points);
 }
 
 StationSummary summary_of(const StationView& view) {
@@ -99,7 +99,7 @@ StationViews::StationViews(const FileScan& scan, const std::filesystem::path& st
 void StationViews::add(Station station) {
   const auto key = std::pair(station.file ? *station.file : kAny, station.source ? *station.source : kAny);
   if (!index_.emplace(key, views_.size()).second) return;
-  views_.push_back({.station = std::move(station), .ranges = empty_image()});
+  views_.push_back({.station = std::move(station), .is_of_scan = !are_stated_, .ranges = empty_image()});
 }
 
 void StationViews::add_scanners(std::size_t file, const ScanReader& reader) {

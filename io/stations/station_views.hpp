@@ -23,6 +23,7 @@ namespace lacuna::io {
 
 struct StationView {
   Station station;
+  bool is_of_scan = false;      // else a list states it
   std::uint64_t points = 0;     // finite points, also the ones that a filter leaves out
   std::uint64_t conflicts = 0;  // at ranges that differ by a tenth from others in their directions
   double farthest = 0;          // range of a point
@@ -33,7 +34,8 @@ struct StationView {
   std::optional<RangeImage> left_out;  // of points that a filter leaves out; empty if there are none
 
   // A single sweep has one range in most directions. The share of points for which this holds; below
-  // `kLeastCertain` the station did not measure them. It is 0 for a view that is too narrow to say.
+  // `kLeastCertain` the station did not measure them. It is 0 for a view that is too narrow to say, unless
+  // the scan itself states the station, as a range camera does.
   double certainty() const;
   static constexpr double kLeastCertain = 0.98;
 };

@@ -109,6 +109,21 @@ TEST_CASE("a station far off its points is not certain, however far it is") {
   CHECK(stations_of({pcd}).at(0).certainty == 0);
 }
 
+TEST_CASE("a narrow view counts where the scan itself states its station", "[io]") {
+  const ScratchFolder folder;
+  std::string rows;
+  for (int i = 0; i < 400; ++i) rows += std::to_string(i % 20) + " " + std::to_string(i / 20) + " 0\n";
+  const std::string pcd =
+      folder.write("range.pcd",
+                   "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 400\n"
+                   "HEIGHT 1\nVIEWPOINT 10 10 300 1 0 0 0\nPOINTS 400\nDATA ascii\n" +
+                       rows);
+  CHECK(stations_of({pcd}).at(0).certainty == 1);
+  OutputConfig config;
+  config.stations = folder.write("stations.txt", "listed 10 10 300\n");
+  CHECK(stations_of({pcd}, config).at(0).certainty == 0);
+}
+
 TEST_CASE("without ranges, stations have all but certainty and step, and take no disk space") {
   const ScratchFolder folder, empty;
   OutputConfig config;
