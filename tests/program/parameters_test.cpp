@@ -221,8 +221,8 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
 
 namespace {
 
-// A run in a kept folder, then another one with one parameter changed, and back: each gives the results of a
-// fresh run, or is refused. `is_tried` chooses the parameters.
+// Runs in a kept folder, then again with one parameter changed, and back. Each run gives the results of a
+// fresh one, or is refused. `is_tried` chooses the parameters.
 template <class IsTried>
 void check_kept_runs(const io::FilesConfig& config, const IsTried& is_tried) {
   Scan scan = made_scan();
