@@ -33,7 +33,7 @@ std::string header_of(const LasHeader& from, std::size_t record_bytes) {
   header.append(reinterpret_cast<const char*>(from.bytes.data()) + bytes, from.bytes.size() - bytes);
   put_at<std::uint8_t>(header, 24, 1);
   put_at<std::uint8_t>(header, 25, 4);
-  put_text(header, kLasSoftwareAt, 32, std::string(kLasSoftware) + LACUNA_VERSION);
+  put_text(header, 58, 32, "Lacuna " LACUNA_VERSION);  // generating software
   put_at(header, 94, static_cast<std::uint16_t>(header.size()));
   put_at(header, 104, static_cast<std::uint8_t>(from.point_format));
   put_at(header, 105, static_cast<std::uint16_t>(record_bytes));

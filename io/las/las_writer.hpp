@@ -15,14 +15,9 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace lacuna::io {
-
-// The field "generating software" of each file of a LasWriter begins so, at this byte.
-inline constexpr std::string_view kLasSoftware = "Lacuna ";
-inline constexpr std::uint64_t kLasSoftwareAt = 58;
 
 // The header of the other file goes over, as LAS 1.4 has it. It has the point format, scale, offset, bounds,
 // numbers of returns, identity and date, and maybe bytes behind its last field. All records go over byte for

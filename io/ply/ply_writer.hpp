@@ -9,14 +9,10 @@
 
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <type_traits>
 #include <vector>
 
 namespace lacuna::io {
-
-// Each file of a PlyWriter begins with this text, by which a program recognises an earlier one.
-inline constexpr std::string_view kPlyMark = "ply\nformat binary_little_endian 1.0\ncomment lacuna detect\n";
 
 class PlyWriter final : public RowsWriter {
  public:

@@ -20,19 +20,16 @@ void append(std::string& line, double value, bool is_count = false) {
   }
 }
 
-}  // namespace
-
-std::string_view table_header() {
-  static const std::string header = [] {
-    std::string names = "id,kind";
-    for (const LoopMeasure& measure : kLoopMeasures) names.append(",").append(measure.name);
-    return names + ",x,y,z,nx,ny,nz,cause,hidden_by_x,hidden_by_y,hidden_by_z";
-  }();
-  return header;
+std::string table_header() {
+  std::string names = "id,kind";
+  for (const LoopMeasure& measure : kLoopMeasures) names.append(",").append(measure.name);
+  return names + ",x,y,z,nx,ny,nz,cause,hidden_by_x,hidden_by_y,hidden_by_z\n";
 }
 
+}  // namespace
+
 void write_table(const ExplainedDetection& detection, OutputFile& out) {
-  out.write(std::string(table_header()) + "\n");
+  out.write(table_header());
   for (std::size_t id = 0; id < detection.loops.size(); ++id) {
     const ExplainedLoop loop = detection.loop(id);
     std::string line = std::to_string(id) + "," + name_of(loop.kind);

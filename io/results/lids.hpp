@@ -8,13 +8,8 @@
 #include "io/scan/file_scan.hpp"
 
 #include <filesystem>
-#include <string_view>
 
 namespace lacuna::io {
-
-// lids.obj and lids.csv begin with these texts, by which a program recognises earlier ones.
-inline constexpr std::string_view kLidsObjMark = "# lacuna detect, lids\n";
-inline constexpr std::string_view kLidsHeader = "loop,triangles,lid_area,reason";
 
 // lids.obj has for each hole, in order, its object "hole_12" (the id), vertices with all digits and
 // triangles. Comments have the numbers of both and the area. A hole without a lid has one comment, with the

@@ -8,7 +8,7 @@
 namespace lacuna::io {
 
 void write_lids_table(const std::filesystem::path& lids_obj, OutputFile& out) {
-  out.write(std::string(kLidsHeader) + "\n");
+  out.write("loop,triangles,lid_area,reason\n");
   read_lids(lids_obj, {.hole = [&](const LidRecord& hole) {
               std::string line = std::to_string(hole.loop) + "," + std::to_string(hole.triangles) + ",";
               if (hole.left_out.empty()) append_shortest(line, hole.area);

@@ -85,7 +85,7 @@ void write_lids_obj(const Detection& detection, OutputFile& out) {
   for (std::size_t id = 0; id < detection.loops.size(); ++id) {
     if (detection.loops[id].kind == LoopKind::kHole) holes.push_back(id);
   }
-  out.write(kLidsObjMark);
+  out.write("# lacuna detect, lids\n");
   const std::size_t batch = batch_size(detection.summary.memory_limit);
   std::uint64_t next = 1;  // vertices count from 1, over all objects
   for (std::size_t begin = 0; begin < holes.size(); begin += batch) {

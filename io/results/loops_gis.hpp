@@ -17,7 +17,7 @@ namespace lacuna::io {
 
 enum class GisFormat : std::uint8_t { kGeoPackage, kGeoJson };
 
-// The layer of each file, by which a program recognises an earlier file.
+// The layers of the files.
 inline constexpr const char* kGisLayer = "lacuna_loops";
 inline constexpr const char* kGisAreas = "lacuna_areas";  // the second one of a GeoPackage, with polygons
 inline constexpr const char* kGisDescription = "loops of lacuna detect";

@@ -26,7 +26,7 @@ std::string head_of(std::size_t id, const ExplainedLoop& loop) {
 }  // namespace
 
 void write_loops_obj(const ExplainedDetection& detection, OutputFile& out) {
-  out.write(kObjMark);
+  out.write("# lacuna detect, loops\n");
   std::uint64_t next = 1;  // vertices count from 1, over all objects
   for (std::size_t id = 0; id < detection.loops.size(); ++id) {
     const ExplainedLoop loop = detection.loop(id);

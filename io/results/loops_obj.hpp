@@ -6,12 +6,7 @@
 #include "io/files/output_file.hpp"
 #include "io/stations/cause.hpp"
 
-#include <string_view>
-
 namespace lacuna::io {
-
-// The file begins with this text, by which a program recognises an earlier one.
-inline constexpr std::string_view kObjMark = "# lacuna detect, loops\n";
 
 // Writes for each loop, in order: its measures as comments, its object "hole_0" or "outer_0" (the id), and
 // its points. A line `l a b` for each edge follows. Blender 3.4 and MeshLab 2020.09 read only the first edge

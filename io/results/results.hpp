@@ -11,7 +11,6 @@
 #include "io/stations/cause.hpp"
 
 #include <filesystem>
-#include <string_view>
 #include <vector>
 
 namespace lacuna::io {
@@ -42,7 +41,6 @@ void write_holes(const ExplainedDetection& detection, const FileScan& scan, cons
 void write_run(const Detection& detection, const FileScan& scan, const FilesConfig& config, OutputFile& out);
 
 // holes.csv: one line for each loop, in order, with the ids of holes.json. What is not finite is empty.
-std::string_view table_header();
 void write_table(const ExplainedDetection& detection, OutputFile& out);
 
 // Names as CloudCompare ("scalar_", of which it shows the first one) and MeshLab (quality: the probability)

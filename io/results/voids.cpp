@@ -97,7 +97,7 @@ void write_voids_json(const AreaCheck& check, const FileScan& scan, const AreaCo
 }
 
 void write_voids_table(const AreaCheck& check, OutputFile& out) {
-  out.write(std::string(kVoidsHeader) + "\n");
+  out.write("id,kind,counts,area,circle,x,y,spacing,excepted\n");
   for (std::size_t id = 0; id < check.voids.size(); ++id) {
     const Void& each = check.voids[id];
     std::string line = std::to_string(id);

@@ -10,13 +10,9 @@
 #include "io/scan/file_scan.hpp"
 
 #include <filesystem>
-#include <string_view>
 #include <vector>
 
 namespace lacuna::io {
-
-inline constexpr std::string_view kVoidsHeader =
-    "id,kind,counts,area,circle,x,y,spacing,excepted";  // of voids.csv
 
 // The sums, the voids with their outlines, and the table. Memory: one void. What is not finite is null.
 void write_voids_json(const AreaCheck& check, const FileScan& scan, const AreaConfig& config,
