@@ -6,7 +6,7 @@
 #include "engine/run/job.hpp"
 #include "io/area/check_area.hpp"
 #include "io/stations/find_causes.hpp"
-#include "tools/console/overall_progress.hpp"
+#include "tools/console/progress.hpp"
 #include "tools/run/scan_warnings.hpp"
 
 #include <algorithm>
@@ -33,48 +33,38 @@ class Cancelled : public std::exception {};
 // Where the run stands, for the thread that Python knows.
 class WatchedProgress final : public Progress {
  public:
-  explicit WatchedProgress(const Config& config) : overall_(tools::expected_stages(config)) {}
-
-  void begin(std::string_view stage, std::uint64_t total) override {
+  void begin(std::string_view step, std::uint64_t total) override {
     stop_if_cancelled();
     const std::lock_guard lock(mutex_);
-    stage_ = stage;
+    step_ = step;
     total_ = total;
     done_ = 0;
-    overall_.begin(stage, seconds());
+    start_ = Clock::now();
   }
   void advance(std::uint64_t count) override {
     done_ += count;
     stop_if_cancelled();
   }
-  void end() noexcept override {
-    const std::lock_guard lock(mutex_);
-    overall_.end();
-  }
+  void end() noexcept override {}
 
-  struct State {
-    std::string stage;
-    tools::OverallProgress::State overall;
-  };
-  State state() {
+  tools::StepProgress state() {
     const std::lock_guard lock(mutex_);
-    return {stage_, overall_.at(seconds(), done_, total_)};
+    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    return {.step = step_, .done = done_, .total = total_, .step_seconds = seconds};
   }
   void cancel() { is_cancelled_ = true; }
 
  private:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   void stop_if_cancelled() const {
     if (is_cancelled_) throw Cancelled();
   }
 
-  Clock::time_point start_ = Clock::now();
   std::mutex mutex_;
-  std::string stage_;
+  std::string step_;
+  Clock::time_point start_;  // of the step
   std::uint64_t total_ = 0;
   std::atomic<std::uint64_t> done_ = 0;
   std::atomic<bool> is_cancelled_ = false;
-  tools::OverallProgress overall_;
 };
 
 // Work on a thread of its own.
@@ -111,12 +101,13 @@ class Worker {
 };
 
 // Throws what a handler of a signal or the callback raises.
-bool wants_more(const WatchedProgress::State& state, const py::object& callback) {
+bool wants_more(const tools::StepProgress& state, const py::object& callback) {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  if (callback.is_none() || state.stage.empty()) return true;
-  const py::object left =
-      state.overall.seconds_left ? py::cast(*state.overall.seconds_left) : py::object(py::none());
-  return !callback(state.stage, state.overall.share, left).is(py::bool_(false));
+  if (callback.is_none() || state.step.empty()) return true;
+  const auto or_none = [](std::optional<double> value) {
+    return value ? py::object(py::cast(*value)) : py::object(py::none());
+  };
+  return !callback(state.step, or_none(state.share()), or_none(state.seconds_left())).is(py::bool_(false));
 }
 
 template <class Work>
@@ -166,7 +157,7 @@ std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig c
   auto found = std::make_unique<Found>();
   found->config = with_min_hole(config);
   found->arrays = std::move(arrays);
-  WatchedProgress watched(config);
+  WatchedProgress watched;
   run_watched(
       [&] {
         check_config(config);

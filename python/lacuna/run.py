@@ -14,7 +14,7 @@ import numpy as np
 from . import _core
 from .holes import Holes, LacunaWarning
 
-Progress = Callable[[str, float, Optional[float]], Any]
+Progress = Callable[[str, Optional[float], Optional[float]], Any]
 Path = Union[str, "os.PathLike[str]"]
 
 
@@ -40,8 +40,9 @@ def find_holes(
     - points: whether results of all points are wanted, such as `Holes.probability`.
     - attributes: further columns of n values each, by name, for files that `Holes.save` writes. The report shows
       `red`, `green` and `blue`.
-    - progress: is called as progress(stage, share, seconds_left) some times a second. If it returns False, the
-      run ends with an `Error`.
+    - progress: is called as progress(step, share, seconds_left) some times a second. The share, from 0 to 1, and
+      the seconds belong to the current step, and None where they are not known. If it returns False, the run
+      ends with an `Error`.
     - params: parameters by their keys, such as min_hole=0.5, k=20, memory_limit="4GiB", crs="EPSG:25832".
       `lacuna.parameters()` lists them.
 

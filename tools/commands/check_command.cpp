@@ -47,8 +47,7 @@ void run_check(const CheckArguments& arguments) {
     check_not_input(*folder, *scan);
     watch_results(folder->path(), folder->path() / kVoidsFile);
   }
-  const std::unique_ptr<Progress> progress =
-      make_progress(arguments.run.quiet ? ProgressStyle::kNone : arguments.run.progress, {{"area", 1}});
+  const std::unique_ptr<Progress> progress = arguments.run.show_progress();
   const AreaCheck check = check_area(area, *scan, config, *progress);
   for (const std::string& warning : area_warnings(check)) spdlog::warn("{}", warning);
   const PlanGrid& grid = area.grid;

@@ -16,8 +16,7 @@
 #include "tools/commands/workspace_commands.hpp"
 #include "tools/console/area_text.hpp"
 #include "tools/console/command_line.hpp"
-#include "tools/console/overall_progress.hpp"
-#include "tools/console/shown_progress.hpp"
+#include "tools/console/progress.hpp"
 #include "tools/console/terminal.hpp"
 #include "tools/console/visible_text.hpp"
 #include "tools/run/folders.hpp"
@@ -119,8 +118,8 @@ FilesConfig RunArguments::start(FilesConfig base) const {
   return config;
 }
 
-std::unique_ptr<Progress> RunArguments::show_progress(const Config& config) const {
-  return make_progress(quiet ? ProgressStyle::kNone : progress, expected_stages(config));
+std::unique_ptr<Progress> RunArguments::show_progress() const {
+  return make_progress(quiet ? ProgressStyle::kNone : progress);
 }
 
 FilesConfig config_of(const StoredRun& run, const fs::path& workspace) {
@@ -168,7 +167,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   const MadeFolder parent(scratch_parent(config.run, out));
   const TemporaryFolder scratch(parent.path(), "lacuna-");
   for (const std::string& warning : memory_warnings(config)) spdlog::warn("{}", warning);
-  const std::unique_ptr<Progress> progress = arguments.show_progress(config);
+  const std::unique_ptr<Progress> progress = arguments.show_progress();
 
   const std::unique_ptr<StationViews> stations = watch_stations(scan, config.output, scratch.path());
   ExplainedDetection detection{*detect(scan, config, scratch.path(), *progress)};

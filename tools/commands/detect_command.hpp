@@ -5,7 +5,7 @@
 #include "engine/workspace/workspace.hpp"
 #include "io/scan/file_scan.hpp"
 #include "tools/console/command_line.hpp"
-#include "tools/console/shown_progress.hpp"
+#include "tools/console/progress.hpp"
 #include "tools/run/parameter_options.hpp"
 
 #include <filesystem>
@@ -22,7 +22,7 @@ struct RunArguments {
   // Returns the parameters over the ones in `base`. Sets up the log, and warns of parameters without effect.
   io::FilesConfig start(io::FilesConfig base = {}) const;
 
-  std::unique_ptr<Progress> show_progress(const Config& config) const;
+  std::unique_ptr<Progress> show_progress() const;
 
   ProgressStyle progress = default_progress_style();
   bool quiet = false;

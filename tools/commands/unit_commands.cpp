@@ -102,7 +102,7 @@ void run_work(const WorkArguments& arguments) {
   watch_workspace(arguments.workspace);
   const fs::path parent = config.run.scratch.empty() ? arguments.workspace : fs::path(config.run.scratch);
   const TemporaryFolder scratch(parent, "lacuna-");
-  const std::unique_ptr<Progress> progress = arguments.run.show_progress(config);
+  const std::unique_ptr<Progress> progress = arguments.run.show_progress();
   const bool exists = work(scan, config, *step, arguments.task, scratch.path(), *progress);
   if (!arguments.run.quiet)
     std::cout << arguments.step << ", task " << arguments.task << (exists ? ": done\n" : ": nothing to do\n");

@@ -16,7 +16,7 @@ const std::string& program_name();  // "lacuna" before start_log
 void quiet_log();                   // warnings and errors only
 
 void print_error(std::string_view reason);  // "PROGRAM: error: ..."
-void print_line(std::string_view line);     // above the bar
+void print_line(std::string_view line);     // above the line of progress
 void show_bar(std::string bar);             // in place of the one before
 void clear_progress();
 // The last line that the program prints, if stderr takes it at once: nothing gets to the console afterwards.
