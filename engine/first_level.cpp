@@ -19,9 +19,9 @@
 namespace lacuna {
 namespace {
 
-Level level_of(SurveyedScan survey, std::uint64_t tile_points, TileStore store) {
+Level level_of(const SurveyTotals& survey, std::uint64_t tile_points, TileStore store) {
   const double extent = extent_of(survey.bounds);
-  return {.survey = std::move(survey),
+  return {.survey = survey,
           .extent = extent,
           .tile_points = tile_points,
           .store = std::move(store),
@@ -41,7 +41,7 @@ Level bucket_points(PointSource& given, StoreFiles files, Job& job) {
       plan, {}, survey.bounds, {survey.precision(), given.has_normals()},
       [&](std::size_t place, const VisitPoints& visit) { scattered.for_each(place, visit); },
       std::move(files), job);
-  return level_of(std::move(survey), plan.tile_points, std::move(store));
+  return level_of(survey, plan.tile_points, std::move(store));
 }
 
 // Returns a part that was sealed a moment ago.
@@ -70,7 +70,7 @@ SealedPlan shared_plan(PointSource& scan, const Workspace& workspace, Job& job) 
   std::string seals;
   SealedPlan sealed;
   std::uint64_t first_id = 0;
-  sealed.survey = merge_surveys(
+  SurveyedScan survey = merge_surveys(
       tasks,
       [&](std::size_t task) {
         SealedSurvey part = shared_survey(scan, {task, tasks}, workspace, job);
@@ -83,11 +83,12 @@ SealedPlan shared_plan(PointSource& scan, const Workspace& workspace, Job& job) 
         return std::move(part.survey);
       },
       scan.expected_points(), job);
-  if (sealed.survey.points == sealed.survey.dropped) {  // the source says so in its own words
+  if (survey.points == survey.dropped) {  // the source says so in its own words
     scan.select(0, scan.parts().size(), PointId{0});
     survey_scan(scan, job);
   }
-  sealed.plan = plan_tiles(sealed.survey, job);
+  sealed.plan = plan_tiles(survey, job);
+  sealed.survey = survey;
   seal_plan(sealed, seals, workspace);
   return sealed;
 }

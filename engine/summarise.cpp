@@ -22,7 +22,7 @@ double median_area(std::span<const LevelLoops> levels) {
 }  // namespace
 
 Summary summarise(const Level& level, const Job& job) {
-  const SurveyedScan& survey = level.survey;
+  const SurveyTotals& survey = level.survey;
   const TileStore& store = level.store;
   Summary summary;
   summary.counts.points = survey.points;

@@ -157,7 +157,7 @@ py::dict loops_of(const io::ExplainedDetection& detection) {
     for (std::size_t i = 0; i < loops.size(); ++i) {
       detection.for_each_loop_point(i, [&](const LoopPoint& p) {
         *id++ = static_cast<std::int64_t>(value(p.id));
-        store(p.position, position);
+        store(p.position(), position);
         position += 3;
         *of_point++ = p.probability;
       });
@@ -224,7 +224,7 @@ py::dict sample_of(const Detection& detection) {
     const py::gil_scoped_release unlocked;
     detection.for_each_sampled_point([&](const SampledPoint& p) {
       *id++ = static_cast<std::int64_t>(value(p.id));
-      store(p.position, position);
+      store(p.position(), position);
       *of_point++ = p.probability;
       store(p.normal, direction);
       position += 3;

@@ -26,8 +26,8 @@ std::optional<LoopKind> kind_of(const LoopIds& loop, std::span<const Eigen::Vect
   Loop polygon;
   for (const std::uint64_t id : loop) {
     if (!positions[id].allFinite()) return std::nullopt;
-    polygon.push_back(
-        {.position = positions[id], .surface = towards_surface(positions[id], points, tree).cast<float>()});
+    const Eigen::Vector3f surface = towards_surface(positions[id], points, tree).cast<float>();
+    polygon.push_back({ScanPoint::at(positions[id], PointId{id}), {surface.x(), surface.y(), surface.z()}});
   }
   return measure_loop(polygon, 1).kind;
 }

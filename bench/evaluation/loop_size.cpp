@@ -24,8 +24,8 @@ LoopSize size_of(const TrueLoop& loop, std::span<const Eigen::Vector3d> position
                // then fast
   for (const auto& [a, b] : loop.edges) {
     size.perimeter += (positions[a] - positions[b]).norm();
-    along.push_back({.position = positions[a]});
-    along.push_back({.position = positions[b]});
+    along.push_back({ScanPoint::at(positions[a], PointId{a})});
+    along.push_back({ScanPoint::at(positions[b], PointId{b})});
   }
   if (!along.empty()) size.diameter = diameter(along);
   size.centre = mean_of(loop.vertices, positions);
@@ -38,7 +38,7 @@ LoopSize size_of(const LoopIds& loop, std::span<const Eigen::Vector3d> positions
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const std::uint64_t next = loop[i + 1 < loop.size() ? i + 1 : 0];
     size.perimeter += (positions[loop[i]] - positions[next]).norm();
-    along.push_back({.position = positions[loop[i]]});
+    along.push_back({ScanPoint::at(positions[loop[i]], PointId{loop[i]})});
   }
   if (!along.empty()) size.diameter = diameter(along);
   size.centre = mean_of(loop, positions);

@@ -11,7 +11,7 @@ open3d::geometry::LineSet lines_of(const lacuna::Holes& found) {
   for (const lacuna::ReportedLoop& loop : found.loops) {
     const int first = static_cast<int>(lines.points_.size()), size = static_cast<int>(loop.points.size());
     for (int i = 0; i < size; ++i) {
-      lines.points_.push_back(loop.points[i].position);
+      lines.points_.push_back(loop.points[i].position());
       lines.lines_.emplace_back(first + i, first + (i + 1) % size);
     }
   }

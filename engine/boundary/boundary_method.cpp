@@ -12,9 +12,9 @@ std::unique_ptr<BoundaryMethod> boundary_method(const Tiling& tiling, Job& job) 
   return std::make_unique<tangential::TangentialBoundary>(tiling, job);
 }
 
-StoredLoopPoint loop_point_of(const EvaluatedTile& tile, LocalIndex owned) {
+LoopPoint loop_point_of(const EvaluatedTile& tile, LocalIndex owned) {
   const Eigen::Vector3f surface = tile.evaluations[owned].mean_offset.cast<float>();
-  return {tile.stored(owned), {surface.x(), surface.y(), surface.z()}, tile.probability(owned)};
+  return {tile.point(owned), {surface.x(), surface.y(), surface.z()}, tile.probability(owned)};
 }
 
 }  // namespace lacuna

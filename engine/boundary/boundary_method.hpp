@@ -46,6 +46,6 @@ class BoundaryMethod {
 std::unique_ptr<BoundaryMethod> boundary_method(const Tiling& tiling, Job& job);
 
 // Returns an owned point in the form that loops have.
-StoredLoopPoint loop_point_of(const EvaluatedTile& tile, LocalIndex owned);
+LoopPoint loop_point_of(const EvaluatedTile& tile, LocalIndex owned);
 
 }  // namespace lacuna

@@ -11,19 +11,12 @@
 namespace lacuna {
 namespace {
 
-std::vector<Candidate> without_points(std::span<const StoredCandidate> stored) {
-  std::vector<Candidate> candidates;
-  candidates.reserve(stored.size());
-  for (const StoredCandidate& c : stored) candidates.push_back(c.candidate);
-  return candidates;
-}
-
 // Returns the other tiles with gap neighbours of a tile's candidates, ascending.
-std::vector<TileIndex> tiles_around(std::span<const StoredCandidate> candidates, TileIndex tile,
+std::vector<TileIndex> tiles_around(std::span<const Candidate> candidates, TileIndex tile,
                                     const Tiling& tiling) {
   std::vector<Row> foreign;
-  for (const StoredCandidate& c : candidates) {
-    for (const Row gap : {c.candidate.gap_near, c.candidate.gap_far}) {
+  for (const Candidate& c : candidates) {
+    for (const Row gap : {c.gap_near, c.gap_far}) {
       if (!tiling.tiles[tile].owns(gap)) foreign.push_back(gap);
     }
   }
@@ -33,14 +26,17 @@ std::vector<TileIndex> tiles_around(std::span<const StoredCandidate> candidates,
 }  // namespace
 
 void emit_candidates(const EvaluatedTile& tile, TileOutput& output) {
-  std::vector<StoredCandidate> candidates;
+  std::vector<Candidate> candidates;
+  std::vector<CandidatePoint> points;
   for (const LocalIndex p : tile.candidates) {
     const Evaluation& e = tile.evaluations[p];
     if (e.gap_near == kNoIndex) continue;
     const std::vector<Row>& rows = tile.points.rows;
-    candidates.push_back({{rows[p], rows[e.gap_near], rows[e.gap_far]}, tile.stored(p), tile.probability(p)});
+    candidates.push_back({rows[p], rows[e.gap_near], rows[e.gap_far]});
+    points.push_back({tile.point(p), tile.probability(p)});
   }
   output.add(kCandidates, std::move(candidates));
+  output.add(kCandidatePoints, std::move(points));
 }
 
 RowSet coherent_candidates(const TileOutputs& outputs, const Tiling& tiling, Job& job) {
@@ -52,8 +48,8 @@ RowSet coherent_candidates(const TileOutputs& outputs, const Tiling& tiling, Job
   std::mutex mutex;
   job.arena.for_each(tiles, [&](std::size_t i) {
     const auto t = static_cast<TileIndex>(i);
-    const std::vector<StoredCandidate> candidates = outputs.read(kCandidates, t);
-    for (const StoredCandidate& c : candidates) boundary.insert(c.candidate.row);
+    const std::vector<Candidate> candidates = outputs.read(kCandidates, t);
+    for (const Candidate& c : candidates) boundary.insert(c.row);
     const std::vector<TileIndex> around = tiles_around(candidates, t, tiling);
     const std::lock_guard lock(mutex);
     for (const TileIndex other : around) dependents[other].push_back(t);
@@ -62,8 +58,7 @@ RowSet coherent_candidates(const TileOutputs& outputs, const Tiling& tiling, Job
   for (Rounds rounds(tiles); !rounds.tiles().empty(); rounds.next()) {
     job.arena.for_each(rounds.tiles().size(), [&](std::size_t i) {
       const TileIndex t = rounds.tiles()[i];
-      if (remove_incoherent(without_points(outputs.read(kCandidates, t)), boundary))
-        rounds.request(dependents[t]);
+      if (remove_incoherent(outputs.read(kCandidates, t), boundary)) rounds.request(dependents[t]);
     });
   }
   return boundary;
@@ -72,9 +67,8 @@ RowSet coherent_candidates(const TileOutputs& outputs, const Tiling& tiling, Job
 RowSet candidates_between(const RowSet& on_loop, const TileOutputs& outputs, const Tiling& tiling, Job& job) {
   RowSet between(tiling.row_count());
   job.arena.for_each(tiling.tiles.size(), [&](std::size_t t) {
-    for (const StoredCandidate& c : outputs.read(kCandidates, static_cast<TileIndex>(t))) {
-      if (on_loop.contains(c.candidate.gap_near) && on_loop.contains(c.candidate.gap_far))
-        between.insert(c.candidate.row);
+    for (const Candidate& c : outputs.read(kCandidates, static_cast<TileIndex>(t))) {
+      if (on_loop.contains(c.gap_near) && on_loop.contains(c.gap_far)) between.insert(c.row);
     }
   });
   return between;

@@ -6,19 +6,20 @@
 #include "engine/boundary/coherence.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/run/job.hpp"
-#include "engine/store/point_column.hpp"
 #include "engine/store/row_set.hpp"
+
+#include <cstdint>
 
 namespace lacuna {
 
-struct StoredCandidate {
-  Candidate candidate;
-  StoredPoint point;
+struct CandidatePoint : ScanPoint {
   float probability;
+  std::uint32_t padding = 0;  // all bytes are in the checksum of a part
 };
 
-// A tile's candidates that have gap neighbours, in ascending row.
-inline constexpr RecordStream<StoredCandidate> kCandidates{"candidates"};
+// A tile's candidates that have gap neighbours, in ascending row, and their points.
+inline constexpr RecordStream<Candidate> kCandidates{"candidates"};
+inline constexpr RecordStream<CandidatePoint> kCandidatePoints{"candidate points"};
 void emit_candidates(const EvaluatedTile& tile, TileOutput& output);
 
 // Returns the coherent candidates: the greatest set of candidates in which each has both of its gap

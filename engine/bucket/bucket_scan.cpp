@@ -46,8 +46,8 @@ struct Destinations {
 // The finite points of one batch, sorted by destination.
 struct SortedBatch {
   PointBatch batch;
-  std::vector<StoredPoint> points;
-  std::vector<StoredNormal> normals;
+  std::vector<ScanPoint> points;
+  std::vector<PlainNormal> normals;
   std::vector<std::uint32_t> ends;  // of each destination's points
 
   void sort(const Destinations& to);
@@ -89,7 +89,7 @@ void append(const SortedBatch& batch, std::uint32_t places, ScatteredPoints& sca
     const std::uint32_t count = batch.ends[place] - begin;
     if (count > 0) {
       scattered.add(place, std::span(batch.points).subspan(begin, count),
-                    batch.normals.empty() ? std::span<const StoredNormal>()
+                    batch.normals.empty() ? std::span<const PlainNormal>()
                                           : std::span(batch.normals).subspan(begin, count));
     }
     begin += count;
@@ -105,7 +105,7 @@ std::vector<Record> pick(const std::vector<Record>& records, std::span<const std
 }
 
 // Returns the cells of a tile's points, counted from its first cell.
-std::vector<std::uint32_t> cells_of(std::span<const StoredPoint> points, const CellIndex& index,
+std::vector<std::uint32_t> cells_of(std::span<const ScanPoint> points, const CellIndex& index,
                                     const Tile& tile) {
   std::vector<std::uint32_t> cells(points.size());
   std::array<Eigen::Vector3d, 256> positions;
@@ -123,7 +123,7 @@ std::vector<std::uint32_t> cells_of(std::span<const StoredPoint> points, const C
 std::uint64_t least_store_bytes(const TilePlan& plan, Precision precision) {
   std::uint64_t points = 0;
   for (const Tile& tile : plan.tiles) points += tile.raw;
-  return points * (precision == Precision::kSingle ? sizeof(StoredPoint) / 2 : sizeof(StoredPoint));
+  return points * (precision == Precision::kSingle ? sizeof(ScanPoint) / 2 : sizeof(ScanPoint));
 }
 
 }  // namespace
@@ -201,7 +201,7 @@ TileStore store_tiles(const TilePlan& plan, const TaskShare& share, const Eigen:
     for (std::uint32_t group = 0; group < plan.groups(); ++group) {
       for_each(plan.tiles.size() + group, [&](const PointsAndNormals& some) {
         for (std::size_t i = 0; i < some.points.size(); ++i)
-          aside.add(group, some.points[i], some.normals.empty() ? StoredNormal{} : some.normals[i]);
+          aside.add(group, some.points[i], some.normals.empty() ? PlainNormal{} : some.normals[i]);
       });
     }
     aside.store(store, plan.cell_points);

@@ -31,7 +31,7 @@ std::uint32_t fraction(double x, double scale, double origin) {
 // Makes the key of each point: its place along a Z curve through its cell, in the high half, and its index.
 // Equal coordinates have equal places.
 LACUNA_VECTORISED
-void make_keys(const StoredPoint* points, std::size_t count, double scale, double origin_x, double origin_y,
+void make_keys(const ScanPoint* points, std::size_t count, double scale, double origin_x, double origin_y,
                double origin_z, std::uint64_t* keys) {
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t place = spread(fraction(points[i].x, scale, origin_x)) |
@@ -50,9 +50,9 @@ std::uint32_t index_of(std::uint64_t key) {
 }
 
 // Sorts by place, then by coordinates and id. Few points share a place: only those are sorted again.
-void sort_cell(std::span<std::uint64_t> keys, std::span<const StoredPoint> points) {
+void sort_cell(std::span<std::uint64_t> keys, std::span<const ScanPoint> points) {
   const auto by_point = [&](std::uint64_t a, std::uint64_t b) {
-    const StoredPoint &p = points[index_of(a)], &q = points[index_of(b)];
+    const ScanPoint &p = points[index_of(a)], &q = points[index_of(b)];
     return std::tie(p.x, p.y, p.z, p.id) < std::tie(q.x, q.y, q.z, q.id);
   };
   std::sort(keys.begin(), keys.end());
@@ -62,13 +62,13 @@ void sort_cell(std::span<std::uint64_t> keys, std::span<const StoredPoint> point
   }
 }
 
-bool coincide(const StoredPoint& p, const StoredPoint& q) {
+bool coincide(const ScanPoint& p, const ScanPoint& q) {
   return p.x == q.x && p.y == q.y && p.z == q.z;
 }
 
 class Orderer {
  public:
-  Orderer(std::span<const StoredPoint> points, std::uint64_t cell_points)
+  Orderer(std::span<const ScanPoint> points, std::uint64_t cell_points)
       : points_(points), cell_points_(cell_points) {
     tile_.order.reserve(points.size());
   }
@@ -104,7 +104,7 @@ class Orderer {
       placed.push_back({curve.place(points_[index_of(key)].position()), index_of(key)});
     std::sort(placed.begin(), placed.end(), [&](const Placed& a, const Placed& b) {
       if (a.place != b.place) return comes_before(a.place, b.place);
-      const StoredPoint &p = points_[a.point], &q = points_[b.point];
+      const ScanPoint &p = points_[a.point], &q = points_[b.point];
       return std::tie(p.x, p.y, p.z, p.id) < std::tie(q.x, q.y, q.z, q.id);
     });
     const std::size_t first = tile_.order.size();
@@ -138,14 +138,14 @@ class Orderer {
     tile_.cells.push_back(cell);
   }
 
-  std::span<const StoredPoint> points_;
+  std::span<const ScanPoint> points_;
   std::uint64_t cell_points_;
   OrderedTile tile_;
 };
 
 }  // namespace
 
-OrderedTile order_tile(std::span<const StoredPoint> points, std::span<const std::uint32_t> cells,
+OrderedTile order_tile(std::span<const ScanPoint> points, std::span<const std::uint32_t> cells,
                        std::size_t cell_count, const CellGrid& grid, std::uint64_t cell_points) {
   std::vector<std::uint32_t> begin(cell_count + 1, 0);
   for (const std::uint32_t cell : cells) ++begin[cell + 1];

@@ -23,7 +23,7 @@ struct OrderedTile {
 // counted cell, then along a Z curve through it. A counted cell with more than four times `cell_points`
 // points becomes several cells of at most `cell_points`, however its points are spread. Where points have the
 // same coordinates, the lowest id is kept for all. Cost: n log(points per counted cell).
-OrderedTile order_tile(std::span<const StoredPoint> points, std::span<const std::uint32_t> cells,
+OrderedTile order_tile(std::span<const ScanPoint> points, std::span<const std::uint32_t> cells,
                        std::size_t cell_count, const CellGrid& grid, std::uint64_t cell_points);
 
 }  // namespace lacuna

@@ -9,9 +9,9 @@ namespace lacuna {
 namespace {
 
 template <class Record>
-void pack_as(std::span<const StoredPoint> points, std::size_t step, std::byte* to) {
+void pack_as(std::span<const ScanPoint> points, std::size_t step, std::byte* to) {
   bool is_exact = true;
-  for (const StoredPoint& p : points) {
+  for (const ScanPoint& p : points) {
     const Record record(p);
     if constexpr (std::is_same_v<Record, SinglePoint>) is_exact &= record.is(p);
     std::memcpy(to, &record, sizeof record);
@@ -30,21 +30,21 @@ Record record_at(const std::byte* from) {
 }  // namespace
 
 std::size_t PointForm::record_bytes() const {
-  return (precision == Precision::kSingle ? sizeof(SinglePoint) : sizeof(StoredPoint)) +
-         (with_normals ? sizeof(StoredNormal) : 0);
+  return (precision == Precision::kSingle ? sizeof(SinglePoint) : sizeof(ScanPoint)) +
+         (with_normals ? sizeof(PlainNormal) : 0);
 }
 
-std::vector<std::byte> PointForm::pack(std::span<const StoredPoint> points,
-                                       std::span<const StoredNormal> normals) const {
+std::vector<std::byte> PointForm::pack(std::span<const ScanPoint> points,
+                                       std::span<const PlainNormal> normals) const {
   const std::size_t step = record_bytes();
   std::vector<std::byte> records(points.size() * step);
   if (precision == Precision::kSingle) {
     pack_as<SinglePoint>(points, step, records.data());
   } else {
-    pack_as<StoredPoint>(points, step, records.data());
+    pack_as<ScanPoint>(points, step, records.data());
   }
   for (std::size_t i = 0; i < normals.size(); ++i)
-    std::memcpy(&records[(i + 1) * step - sizeof(StoredNormal)], &normals[i], sizeof(StoredNormal));
+    std::memcpy(&records[(i + 1) * step - sizeof(PlainNormal)], &normals[i], sizeof(PlainNormal));
   return records;
 }
 
@@ -56,8 +56,8 @@ PointsAndNormals PointForm::unpack(std::span<const std::byte> records) const {
   for (std::size_t i = 0; i < count; ++i) {
     const std::byte* const record = &records[i * step];
     all.points.push_back(precision == Precision::kSingle ? record_at<SinglePoint>(record).point()
-                                                         : record_at<StoredPoint>(record));
-    if (with_normals) all.normals.push_back(record_at<StoredNormal>(record + step - sizeof(StoredNormal)));
+                                                         : record_at<ScanPoint>(record));
+    if (with_normals) all.normals.push_back(record_at<PlainNormal>(record + step - sizeof(PlainNormal)));
   }
   return all;
 }
@@ -65,8 +65,8 @@ PointsAndNormals PointForm::unpack(std::span<const std::byte> records) const {
 ScatteredPoints::ScatteredPoints(std::size_t places, PointForm form, const Job& job)
     : form_(form), lists_(std::make_unique<AppendBytes>(job.file("scattered"), places, job.lists)) {}
 
-void ScatteredPoints::add(std::size_t place, std::span<const StoredPoint> points,
-                          std::span<const StoredNormal> normals) {
+void ScatteredPoints::add(std::size_t place, std::span<const ScanPoint> points,
+                          std::span<const PlainNormal> normals) {
   lists_->append(place, form_.pack(points, normals));
 }
 

@@ -16,8 +16,8 @@
 namespace lacuna {
 
 struct PointsAndNormals {
-  std::vector<StoredPoint> points;
-  std::vector<StoredNormal> normals;  // one for each point, or none
+  std::vector<ScanPoint> points;
+  std::vector<PlainNormal> normals;  // one for each point, or none
 };
 using VisitPoints = std::function<void(const PointsAndNormals&)>;
 
@@ -28,8 +28,7 @@ struct PointForm {
 
   std::size_t record_bytes() const;
   // Throws `Error` where the precision would lose a digit.
-  std::vector<std::byte> pack(std::span<const StoredPoint> points,
-                              std::span<const StoredNormal> normals) const;
+  std::vector<std::byte> pack(std::span<const ScanPoint> points, std::span<const PlainNormal> normals) const;
   PointsAndNormals unpack(std::span<const std::byte> records) const;
 };
 
@@ -39,7 +38,7 @@ class ScatteredPoints {
   ScatteredPoints(std::size_t places, PointForm form, const Job& job);
 
   // From any thread.
-  void add(std::size_t place, std::span<const StoredPoint> points, std::span<const StoredNormal> normals);
+  void add(std::size_t place, std::span<const ScanPoint> points, std::span<const PlainNormal> normals);
   std::size_t places() const { return lists_->lists(); }
   // Call visit(packed), or visit(points), with all points of a place, some thousands at a time, in any order.
   void for_each_packed(std::size_t place, const std::function<void(std::span<const std::byte>)>& visit) const;

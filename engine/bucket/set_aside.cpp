@@ -16,11 +16,11 @@ class LastTile {
       : store_(store), most_points_(most_points), cell_points_(cell_points) {}
 
   bool is_full() const { return points_.size() == most_points_; }
-  bool holds_copy_of(const StoredPoint& p) const {
+  bool holds_copy_of(const ScanPoint& p) const {
     return !points_.empty() && points_.back().position() == p.position();
   }
 
-  void add(const StoredPoint& point, const StoredNormal& normal, const ZPlace& place) {
+  void add(const ScanPoint& point, const PlainNormal& normal, const ZPlace& place) {
     points_.push_back(point);
     if (store_.has_normals()) normals_.push_back(normal);
     places_.push_back(place);
@@ -58,8 +58,8 @@ class LastTile {
 
   TileStore& store_;
   std::uint64_t most_points_, cell_points_;
-  std::vector<StoredPoint> points_;
-  std::vector<StoredNormal> normals_;
+  std::vector<ScanPoint> points_;
+  std::vector<PlainNormal> normals_;
   std::vector<ZPlace> places_;
   std::vector<Duplicate> copies_;
 };
@@ -81,7 +81,7 @@ SetAside::SetAside(const TilePlan& plan, const Eigen::AlignedBox3d& bounds, std:
   if (plan.has_far()) curves_.emplace_back(bounds);
 }
 
-void SetAside::add(std::uint32_t group, const StoredPoint& point, const StoredNormal& normal) {
+void SetAside::add(std::uint32_t group, const ScanPoint& point, const PlainNormal& normal) {
   ++counts_[group];
   sort_.add({point, normal, curves_[group].place(point.position()), group});
 }

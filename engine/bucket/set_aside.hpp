@@ -24,7 +24,7 @@ class SetAside {
            std::uint64_t memory);
 
   // Adds a point of a cell of the plan's group `group`. By one thread at a time.
-  void add(std::uint32_t group, const StoredPoint& point, const StoredNormal& normal);
+  void add(std::uint32_t group, const ScanPoint& point, const PlainNormal& normal);
 
   // Appends the tiles to the store, once all points are added. Throws `Error` where a cell got other points
   // than were counted.
@@ -32,8 +32,8 @@ class SetAside {
 
  private:
   struct Record {
-    StoredPoint point;
-    StoredNormal normal;
+    ScanPoint point;
+    PlainNormal normal;
     ZPlace place;
     std::uint64_t group;
   };

@@ -141,7 +141,7 @@ std::uint64_t TilePlan::most_tiles() const {
 
 TilePlan split_tiles(std::vector<CountedCell> cells, const CellGrid& grid, std::uint64_t points,
                      std::uint64_t tile_points) {
-  TilePlan plan{.grid = grid, .cells = std::move(cells), .points = points, .tile_points = tile_points};
+  TilePlan plan{{.grid = grid, .points = points, .tile_points = tile_points}, std::move(cells), {}, {}};
   const auto begin = plan.cells.begin(), end = plan.cells.end();
   const auto far = std::partition(begin, end, [](const CountedCell& cell) { return !cell.is_far; });
   const auto heavy =

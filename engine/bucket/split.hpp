@@ -12,18 +12,22 @@
 
 namespace lacuna {
 
-// Where points go while they are bucketed.
-struct TilePlan {
+// The numbers of a plan, as plain data.
+struct PlanTotals {
   CellGrid grid;
-  std::vector<CountedCell> cells;  // in the order of the tree, tile after tile
-  std::vector<Tile> tiles;         // tiles of these cells; their rows begin where all copies would fit
-  // Cells in no tile, since their points are set aside. First come the cells with more points than a tile may
-  // hold, one by one. Then come the cells far from all others, together.
-  std::vector<CountedCell> aside;
-  std::size_t heavy = 0;          // how many of the first kind
+  std::uint64_t heavy = 0;        // cells that are set aside for more points than a tile may hold
   std::uint64_t points = 0;       // finite ones of the scan
   std::uint64_t tile_points = 0;  // the most that a tile may hold
   std::uint64_t cell_points = 0;  // the most in a cell of the index
+};
+
+// Where points go while they are bucketed.
+struct TilePlan : PlanTotals {
+  std::vector<CountedCell> cells;  // in the order of the tree, tile after tile
+  std::vector<Tile> tiles;         // tiles of these cells; their rows begin where all copies would fit
+  // Cells in no tile, since their points are set aside. First come the `heavy` ones, one by one. Then come
+  // the cells far from all others, together.
+  std::vector<CountedCell> aside;
 
   bool has_far() const { return aside.size() > heavy; }
   std::size_t groups() const { return heavy + has_far(); }

@@ -23,7 +23,7 @@ double smallest_after(const TileStore& store, std::uint64_t passed_over, Least&&
       [&](double to_come) { return smallest.size() > passed_over && to_come >= smallest.top(); },
       [](const CellNode&) { return true; },
       [&](std::uint32_t cell) {
-        for (const StoredPoint& point : store.cell(cell)) {
+        for (const ScanPoint& point : store.cell(cell)) {
           smallest.push(key(point.position()));
           if (smallest.size() > passed_over + 1) smallest.pop();
         }
@@ -68,7 +68,7 @@ Strays find_strays(const TileStore& store) {
       strays.rest.extend(cells[cell].box);
       continue;
     }
-    for (const StoredPoint& point : store.cell(cell)) {
+    for (const ScanPoint& point : store.cell(cell)) {
       if (near.contains(point.position())) {
         strays.rest.extend(point.position());
         continue;

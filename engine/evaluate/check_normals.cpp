@@ -2,7 +2,7 @@
 #include "engine/evaluate/check_normals.hpp"
 
 #include "engine/evaluate/evaluate.hpp"
-#include "engine/neighbours/stored_search.hpp"
+#include "engine/neighbours/store_search.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,11 +36,11 @@ Sample sample_of(const TileStore& store, TileIndex index, std::size_t k) {
   const Tile& tile = store.tiling().tiles[index];
   const std::vector<Eigen::Vector3d> given = store.normals(index);
   const std::uint64_t points = store.tiling().points();
-  std::vector<StoredPoint> sampled;
+  std::vector<ScanPoint> sampled;
   std::vector<Row> rows;
   Sample sample;
   LocalIndex at = 0;
-  store.for_each_point(index, [&](const StoredPoint& point) {
+  store.for_each_point(index, [&](const ScanPoint& point) {
     const LocalIndex local = at++;
     if (!is_sampled(point.id, points) || !given[local].allFinite()) return;
     sampled.push_back(point);
@@ -50,13 +50,13 @@ Sample sample_of(const TileStore& store, TileIndex index, std::size_t k) {
   });
   sample.points.owned = static_cast<LocalIndex>(sampled.size());
 
-  StoredSearch search(store);
+  StoreSearch search(store);
   for (std::size_t i = 0; i < sampled.size(); ++i) {
-    std::vector<StoredNeighbour> nearest = search.nearest(sampled[i], rows[i], k);
+    std::vector<StoreNeighbour> nearest = search.nearest(sampled[i], rows[i], k);
     std::sort(nearest.begin(), nearest.end());
-    for (const StoredNeighbour& neighbour : nearest) {
+    for (const StoreNeighbour& neighbour : nearest) {
       sample.neighbourhoods.indices.push_back(static_cast<LocalIndex>(sample.points.positions.size()));
-      sample.points.positions.push_back(neighbour.point.position());
+      sample.points.positions.push_back(neighbour.position());
     }
     sample.neighbourhoods.offsets.push_back(static_cast<std::uint32_t>(sample.neighbourhoods.indices.size()));
   }

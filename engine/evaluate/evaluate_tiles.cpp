@@ -37,7 +37,7 @@ std::vector<std::uint32_t> halo_cells(const Tiling& tiling, const Tile& tile, do
 
 // The halo points of a tile, each once, in ascending row.
 struct HaloPoints {
-  std::vector<StoredPoint> points;
+  std::vector<ScanPoint> points;
   std::vector<Row> rows;
 
   LocalIndex find(Row row) const {
@@ -50,7 +50,7 @@ HaloPoints halo_points(const TileStore& store, std::span<const HaloEdge> edges,
                        std::span<const std::uint32_t> cells) {
   HaloPoints foreign;
   store.read_cells(cells, foreign.points, foreign.rows);
-  std::vector<std::pair<Row, StoredPoint>> entries;
+  std::vector<std::pair<Row, ScanPoint>> entries;
   for (std::size_t i = 0; i < foreign.rows.size(); ++i)
     entries.emplace_back(foreign.rows[i], foreign.points[i]);
   for (const HaloEdge& edge : edges) entries.emplace_back(edge.row, edge.foreign);
@@ -76,7 +76,7 @@ TilePoints gather(const TileStore& store, TileIndex index, std::vector<HaloEdge>
   points.owned = static_cast<LocalIndex>(tile.points);
   points.positions.reserve(tile.points + foreign.rows.size());
   points.ids.reserve(tile.points + foreign.rows.size());
-  const auto add = [&](const StoredPoint& p) {
+  const auto add = [&](const ScanPoint& p) {
     points.positions.push_back(p.position());
     points.ids.push_back(p.id);
   };

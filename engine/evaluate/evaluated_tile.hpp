@@ -6,8 +6,8 @@
 #include "engine/evaluate/tile_outputs.hpp"
 #include "engine/model/boundary_graph.hpp"
 #include "engine/model/neighbourhoods.hpp"
+#include "engine/model/points.hpp"
 #include "engine/model/tiling.hpp"
-#include "engine/store/point_column.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -26,10 +26,7 @@ struct EvaluatedTile {
   std::span<const std::uint8_t> is_border;  // of owned points: has foreign neighbours
 
   Vertex vertex(LocalIndex p) const { return {points.ids[p], points.rows[p]}; }
-  StoredPoint stored(LocalIndex p) const {
-    const Eigen::Vector3d& x = points.positions[p];
-    return {x.x(), x.y(), x.z(), points.ids[p]};
-  }
+  ScanPoint point(LocalIndex p) const { return ScanPoint::at(points.positions[p], points.ids[p]); }
   float probability(LocalIndex p) const { return static_cast<float>(evaluations[p].probability); }
 };
 

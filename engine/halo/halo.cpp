@@ -3,7 +3,7 @@
 
 #include "engine/model/distance_bound.hpp"
 #include "engine/neighbours/block_search.hpp"
-#include "engine/neighbours/stored_search.hpp"
+#include "engine/neighbours/store_search.hpp"
 #include "engine/store/outbox.hpp"
 
 #include <algorithm>
@@ -228,12 +228,12 @@ class HaloBuilder {
         far_search_(store) {}
 
   void send_edges_of_group(const Group& group) {
-    std::vector<StoredPoint> stored;
+    std::vector<ScanPoint> stored;
     std::vector<Row> rows;
     store_.read_cells(group.cells, stored, rows);
     std::vector<Eigen::Vector3d> positions;
     std::vector<PointId> ids;
-    for (const StoredPoint& p : stored) {
+    for (const ScanPoint& p : stored) {
       positions.push_back(p.position());
       ids.push_back(p.id);
     }
@@ -250,11 +250,11 @@ class HaloBuilder {
   }
 
   void send_edges_of_far_cell(std::uint32_t cell) {
-    const std::vector<StoredPoint> points = store_.cell(cell);
+    const std::vector<ScanPoint> points = store_.cell(cell);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Row row{value(tiling_.cells[cell].first_row) + i};
-      for (const StoredNeighbour& near : far_search_.nearest(points[i], row, k_))
-        send_edge(points[i], row, near.point, near.row);
+      for (const StoreNeighbour& near : far_search_.nearest(points[i], row, k_))
+        send_edge(points[i], row, near, near.row);
     }
   }
 
@@ -262,7 +262,7 @@ class HaloBuilder {
 
  private:
   // p has q among its k nearest.
-  void send_edge(const StoredPoint& p, Row p_row, const StoredPoint& q, Row q_row) {
+  void send_edge(const ScanPoint& p, Row p_row, const ScanPoint& q, Row q_row) {
     const Tile& here = tiling_.tiles[tile_];
     if (here.owns(q_row)) return;
     const TileIndex there = tiling_.tile_of_row(q_row);
@@ -276,7 +276,7 @@ class HaloBuilder {
   TileIndex tile_;
   const WantedTiles& wanted_;
   Outbox<HaloEdge> outbox_;
-  StoredSearch far_search_;
+  StoreSearch far_search_;
 };
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace lacuna {
 // A halo point, and the edge to it. The owner of the edge's other point receives it.
 struct HaloEdge {
   Row row;  // of the foreign point
-  StoredPoint foreign;
+  ScanPoint foreign;
   LocalIndex owned;
   std::uint32_t incoming;  // 1: the foreign point has the owned one among its k nearest; 0: the other way
 };

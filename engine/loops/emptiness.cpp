@@ -17,7 +17,7 @@
 namespace lacuna {
 namespace {
 
-using Points = std::span<const StoredLoopPoint>;
+using Points = std::span<const LoopPoint>;
 
 // A lid is a height above this plane.
 LoopPlane plane_of(const LoopShape& shape) {
@@ -51,14 +51,14 @@ std::vector<Eigen::Vector2d> nodes_within(Points loop, const LoopPlane& plane, d
                                           Scratch& scratch) {
   constexpr double kPlaces = 64, kMostNodes = 4096;
   Eigen::AlignedBox2d box;
-  scratch.for_each(loop, [&](const StoredLoopPoint& p) { box.extend(plane(p.point.position()).head<2>()); });
+  scratch.for_each(loop, [&](const LoopPoint& p) { box.extend(plane(p.position()).head<2>()); });
   const Eigen::Vector2d size = box.sizes();
   const Grid grid(box, std::max(std::sqrt(std::max(area / kPlaces, size.prod() / kMostNodes)),
                                 size.maxCoeff() / kMostNodes));
   std::vector<std::uint8_t> is_within(grid.columns * grid.rows);
-  Eigen::Vector2d a = plane(loop.back().point.position()).head<2>();
-  scratch.for_each(loop, [&](const StoredLoopPoint& p) {
-    const Eigen::Vector2d b = plane(p.point.position()).head<2>();
+  Eigen::Vector2d a = plane(loop.back().position()).head<2>();
+  scratch.for_each(loop, [&](const LoopPoint& p) {
+    const Eigen::Vector2d b = plane(p.position()).head<2>();
     const std::size_t last = grid.first_row_above(std::max(a.y(), b.y()));
     for (std::size_t row = grid.first_row_above(std::min(a.y(), b.y())); row < last; ++row) {
       const double x = a.x() + (grid.y(row) - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
@@ -82,8 +82,8 @@ std::vector<Eigen::Vector3d> lifted(std::span<const Eigen::Vector2d> nodes, Poin
                                     const LoopPlane& plane, Scratch& scratch) {
   constexpr double kLeast = 1e-300;                                          // a node may lie on a point
   std::vector<Eigen::Vector2d> sums(nodes.size(), Eigen::Vector2d::Zero());  // of weights, and of heights
-  scratch.for_each(loop, [&](const StoredLoopPoint& p) {
-    const Eigen::Vector3d at = plane(p.point.position());
+  scratch.for_each(loop, [&](const LoopPoint& p) {
+    const Eigen::Vector3d at = plane(p.position());
     for (std::size_t i = 0; i < nodes.size(); ++i)
       sums[i] += Eigen::Vector2d(1, at.z()) / std::max((nodes[i] - at.head<2>()).squaredNorm(), kLeast);
   });
@@ -96,8 +96,8 @@ std::vector<Eigen::Vector3d> lifted(std::span<const Eigen::Vector2d> nodes, Poin
 std::vector<double> squared_distances(std::span<const Eigen::Vector3d> places, Points loop,
                                       Scratch& scratch) {
   std::vector<double> distances(places.size(), std::numeric_limits<double>::infinity());
-  scratch.for_each(loop, [&](const StoredLoopPoint& p) {
-    const Eigen::Vector3d at = p.point.position();
+  scratch.for_each(loop, [&](const LoopPoint& p) {
+    const Eigen::Vector3d at = p.position();
     for (std::size_t i = 0; i < places.size(); ++i)
       distances[i] = std::min(distances[i], (places[i] - at).squaredNorm());
   });
@@ -124,7 +124,7 @@ class NearestPoint {
     const CellNode& node = tiling_.nodes[index];
     if (node.left == 0) {
       for (std::uint32_t cell = node.first; cell < node.last; ++cell) {
-        if (tiling_.cells[cell].box.squaredExteriorDistance(from) >= best) continue;
+        if (Eigen::AlignedBox3d(tiling_.cells[cell].box).squaredExteriorDistance(from) >= best) continue;
         for (const Eigen::Vector3d& p : points_of(cell)) best = std::min(best, (p - from).squaredNorm());
       }
       return;
@@ -141,7 +141,7 @@ class NearestPoint {
     if (const auto at = cells_.find(cell); at != cells_.end()) return at->second;
     if (cells_.size() == kMostCells) cells_.clear();
     std::vector<Eigen::Vector3d>& points = cells_[cell];
-    for (const StoredPoint& p : store_.cell(cell)) points.push_back(p.position());
+    for (const ScanPoint& p : store_.cell(cell)) points.push_back(p.position());
     return points;
   }
 
@@ -152,7 +152,7 @@ class NearestPoint {
 
 }  // namespace
 
-double emptiness(const TileStore& points, std::span<const StoredLoopPoint> loop, const LoopShape& shape,
+double emptiness(const TileStore& points, std::span<const LoopPoint> loop, const LoopShape& shape,
                  double spacing, Scratch& scratch) {
   constexpr double kDense = 0.8, kDeep = 4;  // spacings
   if (!(shape.area > 0) || !std::isfinite(shape.area)) return 0;

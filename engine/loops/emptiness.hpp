@@ -17,7 +17,7 @@ namespace lacuna {
 // the loop. It is 1 where nothing lies in the hole, and 0 where the loop encloses nothing. Places on a
 // surface as dense as the loop, such as an island, do not count. `points`: of the level; `spacing`: along the
 // loop. Cost: the loop's points times the places, and a search for the nearest point at each place.
-double emptiness(const TileStore& points, std::span<const StoredLoopPoint> loop, const LoopShape& shape,
+double emptiness(const TileStore& points, std::span<const LoopPoint> loop, const LoopShape& shape,
                  double spacing, Scratch& scratch);
 
 }  // namespace lacuna

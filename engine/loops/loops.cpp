@@ -6,24 +6,24 @@
 namespace lacuna {
 
 void Loops::add(std::uint64_t count, const LoopEvidence& evidence,
-                const std::function<StoredLoopPoint(std::uint64_t)>& point) {
+                const std::function<LoopPoint(std::uint64_t)>& point) {
   const std::lock_guard lock(*mutex_);
   index_.push_back({points_.size(), count, point(0).point.id, evidence});
-  ColumnWriter<StoredLoopPoint> writer(points_);
+  ColumnWriter<LoopPoint> writer(points_);
   for (std::uint64_t i = 0; i < count; ++i) writer.add(point(i));
   writer.finish();
 }
 
-void Loops::for_each_point(std::size_t loop, const std::function<void(const StoredLoopPoint&)>& visit) const {
+void Loops::for_each_point(std::size_t loop, const std::function<void(const LoopPoint&)>& visit) const {
   const std::uint64_t first = index_[loop].first;
-  ColumnReader<StoredLoopPoint> points(points_);
+  ColumnReader<LoopPoint> points(points_);
   for (std::uint64_t i = first; i < first + index_[loop].count; ++i) visit(points[i]);
 }
 
 int Loops::compare(const Loops& a, const Entry& i, const Loops& b, const Entry& j) {
   if (i.first_id != j.first_id) return i.first_id < j.first_id ? -1 : 1;
   if (i.count != j.count) return i.count < j.count ? -1 : 1;
-  ColumnReader<StoredLoopPoint> of_a(a.points_), of_b(b.points_);
+  ColumnReader<LoopPoint> of_a(a.points_), of_b(b.points_);
   for (std::uint64_t k = 0; k < i.count; ++k) {
     const PointId id_a = of_a[i.first + k].point.id, id_b = of_b[j.first + k].point.id;
     if (id_a != id_b) return id_a < id_b ? -1 : 1;

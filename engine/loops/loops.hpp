@@ -5,11 +5,9 @@
 #include "engine/model/loop.hpp"
 #include "engine/run/job.hpp"
 #include "engine/store/column.hpp"
-#include "engine/store/point_column.hpp"
 #include "engine/store/scratch.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -21,24 +19,13 @@
 
 namespace lacuna {
 
-// A point of a loop as plain data, from the boundary edges to the results.
-struct StoredLoopPoint {
-  StoredPoint point;
-  std::array<float, 3> surface;  // mu_p - p
-  float probability;
-};
-
-inline LoopPoint loaded(const StoredLoopPoint& p) {
-  return {p.point.id, p.point.position(), {p.surface[0], p.surface[1], p.surface[2]}, p.probability};
-}
-
 class Loops {
  public:
   explicit Loops(std::filesystem::path file) : points_(std::move(file)) {}
 
   // Adds a loop. point(i): point i of `count` points. From any thread.
   void add(std::uint64_t count, const LoopEvidence& evidence,
-           const std::function<StoredLoopPoint(std::uint64_t)>& point);
+           const std::function<LoopPoint(std::uint64_t)>& point);
   // Numbers the loops in the order of (first id, length, ids), a fine loop before the same coarse one.
   void sort();
 
@@ -48,9 +35,9 @@ class Loops {
   const LoopEvidence& evidence(std::size_t loop) const { return index_[loop].evidence; }
   void set_evidence(std::size_t loop, const LoopEvidence& evidence) { index_[loop].evidence = evidence; }
   // Reads the points of a loop. `to` has the size of the loop.
-  void read(std::size_t loop, std::span<StoredLoopPoint> to) const { points_.read(index_[loop].first, to); }
+  void read(std::size_t loop, std::span<LoopPoint> to) const { points_.read(index_[loop].first, to); }
   // Calls visit for the points, in the order of the loop, in blocks.
-  void for_each_point(std::size_t loop, const std::function<void(const StoredLoopPoint&)>& visit) const;
+  void for_each_point(std::size_t loop, const std::function<void(const LoopPoint&)>& visit) const;
 
   // Compares the points of two loops by (first id, length, ids). Returns less than 0 where a comes first, and
   // 0 where they have the same points.
@@ -64,7 +51,7 @@ class Loops {
   };
   static int compare(const Loops& a, const Entry& i, const Loops& b, const Entry& j);
 
-  Column<StoredLoopPoint> points_;
+  Column<LoopPoint> points_;
   std::vector<Entry> index_;
   std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();
 };
@@ -84,10 +71,10 @@ struct ChosenLoops {
     return points;
   }
   std::uint64_t count(std::size_t i) const { return levels[chosen[i].level].count(chosen[i].loop); }
-  void read(std::size_t i, std::span<StoredLoopPoint> to) const {
+  void read(std::size_t i, std::span<LoopPoint> to) const {
     levels[chosen[i].level].read(chosen[i].loop, to);
   }
-  void for_each_point(std::size_t i, const std::function<void(const StoredLoopPoint&)>& visit) const {
+  void for_each_point(std::size_t i, const std::function<void(const LoopPoint&)>& visit) const {
     levels[chosen[i].level].for_each_point(chosen[i].loop, visit);
   }
 };
@@ -99,12 +86,12 @@ void for_each_loop(const LoopSet& loops, Job& job, Visit&& visit) {
   std::vector<std::uint64_t> needs;
   const std::uint64_t most = job.memory.work / (2 * job.arena.threads());
   for (std::size_t i = 0; i < loops.size(); ++i)
-    needs.push_back(std::min<std::uint64_t>(most, 2 * loops.count(i) * sizeof(StoredLoopPoint)));
+    needs.push_back(std::min<std::uint64_t>(most, 2 * loops.count(i) * sizeof(LoopPoint)));
   job.for_each_within(job.memory.work / 4 * 3, needs, [&](std::size_t i) {
     Scratch scratch(job.workspace, most);
-    const std::span<StoredLoopPoint> points = scratch.array<StoredLoopPoint>(loops.count(i));
+    const std::span<LoopPoint> points = scratch.array<LoopPoint>(loops.count(i));
     loops.read(i, points);
-    visit(i, std::span<const StoredLoopPoint>(points), scratch);
+    visit(i, std::span<const LoopPoint>(points), scratch);
   });
 }
 

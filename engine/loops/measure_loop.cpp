@@ -13,7 +13,7 @@
 namespace lacuna {
 namespace {
 
-using Points = std::span<const StoredLoopPoint>;
+using Points = std::span<const LoopPoint>;
 
 // Runs of the loop with their boxes, halved down to a few points. Points near along the loop are near in
 // space.
@@ -48,7 +48,7 @@ class Runs {
     std::size_t left = 0, right = 0;
     Eigen::AlignedBox3d box;
     if (last - first <= kLeaf) {
-      for (std::size_t i = first; i < last; ++i) box.extend(loop_[i].point.position());
+      for (std::size_t i = first; i < last; ++i) box.extend(loop_[i].position());
     } else {
       const std::size_t middle = first + (last - first) / 2;
       left = build(first, middle);
@@ -77,9 +77,9 @@ class Runs {
     const Run a = runs_[i], b = runs_[j];
     if (bound(a, b) <= best_) return;
     if (a.left == 0 && b.left == 0) {
-      for (const StoredLoopPoint& p : loop_.subspan(a.first, a.size())) {
-        for (const StoredLoopPoint& q : loop_.subspan(b.first, b.size()))
-          best_ = std::max(best_, (p.point.position() - q.point.position()).squaredNorm());
+      for (const LoopPoint& p : loop_.subspan(a.first, a.size())) {
+        for (const LoopPoint& q : loop_.subspan(b.first, b.size()))
+          best_ = std::max(best_, (p.position() - q.position()).squaredNorm());
       }
       return;
     }
@@ -104,7 +104,7 @@ template <class Visit>
 void for_each_with_neighbours(Points loop, Scratch& scratch, Visit&& visit) {
   const std::size_t n = loop.size();
   std::size_t i = 0;
-  scratch.for_each(loop, [&](const StoredLoopPoint& at) {
+  scratch.for_each(loop, [&](const LoopPoint& at) {
     visit(loop[(i + n - 1) % n], at, loop[(i + 1) % n]);
     ++i;
   });
@@ -113,15 +113,15 @@ void for_each_with_neighbours(Points loop, Scratch& scratch, Visit&& visit) {
 double perimeter(Points loop, Scratch& scratch) {
   double sum = 0;
   for_each_with_neighbours(loop, scratch, [&](const auto&, const auto& at, const auto& after) {
-    sum += (after.point.position() - at.point.position()).norm();
+    sum += (after.position() - at.position()).norm();
   });
   return sum;
 }
 
 Eigen::Vector3d centroid(Points loop, Scratch& scratch) {
-  const Eigen::Vector3d origin = loop[0].point.position();  // georeferenced: keep the digits
+  const Eigen::Vector3d origin = loop[0].position();  // georeferenced: keep the digits
   Eigen::Vector3d sum{0, 0, 0};
-  scratch.for_each(loop, [&](const StoredLoopPoint& p) { sum += p.point.position() - origin; });
+  scratch.for_each(loop, [&](const LoopPoint& p) { sum += p.position() - origin; });
   return origin + sum / static_cast<double>(loop.size());
 }
 
@@ -129,15 +129,15 @@ Eigen::Vector3d centroid(Points loop, Scratch& scratch) {
 Eigen::Vector3d area_vector(Points loop, const Eigen::Vector3d& centre, Scratch& scratch) {
   Eigen::Vector3d sum{0, 0, 0};
   for_each_with_neighbours(loop, scratch, [&](const auto&, const auto& at, const auto& after) {
-    sum += (at.point.position() - centre).cross(after.point.position() - centre);
+    sum += (at.position() - centre).cross(after.position() - centre);
   });
   return sum / 2;
 }
 
 double planarity(Points loop, const Eigen::Vector3d& centre, Scratch& scratch) {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  scratch.for_each(loop, [&](const StoredLoopPoint& p) {
-    const Eigen::Vector3d d = p.point.position() - centre;
+  scratch.for_each(loop, [&](const LoopPoint& p) {
+    const Eigen::Vector3d d = p.position() - centre;
     covariance += d * d.transpose();
   });
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
@@ -149,7 +149,7 @@ double planarity(Points loop, const Eigen::Vector3d& centre, Scratch& scratch) {
 LoopKind kind(Points loop, const Eigen::Vector3d& normal, Scratch& scratch) {
   double growth = 0, most = 0;
   for_each_with_neighbours(loop, scratch, [&](const auto& before, const auto& at, const auto& after) {
-    const Eigen::Vector3d along = after.point.position() - before.point.position();
+    const Eigen::Vector3d along = after.position() - before.position();
     const Eigen::Vector3d surface(at.surface[0], at.surface[1], at.surface[2]);
     growth += surface.dot(along.cross(normal));
     most += surface.norm() * along.norm();
@@ -163,9 +163,8 @@ LoopKind kind(Points loop, const Eigen::Vector3d& normal, Scratch& scratch) {
 // A cube is wide against the distance of points, so consecutive points are mostly in one cube.
 std::uint64_t lattice_cubes(Points loop, double edge, Scratch& scratch) {
   std::vector<std::array<double, 3>> cubes;
-  scratch.for_each(loop, [&](const StoredLoopPoint& p) {
-    const std::array cube{std::floor(p.point.x / edge), std::floor(p.point.y / edge),
-                          std::floor(p.point.z / edge)};
+  scratch.for_each(loop, [&](const LoopPoint& p) {
+    const std::array cube{std::floor(p.x / edge), std::floor(p.y / edge), std::floor(p.z / edge)};
     if (cubes.empty() || cubes.back() != cube) cubes.push_back(cube);
   });
   std::sort(cubes.begin(), cubes.end());
@@ -174,18 +173,8 @@ std::uint64_t lattice_cubes(Points loop, double edge, Scratch& scratch) {
 
 double mean_probability(Points loop, Scratch& scratch) {
   double sum = 0;
-  scratch.for_each(loop, [&](const StoredLoopPoint& p) { sum += p.probability; });
+  scratch.for_each(loop, [&](const LoopPoint& p) { sum += p.probability; });
   return sum / static_cast<double>(loop.size());
-}
-
-std::vector<StoredLoopPoint> stored(const Loop& loop) {
-  std::vector<StoredLoopPoint> stored;
-  for (const LoopPoint& p : loop) {
-    stored.push_back({{p.position.x(), p.position.y(), p.position.z(), p.id},
-                      {p.surface.x(), p.surface.y(), p.surface.z()},
-                      p.probability});
-  }
-  return stored;
 }
 
 Scratch in_memory() {
@@ -194,7 +183,7 @@ Scratch in_memory() {
 
 }  // namespace
 
-LoopShape shape_of(std::span<const StoredLoopPoint> loop, Scratch& scratch) {
+LoopShape shape_of(std::span<const LoopPoint> loop, Scratch& scratch) {
   LoopShape shape{.kind = LoopKind::kHole,
                   .perimeter = perimeter(loop, scratch),
                   .area = 0,
@@ -207,11 +196,11 @@ LoopShape shape_of(std::span<const StoredLoopPoint> loop, Scratch& scratch) {
   return shape;
 }
 
-double diameter(std::span<const StoredLoopPoint> loop, Scratch& scratch) {
+double diameter(std::span<const LoopPoint> loop, Scratch& scratch) {
   return Runs(loop, scratch).diameter();
 }
 
-LoopMeasures measure_loop(std::span<const StoredLoopPoint> loop, double lattice_edge, Scratch& scratch) {
+LoopMeasures measure_loop(std::span<const LoopPoint> loop, double lattice_edge, Scratch& scratch) {
   LoopMeasures measures;
   measures.points = loop.size();
   const LoopShape shape = shape_of(loop, scratch);
@@ -229,12 +218,12 @@ LoopMeasures measure_loop(std::span<const StoredLoopPoint> loop, double lattice_
 
 double diameter(const Loop& loop) {
   Scratch scratch = in_memory();
-  return diameter(stored(loop), scratch);
+  return diameter(std::span(loop), scratch);
 }
 
 LoopMeasures measure_loop(const Loop& loop, double lattice_edge) {
   Scratch scratch = in_memory();
-  return measure_loop(stored(loop), lattice_edge, scratch);
+  return measure_loop(std::span(loop), lattice_edge, scratch);
 }
 
 }  // namespace lacuna

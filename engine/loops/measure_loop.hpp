@@ -21,7 +21,7 @@ namespace lacuna {
 // fixed lattice, of edge `lattice_edge`, that hold a point of the loop. So the number does not depend on the
 // tiling of the run. `scratch` holds the loop and the arrays for its measures. Precondition: three points or
 // more. Cost: linear, except for the diameter (see `diameter`).
-LoopMeasures measure_loop(std::span<const StoredLoopPoint> loop, double lattice_edge, Scratch& scratch);
+LoopMeasures measure_loop(std::span<const LoopPoint> loop, double lattice_edge, Scratch& scratch);
 
 // As in `LoopMeasures`. Cost: linear.
 struct LoopShape {
@@ -29,10 +29,10 @@ struct LoopShape {
   double perimeter, area;
   Eigen::Vector3d centroid, normal;
 };
-LoopShape shape_of(std::span<const StoredLoopPoint> loop, Scratch& scratch);
+LoopShape shape_of(std::span<const LoopPoint> loop, Scratch& scratch);
 
 // Returns the largest distance between two points, exactly, by branch and bound over runs of the loop.
-double diameter(std::span<const StoredLoopPoint> loop, Scratch& scratch);
+double diameter(std::span<const LoopPoint> loop, Scratch& scratch);
 
 // These functions take a loop in memory.
 LoopMeasures measure_loop(const Loop& loop, double lattice_edge);

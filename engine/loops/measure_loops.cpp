@@ -21,7 +21,7 @@ MeasuredLoops measure_loops(ChosenLoops loops, std::span<const LoopTrack> tracks
   Phase phase(job, "measure", loops.points());
   std::vector<LoopMeasures> measures(loops.size());
   const double edge = lattice_edge(mean_edge_length);
-  for_each_loop(loops, job, [&](std::size_t i, std::span<const StoredLoopPoint> loop, Scratch& scratch) {
+  for_each_loop(loops, job, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch& scratch) {
     measures[i] = measure_loop(loop, edge, scratch);
     measures[i].track = tracks[i];
     phase.advance(loop.size());

@@ -31,10 +31,10 @@ std::size_t sample_count(const LoopMeasures& loop) {
 // Returns points at even steps along each loop: kSamples places for each.
 std::span<LoopSample> sample_loops(const MeasuredLoops& loops, Job& job, Scratch& scratch) {
   const std::span<LoopSample> samples = scratch.array<LoopSample>(kSamples * loops.measures.size());
-  for_each_loop(loops.loops, job, [&](std::size_t i, std::span<const StoredLoopPoint> loop, Scratch&) {
+  for_each_loop(loops.loops, job, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch&) {
     const std::size_t count = sample_count(loops.measures[i]);
     for (std::size_t s = 0; s < count; ++s) {
-      const StoredPoint& p = loop[s * loop.size() / count].point;
+      const ScanPoint& p = loop[s * loop.size() / count].point;
       samples[kSamples * i + s] = {{p.x, p.y, p.z}};
     }
   });
@@ -73,8 +73,8 @@ void compare_edges(const ChosenLoops& loops, std::size_t polygon, const LoopPlan
     }
   };
   std::optional<Eigen::Vector3d> first, before;
-  loops.for_each_point(polygon, [&](const StoredLoopPoint& p) {
-    const Eigen::Vector3d at = plane(p.point.position());
+  loops.for_each_point(polygon, [&](const LoopPoint& p) {
+    const Eigen::Vector3d at = plane(p.position());
     if (before) compare(*before, at);
     if (!first) first = at;
     before = at;

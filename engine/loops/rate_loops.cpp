@@ -10,7 +10,7 @@
 namespace lacuna {
 
 void rate_loops(const TileStore& points, Loops& loops, Job& job) {
-  for_each_loop(loops, job, [&](std::size_t i, std::span<const StoredLoopPoint> loop, Scratch& scratch) {
+  for_each_loop(loops, job, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch& scratch) {
     const LoopShape shape = shape_of(loop, scratch);
     LoopEvidence evidence = loops.evidence(i);
     evidence.width = 2 * shape.area / shape.perimeter / evidence.spacing;

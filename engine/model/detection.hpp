@@ -96,23 +96,19 @@ struct PointResult {
   std::uint8_t boundary = 0;
   // The point is a candidate that coherence leaves (paper, 5.1), whichever method finds the loops.
   std::uint8_t coherent = 0;
-  std::int32_t loop = -1;  // index of the first reported loop through it; -1: no loop
-  Eigen::Vector3f normal;  // NaN where undefined
+  std::int32_t loop = -1;       // index of the first reported loop through it; -1: no loop
+  std::array<float, 3> normal;  // NaN where undefined
 };
 
-struct BoundaryPoint {
-  PointId id{};
-  Eigen::Vector3d position;
+struct BoundaryPoint : ScanPoint {
   float probability = 0;
   std::int32_t loop = -1;
 };
 
 // A point of the sample.
-struct SampledPoint {
-  PointId id{};
-  Eigen::Vector3d position;
+struct SampledPoint : ScanPoint {
   float probability = 0;
-  Eigen::Vector3f normal;  // unit, unoriented; NaN where undefined
+  std::array<float, 3> normal{};  // unit, unoriented; NaN where undefined
 };
 
 // A loop whose parent is a reported one (LoopMeasures::parent).

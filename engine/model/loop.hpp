@@ -2,8 +2,9 @@
 // Loops: what the method returns for each hole.
 #pragma once
 
-#include "engine/model/ids.hpp"
+#include "engine/model/points.hpp"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -12,10 +13,8 @@
 namespace lacuna {
 
 // A point on a loop, with all that is needed to measure and to draw it.
-struct LoopPoint {
-  PointId id{};
-  Eigen::Vector3d position{0, 0, 0};
-  Eigen::Vector3f surface{0, 0, 0};  // mu_p - p: from the point towards where its neighbours are
+struct LoopPoint : ScanPoint {
+  std::array<float, 3> surface{};  // mu_p - p: from the point towards where its neighbours are
   float probability = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points on their way from the input to the tile store.
+// Points: as a scan gives them, and on their way from the input to the tile store.
 #pragma once
 
 #include "engine/export.hpp"
@@ -21,6 +21,15 @@ inline constexpr double kFarthest = 1e153;
 inline bool is_too_far(const Eigen::Vector3d& point) {
   return point.allFinite() && point.cwiseAbs().maxCoeff() > kFarthest;
 }
+
+// A point of the scan as plain data, which may be written to disk as it is.
+struct ScanPoint {
+  double x, y, z;
+  PointId id;
+
+  static ScanPoint at(const Eigen::Vector3d& p, PointId id) { return {p.x(), p.y(), p.z(), id}; }
+  Eigen::Vector3d position() const { return {x, y, z}; }
+};
 
 // Points of the input in ascending id. Non-finite points are included.
 struct PointBatch {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/model/ids.hpp"
+#include "engine/model/plain_box.hpp"
 #include "engine/model/task_share.hpp"
 
 #include <cstddef>
@@ -16,7 +17,7 @@ namespace lacuna {
 
 // A run of points in store order that lie near each other.
 struct Cell {
-  Eigen::AlignedBox3d box;  // of its points, and no larger
+  PlainBox box;  // of its points, and no larger
   Row first_row{};
   std::uint64_t points = 0;
 };

@@ -27,16 +27,16 @@ struct ResultBlocks {
   std::shared_ptr<const Column<MarkedPoint>> boundary;  // in ascending id
   std::optional<RowSet> turned;                         // rows whose normal is turned round
 
-  PointResult result(const StoredResult& r) const {
-    const float sign = turned && turned->contains(r.row) ? -1.0f : 1.0f;
-    return {.probability = r.probability,
-            .criteria = {},
-            .normal = sign * Eigen::Vector3f(r.normal[0], r.normal[1], r.normal[2])};
+  PointResult result(const ResultHead& r) const {
+    PointResult result{.probability = r.probability, .criteria = {}, .normal = r.normal};
+    if (turned && turned->contains(r.row))
+      for (float& component : result.normal) component = -component;
+    return result;
   }
 
   void for_each(const std::function<void(PointId first, std::span<const PointResult>)>& visit) const {
     constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-    PointResult dropped{.probability = kNaN, .normal = Eigen::Vector3f::Constant(kNaN)};
+    PointResult dropped{.probability = kNaN, .criteria = {}, .normal = {kNaN, kNaN, kNaN}};
     dropped.criteria.fill(kNaN);
     ColumnReader<MarkedPoint> marks(*boundary);
     std::uint64_t next = 0;
@@ -45,13 +45,13 @@ struct ResultBlocks {
     for (std::size_t b = 0; b < results.blocks(); ++b) {
       const std::uint64_t first = b * kResultBlock, last = std::min(first + kResultBlock, points);
       block.assign(last - first, dropped);
-      results.for_each(b, [&](const StoredResult& r, std::span<const float> criteria) {
+      results.for_each(b, [&](const ResultHead& r, std::span<const float> criteria) {
         PointResult& point = block[value(r.id) - first] = result(r);
         std::copy(criteria.begin(), criteria.end(), point.criteria.begin());
       });
-      for (; next < marked && value(marks[next].point.id) < last; ++next) {
+      for (; next < marked && value(marks[next].id) < last; ++next) {
         const MarkedPoint& p = marks[next];
-        PointResult& point = block[value(p.point.id) - first];
+        PointResult& point = block[value(p.id) - first];
         point.boundary = p.is_boundary();
         point.coherent = p.is_coherent();
         point.loop = p.reported_loop();
@@ -72,13 +72,13 @@ std::unique_ptr<Detection> make_detection(Findings findings, Column<MarkedPoint>
   const auto loops = std::make_shared<const ChosenLoops>(std::move(findings.loops.loops));
   detection->for_each_loop_point = [loops, found = std::move(report.found)](std::size_t loop,
                                                                             const auto& visit) {
-    loops->for_each_point(found[loop], [&](const StoredLoopPoint& p) { visit(loaded(p)); });
+    loops->for_each_point(found[loop], visit);
   };
 
   const auto boundary = std::make_shared<const Column<MarkedPoint>>(std::move(boundary_points));
   detection->for_each_boundary_point = [boundary](const auto& visit) {
     for_each_record(*boundary, [&](const MarkedPoint& p) {
-      if (p.is_boundary()) visit({p.point.id, p.point.position(), p.probability, p.reported_loop()});
+      if (p.is_boundary()) visit({p, p.probability, p.reported_loop()});
     });
   };
   if (findings.points) {
@@ -90,26 +90,25 @@ std::unique_ptr<Detection> make_detection(Findings findings, Column<MarkedPoint>
     detection->for_each_result_block = [blocks](const auto& visit) { blocks->for_each(visit); };
   }
   if (findings.sample) {
-    const auto sample = std::make_shared<const Column<StoredSample>>(*std::move(findings.sample));
+    const auto sample = std::make_shared<const Column<SampledPoint>>(*std::move(findings.sample));
     detection->sampled_points = sample->size();
-    detection->for_each_sampled_point = [sample](const auto& visit) {
-      for_each_record(*sample, [&](const StoredSample& s) {
-        visit({s.point.id, s.point.position(), s.probability, {s.normal[0], s.normal[1], s.normal[2]}});
-      });
-    };
+    detection->for_each_sampled_point = [sample](const auto& visit) { for_each_record(*sample, visit); };
   }
   return detection;
 }
 
 // A tile's points that are coherent or belong to the boundary, each once.
-std::vector<MarkedPoint> marks_of_tile(std::span<const StoredCandidate> candidates, const Findings& findings,
-                                       const Tile& tile, TileIndex t) {
+std::vector<MarkedPoint> marks_of_tile(const TileOutputs& outputs, const Findings& findings, const Tile& tile,
+                                       TileIndex t) {
   std::vector<MarkedPoint> marked = findings.on_loops.points.read(t);
-  for (const StoredCandidate& c : candidates) {
-    const Row row = c.candidate.row;
+  const std::vector<Candidate> candidates = outputs.read(kCandidates, t);
+  const std::vector<CandidatePoint> points = outputs.read(kCandidatePoints, t);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const Row row = candidates[i].row;
     const std::uint32_t marks = (findings.coherent.contains(row) ? MarkedPoint::kCoherent : 0) |
                                 (findings.boundary_candidates.contains(row) ? MarkedPoint::kBoundary : 0);
-    if (marks != 0) marked.push_back({c.point, tile.local(row), kNotReported, c.probability, marks});
+    if (marks != 0)
+      marked.push_back({points[i], tile.local(row), kNotReported, points[i].probability, marks});
   }
   std::sort(marked.begin(), marked.end(), [](const MarkedPoint& a, const MarkedPoint& b) {
     return std::tie(a.owned, a.loop, a.probability) < std::tie(b.owned, b.loop, b.probability);
@@ -141,7 +140,7 @@ std::unique_ptr<Detection> collect_results(Findings findings, const TileOutputs&
     job.arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
       const auto t = static_cast<TileIndex>(i);
       const Tile& tile = tiling.tiles[t];
-      const std::vector<MarkedPoint> marked = marks_of_tile(outputs.read(kCandidates, t), findings, tile, t);
+      const std::vector<MarkedPoint> marked = marks_of_tile(outputs, findings, tile, t);
       const std::lock_guard lock(mutex);
       for (const MarkedPoint& p : marked) {
         summary.counts.coherent += p.is_coherent();
@@ -154,7 +153,7 @@ std::unique_ptr<Detection> collect_results(Findings findings, const TileOutputs&
                              [](const MarkedPoint& p, LocalIndex owned) { return p.owned < owned; });
         if (of == marked.end() || of->owned != d.of) return;
         MarkedPoint duplicate = *of;
-        duplicate.point.id = d.id;
+        duplicate.id = d.id;
         summary.counts.boundary_points += duplicate.is_boundary();
         sorted.add(duplicate);
       });

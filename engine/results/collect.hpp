@@ -27,7 +27,7 @@ struct Findings {
   RowSet coherent;                             // candidates that are (paper, 5.1)
   RowSet boundary_candidates;                  // candidates that belong to the boundary
   std::optional<PointResults> points;          // only with results.points
-  std::optional<Column<StoredSample>> sample;  // only with results.sample_points
+  std::optional<Column<SampledPoint>> sample;  // only with results.sample_points
   std::optional<RowSet> opposed_normals;       // rows whose normal is to be turned round
 };
 

@@ -33,9 +33,9 @@ void send_points(const ChosenLoops& loops, std::span<const std::size_t> selected
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const bool is_reported = next_selected < selected.size() && selected[next_selected] == i;
     const std::int32_t name = is_reported ? static_cast<std::int32_t>(next_selected++) : kNotReported;
-    loops.for_each_point(i, [&](const StoredLoopPoint& p) {
-      for_each_tile_at(tiling, p.point.position(), [&](TileIndex t) {
-        outbox.add(t, {p.point, kNoIndex, name, p.probability, MarkedPoint::kBoundary});
+    loops.for_each_point(i, [&](const LoopPoint& p) {
+      for_each_tile_at(tiling, p.position(), [&](TileIndex t) {
+        outbox.add(t, {p, kNoIndex, name, p.probability, MarkedPoint::kBoundary});
       });
     });
   }
@@ -44,11 +44,11 @@ void send_points(const ChosenLoops& loops, std::span<const std::size_t> selected
 
 // Returns the points that the tile has, with their places in it.
 std::vector<MarkedPoint> owned_points(std::vector<MarkedPoint> points, const TileStore& store, TileIndex t) {
-  const auto by_id = [](const MarkedPoint& a, const MarkedPoint& b) { return a.point.id < b.point.id; };
+  const auto by_id = [](const ScanPoint& a, const ScanPoint& b) { return a.id < b.id; };
   std::sort(points.begin(), points.end(), by_id);
   LocalIndex owned = 0;
-  store.for_each_point(t, [&](const StoredPoint& p) {
-    const auto [begin, end] = std::equal_range(points.begin(), points.end(), MarkedPoint{.point = p}, by_id);
+  store.for_each_point(t, [&](const ScanPoint& p) {
+    const auto [begin, end] = std::equal_range(points.begin(), points.end(), p, by_id);
     std::for_each(begin, end, [&](MarkedPoint& on_loop) { on_loop.owned = owned; });
     ++owned;
   });

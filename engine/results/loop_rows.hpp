@@ -17,10 +17,9 @@ namespace lacuna {
 inline constexpr std::int32_t kNotReported = INT32_MAX;
 
 // A point that is coherent or belongs to the boundary.
-struct MarkedPoint {
+struct MarkedPoint : ScanPoint {
   static constexpr std::uint32_t kCoherent = 1, kBoundary = 2;
 
-  StoredPoint point;
   LocalIndex owned;   // in its tile
   std::int32_t loop;  // the first reported loop through it; kNotReported: none
   float probability;  // of a point on a loop: at the level of the loop
@@ -30,7 +29,7 @@ struct MarkedPoint {
   bool is_coherent() const { return (marks & kCoherent) != 0; }
   bool is_boundary() const { return (marks & kBoundary) != 0; }
 
-  friend bool operator<(const MarkedPoint& a, const MarkedPoint& b) { return a.point.id < b.point.id; }
+  friend bool operator<(const MarkedPoint& a, const MarkedPoint& b) { return a.id < b.id; }
 };
 
 struct LoopRows {

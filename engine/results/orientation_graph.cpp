@@ -12,8 +12,8 @@
 namespace lacuna {
 namespace {
 
-Eigen::Vector3d vector(const StoredNormal& n) {
-  return {n.x, n.y, n.z};
+Eigen::Vector3d vector(const PlainNormal& n) {
+  return Eigen::Vector3d(n.data());
 }
 
 // Disjoint sets of rows that know for each row whether its normal opposes the normal of its root.
@@ -59,19 +59,19 @@ class SignedUnionFind {
 using EdgeSort = SortedRuns<OrientationEdge>;
 
 // The data that a tile puts out.
-constexpr RecordStream<StoredNormal> kNormals{"normals"};
+constexpr RecordStream<PlainNormal> kNormals{"normals"};
 constexpr RecordStream<OrientationEdge> kForest{"orientation"};
 constexpr RecordStream<OrientationCrossing> kCrossings{"orientation crossings"};
 
-void add_crossings(std::vector<OrientationCrossing> crossings, const Column<StoredNormal>& normals,
+void add_crossings(std::vector<OrientationCrossing> crossings, const Column<PlainNormal>& normals,
                    const TileStore& store, TileIndex t, EdgeSort& edges) {
   if (crossings.empty()) return;
   std::sort(crossings.begin(), crossings.end(),
             [](const auto& a, const auto& b) { return a.foreign < b.foreign; });
   const Tile& tile = store.tiling().tiles[t];
-  const std::vector<StoredPoint> points = store.points(t);
-  const std::vector<StoredNormal> own = normals.read(value(tile.first_row), tile.points);
-  ColumnReader<StoredNormal> foreign(normals);
+  const std::vector<ScanPoint> points = store.points(t);
+  const std::vector<PlainNormal> own = normals.read(value(tile.first_row), tile.points);
+  ColumnReader<PlainNormal> foreign(normals);
   for (const OrientationCrossing& c : crossings) {
     const Eigen::Vector3d other = vector(foreign[value(c.foreign)]);
     if (!other.allFinite()) continue;
@@ -80,15 +80,15 @@ void add_crossings(std::vector<OrientationCrossing> crossings, const Column<Stor
   }
 }
 
-bool points_down(const StoredNormal& n) {
-  if (n.z != 0) return n.z < 0;
-  return n.y != 0 ? n.y < 0 : n.x < 0;
+bool points_down(const PlainNormal& n) {
+  if (n[2] != 0) return n[2] < 0;
+  return n[1] != 0 ? n[1] < 0 : n[0] < 0;
 }
 
 }  // namespace
 
 void emit_orientation(const EvaluatedTile& tile, TileOutput& output) {
-  std::vector<StoredNormal> normals;
+  std::vector<PlainNormal> normals;
   for (const Evaluation& e : tile.evaluations) normals.push_back({e.normal.x(), e.normal.y(), e.normal.z()});
   output.add(kNormals, std::move(normals));
 
@@ -116,7 +116,7 @@ void emit_orientation(const EvaluatedTile& tile, TileOutput& output) {
 RowSet opposed_normals(const TileOutputs& outputs, const TileStore& store, Job& job) {
   const Tiling& tiling = store.tiling();
   Phase phase(job, "orient", tiling.points());
-  Column<StoredNormal> normals_by_row(job.file("oriented-normals"));
+  Column<PlainNormal> normals_by_row(job.file("oriented-normals"));
   job.arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
     const auto t = static_cast<TileIndex>(i);
     normals_by_row.write(value(tiling.tiles[t].first_row), outputs.read(kNormals, t));
@@ -146,21 +146,21 @@ RowSet opposed_normals(const TileOutputs& outputs, const TileStore& store, Job& 
   const auto for_each_normal = [&](auto&& visit) {
     for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
       const std::uint64_t first = value(tiling.tiles[t].first_row);
-      const std::vector<StoredPoint> points = store.points(t);
-      const std::vector<StoredNormal> normals = normals_by_row.read(first, points.size());
+      const std::vector<ScanPoint> points = store.points(t);
+      const std::vector<PlainNormal> normals = normals_by_row.read(first, points.size());
       for (std::size_t p = 0; p < points.size(); ++p) {
         if (vector(normals[p]).allFinite()) visit(first + p, points[p], normals[p]);
       }
     }
   };
-  for_each_normal([&](std::uint64_t row, const StoredPoint& point, const StoredNormal& normal) {
+  for_each_normal([&](std::uint64_t row, const ScanPoint& point, const PlainNormal& normal) {
     const auto [root, opposed] = trees.find(row);
     Top& top = tops[root];
     const bool higher = point.z != top.z ? point.z > top.z : value(point.id) < top.id;
     if (!top.is_set || higher) top = {point.z, value(point.id), 1, opposed != points_down(normal)};
   });
   RowSet turned(rows);
-  for_each_normal([&](std::uint64_t row, const StoredPoint&, const StoredNormal&) {
+  for_each_normal([&](std::uint64_t row, const ScanPoint&, const PlainNormal&) {
     const auto [root, opposed] = trees.find(row);
     if (opposed != (tops[root].turn_root != 0)) turned.insert(Row{row});
   });

@@ -17,13 +17,13 @@ constexpr RecordStream<std::byte> kResults{
 void emit_point_results(const EvaluatedTile& tile, TileOutput& output) {
   const std::size_t criteria_count = criteria().size();
   std::vector<std::byte> records;
-  records.reserve(tile.points.owned * (sizeof(StoredResult) + criteria_count * sizeof(float)));
+  records.reserve(tile.points.owned * (sizeof(ResultHead) + criteria_count * sizeof(float)));
   const auto put = [&](const void* data, std::size_t bytes) {
     const auto* const first = static_cast<const std::byte*>(data);
     records.insert(records.end(), first, first + bytes);
   };
   for (LocalIndex p = 0; p < tile.points.owned; ++p) {
-    StoredResult result{.id = tile.points.ids[p], .row = {}, .probability = tile.probability(p)};
+    ResultHead result{.id = tile.points.ids[p], .row = {}, .probability = tile.probability(p)};
     for (int axis = 0; axis < 3; ++axis)
       result.normal[axis] = static_cast<float>(tile.evaluations[p].normal[axis]);
     put(&result, sizeof result);
@@ -58,7 +58,7 @@ void PointResults::take(const TileOutputs& outputs, TileIndex tile) {
   };
   for (LocalIndex p = 0; p * record_bytes() < records.size(); ++p) {
     PointId id;
-    std::memcpy(&id, &records[p * record_bytes() + offsetof(StoredResult, id)], sizeof id);
+    std::memcpy(&id, &records[p * record_bytes() + offsetof(ResultHead, id)], sizeof id);
     add({id, p});
   }
   store_.for_each_duplicate(tile, add);
@@ -76,8 +76,8 @@ void PointResults::append(TileIndex tile, std::span<const std::byte> records,
     const std::size_t at = block.size();
     block.insert(block.end(), record.begin(), record.end());
     const Row row = store_.tiling().tiles[tile].row(p);
-    std::memcpy(&block[at + offsetof(StoredResult, id)], &id, sizeof id);
-    std::memcpy(&block[at + offsetof(StoredResult, row)], &row, sizeof row);
+    std::memcpy(&block[at + offsetof(ResultHead, id)], &id, sizeof id);
+    std::memcpy(&block[at + offsetof(ResultHead, row)], &row, sizeof row);
     const std::uint64_t number = value(id) / kResultBlock;
     if (i + 1 == copies.size() || value(copies[i + 1].id) / kResultBlock != number) {
       lists_->append(number, block);

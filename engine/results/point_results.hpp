@@ -7,6 +7,7 @@
 #include "engine/store/append_lists.hpp"
 #include "engine/store/tile_store.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -16,12 +17,12 @@
 
 namespace lacuna {
 
-// The result of one point of the input. On disk, its criteria follow, in the order of the table.
-struct StoredResult {
+// The beginning of a point's result on disk. Its criteria follow, in the order of the table.
+struct ResultHead {
   PointId id;
   Row row;  // of the distinct point
   float probability;
-  float normal[3];
+  std::array<float, 3> normal;
 };
 
 // Ids per block of results.
@@ -45,7 +46,7 @@ class PointResults {
     std::vector<float> criteria(criteria_);
     lists_->for_each_part(block, part, [&](std::size_t bytes) {
       for (std::size_t at = 0; at < bytes; at += record_bytes()) {
-        StoredResult result;
+        ResultHead result;
         std::memcpy(&result, &part[at], sizeof result);
         std::memcpy(criteria.data(), &part[at + sizeof result], criteria_ * sizeof(float));
         visit(result, std::span<const float>(criteria));
@@ -54,7 +55,7 @@ class PointResults {
   }
 
  private:
-  std::size_t record_bytes() const { return sizeof(StoredResult) + criteria_ * sizeof(float); }
+  std::size_t record_bytes() const { return sizeof(ResultHead) + criteria_ * sizeof(float); }
   void take(const TileOutputs& outputs, TileIndex tile);
   // Appends the results of the copies of points; clears `copies`. `records`: of all points of the tile,
   // without rows.

@@ -12,24 +12,10 @@ namespace {
 
 static_assert(kRepresentedBlock == kResultBlock);
 
-// A result on disk, as plain data.
 struct SpreadResult {
   PointId id;
-  float probability;
-  std::array<float, kMostCriteria> criteria;
-  std::array<float, 3> normal;
-  std::int32_t loop;
-  std::uint8_t boundary, coherent;
+  PointResult result;
 };
-
-SpreadResult stored(PointId id, const PointResult& r) {
-  return {id,     r.probability, r.criteria, {r.normal.x(), r.normal.y(), r.normal.z()},
-          r.loop, r.boundary,    r.coherent};
-}
-
-PointResult loaded(const SpreadResult& r) {
-  return {r.probability, r.criteria, r.boundary, r.coherent, r.loop, {r.normal[0], r.normal[1], r.normal[2]}};
-}
 
 }  // namespace
 
@@ -44,7 +30,7 @@ std::unique_ptr<Detection> spread_results(std::unique_ptr<Detection> detection,
     of_representatives([&](PointId first, std::span<const PointResult> block) {
       represented->for_each(value(first) / kResultBlock, [&](const Represented& r) {
         const PointResult& result = block[value(r.representative) - value(first)];
-        outbox.add(static_cast<TileIndex>(value(r.id) / kResultBlock), stored(r.id, result));
+        outbox.add(static_cast<TileIndex>(value(r.id) / kResultBlock), {r.id, result});
       });
     });
     outbox.send();
@@ -53,7 +39,7 @@ std::unique_ptr<Detection> spread_results(std::unique_ptr<Detection> detection,
     of_representatives([&](PointId first, std::span<const PointResult> block) {
       all.assign(block.begin(), block.end());
       spread.for_each(value(first) / kResultBlock,
-                      [&](const SpreadResult& r) { all[value(r.id) - value(first)] = loaded(r); });
+                      [&](const SpreadResult& r) { all[value(r.id) - value(first)] = r.result; });
       visit(first, all);
     });
   };

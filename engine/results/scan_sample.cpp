@@ -32,6 +32,10 @@ double key_of(PointId id, const Evaluation& e) {
   return key < std::numeric_limits<double>::max() ? key : std::numeric_limits<double>::max();
 }
 
+struct ById {
+  bool operator()(const SampledPoint& a, const SampledPoint& b) const { return a.id < b.id; }
+};
+
 // Each power of two has sixteen bins: positive numbers have the order of their bits.
 std::uint32_t bin_of(double key) {
   return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(key) >> 48);
@@ -72,12 +76,8 @@ void ScanSample::emit(const EvaluatedTile& tile, TileOutput& output) {
   std::vector<BinCount> counts;
   for (LocalIndex p = 0; p < tile.points.owned; ++p) {
     if (bin_of(keys[p]) > last) continue;
-    const Eigen::Vector3d& position = tile.points.positions[p];
     const Eigen::Vector3f normal = tile.evaluations[p].normal.cast<float>();
-    drawn.push_back({keys[p],
-                     {{position.x(), position.y(), position.z(), tile.points.ids[p]},
-                      tile.probability(p),
-                      {normal.x(), normal.y(), normal.z()}}});
+    drawn.push_back({keys[p], {tile.point(p), tile.probability(p), {normal.x(), normal.y(), normal.z()}}});
   }
   for (const auto& [bin, count] : points) {
     if (bin <= last) counts.push_back({bin, static_cast<std::uint32_t>(count)});
@@ -97,11 +97,11 @@ ScanSample::KeyBins ScanSample::bins_of(const TileOutputs& outputs, std::size_t 
   return bins;
 }
 
-Column<StoredSample> ScanSample::draw(const TileOutputs& outputs, std::size_t tiles, Job& job) {
+Column<SampledPoint> ScanSample::draw(const TileOutputs& outputs, std::size_t tiles, Job& job) {
   Phase phase(job, "sample", 0);
   const KeyBins bins = bins_of(outputs, tiles);
   const MemoryLedger::Lease sorting = job.ledger.take(job.memory.work / 4);
-  SortedRuns<StoredSample> sorted(job.file("sample-sort"), sorting.bytes() / 2);
+  SortedRuns<SampledPoint, ById> sorted(job.file("sample-sort"), sorting.bytes() / 2);
   SortedRuns<DrawnPoint> of_last_bin(job.file("sample-last"), sorting.bytes() / 2);
   std::uint64_t taken = 0;
   std::mutex mutex;
@@ -113,7 +113,7 @@ Column<StoredSample> ScanSample::draw(const TileOutputs& outputs, std::size_t ti
       if (bin_of(point.key) == bins.last && bins.keys > most_points_) {
         of_last_bin.add(point);
       } else {
-        sorted.add(point.sample);
+        sorted.add(point.point);
         ++taken;
       }
     }
@@ -126,11 +126,11 @@ Column<StoredSample> ScanSample::draw(const TileOutputs& outputs, std::size_t ti
     ++taken;
   });
   of_last_bin.for_each([&](const DrawnPoint& point) {
-    if (point.key <= last_key) sorted.add(point.sample);
+    if (point.key <= last_key) sorted.add(point.point);
   });
-  Column<StoredSample> column(job.file("sample"));
-  ColumnWriter<StoredSample> writer(column);
-  sorted.for_each([&](const StoredSample& sample) { writer.add(sample); });
+  Column<SampledPoint> column(job.file("sample"));
+  ColumnWriter<SampledPoint> writer(column);
+  sorted.for_each([&](const SampledPoint& sample) { writer.add(sample); });
   writer.finish();
   return column;
 }

@@ -8,22 +8,12 @@
 #include "engine/store/column.hpp"
 #include "engine/store/tile_store.hpp"
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <mutex>
 #include <vector>
 
 namespace lacuna {
-
-// A sampled point on disk, as plain data.
-struct StoredSample {
-  StoredPoint point;
-  float probability = 0;
-  std::array<float, 3> normal{};
-
-  friend bool operator<(const StoredSample& a, const StoredSample& b) { return a.point.id < b.point.id; }
-};
 
 // Sequential Poisson sampling (Ohlsson, 1998): a point of weight w has the key u / w, with u drawn from its
 // id, uniform in (0, 1). The points with the smallest keys are the sample. Where keys are equal at its end,
@@ -38,13 +28,13 @@ class ScanSample {
   // be. From any thread.
   void emit(const EvaluatedTile& tile, TileOutput& output);
   // Returns the sample in ascending id, once all tiles are evaluated.
-  Column<StoredSample> draw(const TileOutputs& outputs, std::size_t tiles, Job& job);
+  Column<SampledPoint> draw(const TileOutputs& outputs, std::size_t tiles, Job& job);
 
  private:
   // A point that may be in the sample.
   struct DrawnPoint {
     double key;
-    StoredSample sample;
+    SampledPoint point;
 
     friend bool operator<(const DrawnPoint& a, const DrawnPoint& b) { return a.key < b.key; }
   };

@@ -21,7 +21,7 @@ void fail_digits() {
 PointColumn::PointColumn(StoreFile file, Precision precision)
     : column_(precision == Precision::kSingle
                   ? Columns(std::in_place_type<Column<SinglePoint>>, std::move(file))
-                  : Columns(std::in_place_type<Column<StoredPoint>>, std::move(file))) {}
+                  : Columns(std::in_place_type<Column<ScanPoint>>, std::move(file))) {}
 
 Precision PointColumn::precision() const {
   return std::holds_alternative<Column<SinglePoint>>(column_) ? Precision::kSingle : Precision::kDouble;
@@ -39,8 +39,8 @@ Digest PointColumn::digest(std::uint64_t row, std::uint64_t count) const {
   return std::visit([&](const auto& column) { return column.digest(row, count); }, column_);
 }
 
-void PointColumn::write(std::uint64_t row, std::span<const StoredPoint> points) {
-  if (auto* const wide = std::get_if<Column<StoredPoint>>(&column_)) {
+void PointColumn::write(std::uint64_t row, std::span<const ScanPoint> points) {
+  if (auto* const wide = std::get_if<Column<ScanPoint>>(&column_)) {
     wide->write(row, points);
   } else {
     write_single(std::get<Column<SinglePoint>>(column_), row, points);
@@ -48,7 +48,7 @@ void PointColumn::write(std::uint64_t row, std::span<const StoredPoint> points) 
 }
 
 void PointColumn::write_single(Column<SinglePoint>& column, std::uint64_t row,
-                               std::span<const StoredPoint> points) {
+                               std::span<const ScanPoint> points) {
   std::array<SinglePoint, kPart> part;
   for (std::size_t first = 0; first < points.size(); first += kPart) {
     const std::size_t count = std::min(kPart, points.size() - first);
@@ -62,8 +62,8 @@ void PointColumn::write_single(Column<SinglePoint>& column, std::uint64_t row,
   }
 }
 
-void PointColumn::read(std::uint64_t row, std::span<StoredPoint> points) const {
-  if (const auto* const wide = std::get_if<Column<StoredPoint>>(&column_)) {
+void PointColumn::read(std::uint64_t row, std::span<ScanPoint> points) const {
+  if (const auto* const wide = std::get_if<Column<ScanPoint>>(&column_)) {
     wide->read(row, points);
     return;
   }
@@ -76,8 +76,8 @@ void PointColumn::read(std::uint64_t row, std::span<StoredPoint> points) const {
   }
 }
 
-std::vector<StoredPoint> PointColumn::read(std::uint64_t row, std::size_t count) const {
-  std::vector<StoredPoint> points(count);
+std::vector<ScanPoint> PointColumn::read(std::uint64_t row, std::size_t count) const {
+  std::vector<ScanPoint> points(count);
   read(row, std::span(points));
   return points;
 }

@@ -23,7 +23,7 @@ TileStore::TileStore(StoreFiles files, std::vector<Tile> tiles, std::uint64_t mo
       duplicates_(std::move(files.duplicates), most_tiles, std::move(lists)) {
   tiling_.tiles = std::move(tiles);
   columns_.push_back(
-      {PointColumn(std::move(files.points), precision), Column<StoredNormal>(std::move(files.normals))});
+      {PointColumn(std::move(files.points), precision), Column<PlainNormal>(std::move(files.normals))});
 }
 
 TileStore::TileStore(StoreFiles files, Tiling tiling, std::vector<TileDigests> digests, Precision precision,
@@ -78,13 +78,13 @@ const TileStore::Columns& TileStore::columns_of(std::uint64_t row) const {
   return *std::prev(std::upper_bound(columns_.begin(), columns_.end(), row, lies_before));
 }
 
-void TileStore::read_points(std::uint64_t row, std::span<StoredPoint> points) const {
+void TileStore::read_points(std::uint64_t row, std::span<ScanPoint> points) const {
   const Columns& columns = columns_of(row);
   columns.points.read(row - columns.first_row, points);
 }
 
-std::vector<StoredPoint> TileStore::read_points(std::uint64_t row, std::uint64_t count) const {
-  std::vector<StoredPoint> points(count);
+std::vector<ScanPoint> TileStore::read_points(std::uint64_t row, std::uint64_t count) const {
+  std::vector<ScanPoint> points(count);
   read_points(row, points);
   return points;
 }
@@ -106,7 +106,7 @@ void TileStore::check_digests(TileIndex tile) const {
   std::atomic_ref(is_checked_[tile]).store(1, std::memory_order_relaxed);
 }
 
-std::vector<StoredPoint> TileStore::points(TileIndex index) const {
+std::vector<ScanPoint> TileStore::points(TileIndex index) const {
   check(index);
   const Tile& tile = tiling_.tiles[index];
   return read_points(value(tile.first_row), tile.points);
@@ -118,17 +118,17 @@ std::vector<Eigen::Vector3d> TileStore::normals(TileIndex index) const {
   check(index);
   const Tile& tile = tiling_.tiles[index];
   const Columns& columns = columns_of(value(tile.first_row));
-  for (const StoredNormal& n : columns.normals.read(value(tile.first_row) - columns.first_row, tile.points))
-    normals.emplace_back(n.x, n.y, n.z);
+  for (const PlainNormal& n : columns.normals.read(value(tile.first_row) - columns.first_row, tile.points))
+    normals.emplace_back(n.data());
   return normals;
 }
 
-std::vector<StoredPoint> TileStore::cell(std::uint32_t cell) const {
+std::vector<ScanPoint> TileStore::cell(std::uint32_t cell) const {
   check(tiling_.tile_of_cell(cell));
   return read_points(value(tiling_.cells[cell].first_row), tiling_.cells[cell].points);
 }
 
-void TileStore::read_cells(std::span<const std::uint32_t> cells, std::vector<StoredPoint>& points,
+void TileStore::read_cells(std::span<const std::uint32_t> cells, std::vector<ScanPoint>& points,
                            std::vector<Row>& rows) const {
   points.clear();
   rows.clear();
@@ -149,8 +149,8 @@ void TileStore::read_cells(std::span<const std::uint32_t> cells, std::vector<Sto
   }
 }
 
-void TileStore::put(TileIndex index, std::span<const StoredPoint> points,
-                    std::span<const StoredNormal> normals, std::vector<Cell> cells) {
+void TileStore::put(TileIndex index, std::span<const ScanPoint> points, std::span<const PlainNormal> normals,
+                    std::vector<Cell> cells) {
   Tile& tile = tiling_.tiles[index];
   if (points.size() > tile.raw)  // its rows would run into the next tile's
     fail_changed(kOtherPoints);
@@ -165,7 +165,7 @@ void TileStore::put(TileIndex index, std::span<const StoredPoint> points,
   if (has_normals_) columns_.front().normals.write(value(tile.first_row), normals);
 }
 
-void TileStore::add_tile(std::span<const StoredPoint> points, std::span<const StoredNormal> normals,
+void TileStore::add_tile(std::span<const ScanPoint> points, std::span<const PlainNormal> normals,
                          std::vector<Cell> cells) {
   const TileIndex index = next_tile();
   if (index >= duplicates_.lists()) fail_changed(kOtherPoints);

@@ -22,9 +22,7 @@
 
 namespace lacuna {
 
-struct StoredNormal {
-  double x, y, z;
-};
+using PlainNormal = std::array<double, 3>;
 
 // A point at the coordinates of another point of its tile. The other point has a lower id and represents it.
 struct Duplicate {
@@ -65,7 +63,7 @@ class TileStore {
   // From now on the store is one of points without normals.
   void leave_out_normals() { has_normals_ = false; }
 
-  std::vector<StoredPoint> points(TileIndex tile) const;
+  std::vector<ScanPoint> points(TileIndex tile) const;
   // Goes through the points without an array of them: visit(point).
   template <class Visit>
   void for_each_point(TileIndex tile, Visit&& visit) const;
@@ -75,15 +73,15 @@ class TileStore {
   void for_each_duplicate(TileIndex tile, Visit&& visit) const {
     duplicates_.for_each(tile, visit);
   }
-  std::vector<StoredPoint> cell(std::uint32_t cell) const;
+  std::vector<ScanPoint> cell(std::uint32_t cell) const;
 
   // Reads the points of the cells and their rows. The cells ascend and do not repeat.
-  void read_cells(std::span<const std::uint32_t> cells, std::vector<StoredPoint>& points,
+  void read_cells(std::span<const std::uint32_t> cells, std::vector<ScanPoint>& points,
                   std::vector<Row>& rows) const;
 
   // Puts the distinct points of a tile, in the order of its cells. It sets the rows of the cells. From
   // several threads, for different tiles.
-  void put(TileIndex tile, std::span<const StoredPoint> points, std::span<const StoredNormal> normals,
+  void put(TileIndex tile, std::span<const ScanPoint> points, std::span<const PlainNormal> normals,
            std::vector<Cell> cells);
   // Adds copies of a tile's points, once or in several goes. From any thread.
   void add_duplicates(TileIndex tile, std::span<const Duplicate> duplicates) {
@@ -92,7 +90,7 @@ class TileStore {
   // Returns the tile behind the last one. Points that were never raw are `put` there. One thread calls it,
   // while no other uses the store.
   TileIndex next_tile() const { return static_cast<TileIndex>(tiling_.tiles.size()); }
-  void add_tile(std::span<const StoredPoint> points, std::span<const StoredNormal> normals,
+  void add_tile(std::span<const ScanPoint> points, std::span<const PlainNormal> normals,
                 std::vector<Cell> cells);
   // Ends the filling once all tiles are put: counts are final.
   void finish();
@@ -107,12 +105,12 @@ class TileStore {
   // The points and normals of a run of rows.
   struct Columns {
     PointColumn points;
-    Column<StoredNormal> normals;
+    Column<PlainNormal> normals;
     std::uint64_t first_row = 0;
   };
   const Columns& columns_of(std::uint64_t row) const;
-  void read_points(std::uint64_t row, std::span<StoredPoint> points) const;
-  std::vector<StoredPoint> read_points(std::uint64_t row, std::uint64_t count) const;
+  void read_points(std::uint64_t row, std::span<ScanPoint> points) const;
+  std::vector<ScanPoint> read_points(std::uint64_t row, std::uint64_t count) const;
   // Checks a tile before it is read for the first time.
   void check(TileIndex tile) const {
     if (is_checked_.empty()) return;
@@ -133,7 +131,7 @@ template <class Visit>
 void TileStore::for_each_point(TileIndex index, Visit&& visit) const {
   check(index);
   const Tile& tile = tiling_.tiles[index];
-  std::array<StoredPoint, 2048> part;
+  std::array<ScanPoint, 2048> part;
   for (std::uint64_t done = 0; done < tile.points;) {
     const std::uint64_t count = std::min<std::uint64_t>(part.size(), tile.points - done);
     read_points(value(tile.first_row) + done, std::span(part).first(count));

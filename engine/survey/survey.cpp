@@ -95,7 +95,7 @@ void refuse_beyond(const PointBatch& batch) {
 
 }  // namespace
 
-Precision SurveyedScan::precision() const {
+Precision SurveyTotals::precision() const {
   constexpr std::uint64_t kIds = std::uint64_t{1} << 32;
   return is_single && ids <= kIds ? Precision::kSingle : Precision::kDouble;
 }
@@ -140,7 +140,6 @@ Survey::Survey(std::uint64_t memory, std::uint64_t expected_points)
 void Survey::choose_cell_size(const PointBatch& batch) {
   const double points = static_cast<double>(expected_points_);
   const Whereabouts place = whereabouts_of(batch);
-  scan_.middle = place.middle;
   const double farthest = place.middle.cwiseAbs().maxCoeff();
   double extent = place.extent;
   if (extent == 0) extent = place.farthest > 0 ? place.farthest : 1;  // most points at one place
@@ -250,7 +249,6 @@ void Survey::add(const SurveyedScan& counts) {
   if (counts.cells.empty()) return;
   if (!sized_) {
     scan_.grid = counts.grid;
-    scan_.middle = counts.middle;
     sized_ = true;
   }
   while (scan_.grid.shift < counts.grid.shift) take(counts_.merged());

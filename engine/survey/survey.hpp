@@ -3,10 +3,12 @@
 #pragma once
 
 #include "engine/model/cell_grid.hpp"
+#include "engine/model/plain_box.hpp"
 #include "engine/model/points.hpp"
 #include "engine/store/point_column.hpp"
 #include "engine/survey/cell_tree.hpp"
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <vector>
@@ -15,17 +17,21 @@
 
 namespace lacuna {
 
-struct SurveyedScan {
+// What a survey finds besides its cells, as plain data.
+struct SurveyTotals {
   CellGrid grid;
-  std::vector<CountedCell> cells;  // in an order of the tree; counts from 1 to `kMostCounted`
-  Eigen::AlignedBox3d bounds;      // of the finite points; empty without any
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // median along each axis of the first points
-  std::uint64_t points = 0;                          // input rows
-  std::uint64_t dropped = 0;                         // with a non-finite coordinate
-  std::uint64_t ids = 0;                             // all ids are below
-  bool is_single = true;  // every finite coordinate is a number of single precision
+  PlainBox bounds;                        // of the finite points; empty without any
+  std::uint64_t points = 0;               // input rows
+  std::uint64_t dropped = 0;              // with a non-finite coordinate
+  std::uint64_t ids = 0;                  // all ids are below
+  bool is_single = true;                  // every finite coordinate is a number of single precision
+  std::array<std::uint8_t, 7> padding{};  // all bytes are in the checksum of a part
 
   Precision precision() const;
+};
+
+struct SurveyedScan : SurveyTotals {
+  std::vector<CountedCell> cells;  // in an order of the tree; counts from 1 to `kMostCounted`
 };
 
 // One batch of points, counted per cell.

@@ -22,7 +22,7 @@ constexpr std::uint64_t kBytesPerPoint = 128;  // of a tile, with its cells
 // The occupied cells of a tile in a hash table, each with the point that represents it.
 class OccupiedCells {
  public:
-  OccupiedCells(std::vector<StoredPoint> points, double edge)
+  OccupiedCells(std::vector<ScanPoint> points, double edge)
       : lattice_(edge),
         edge_(edge),
         points_(std::move(points)),
@@ -33,7 +33,7 @@ class OccupiedCells {
   }
 
   // Compares a point of another tile with the representative of its cell, if there is one.
-  void compare(const StoredPoint& point) {
+  void compare(const ScanPoint& point) {
     const LatticePlace place = place_of(point);
     const std::uint32_t slot = slots_[slot_of(place)];
     if (slot == 0 || !comes_first(place.squared_offset, point, cells_[slot - 1])) return;
@@ -50,8 +50,8 @@ class OccupiedCells {
     }
   }
 
-  std::span<const StoredPoint> points() const { return std::span(points_).first(owned_); }  // of the tile
-  const StoredPoint& representative_of(const StoredPoint& point) const {  // which is one of the tile
+  std::span<const ScanPoint> points() const { return std::span(points_).first(owned_); }  // of the tile
+  const ScanPoint& representative_of(const ScanPoint& point) const {  // which is one of the tile
     return points_[cells_[slots_[slot_of(place_of(point))] - 1].representative];
   }
 
@@ -74,9 +74,9 @@ class OccupiedCells {
     }
   }
 
-  bool comes_first(double squared_offset, const StoredPoint& p, const Cell& cell) const {
+  bool comes_first(double squared_offset, const ScanPoint& p, const Cell& cell) const {
     if (squared_offset != cell.squared_offset) return squared_offset < cell.squared_offset;
-    const StoredPoint& q = points_[cell.representative];
+    const ScanPoint& q = points_[cell.representative];
     return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
   }
 
@@ -88,7 +88,7 @@ class OccupiedCells {
     return slot;
   }
 
-  LatticePlace place_of(const StoredPoint& point) const {
+  LatticePlace place_of(const ScanPoint& point) const {
     const LatticePlace place = lattice_.place_of(point.position());
     if (place.cell.allFinite()) return place;
     std::ostringstream message;
@@ -99,7 +99,7 @@ class OccupiedCells {
 
   Lattice lattice_;
   double edge_;
-  std::vector<StoredPoint> points_;  // of the tile, and then others that represent a cell
+  std::vector<ScanPoint> points_;  // of the tile, and then others that represent a cell
   LocalIndex owned_;
   std::vector<Cell> cells_;
   std::vector<std::uint32_t> slots_;  // one more than a cell's index; 0: no cell. A power of two
@@ -120,10 +120,10 @@ std::vector<std::uint32_t> cells_at_border(const Tiling& tiling, const Tile& til
   };
   std::vector<std::uint32_t> found;
   for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell; ++cell) {
-    const Eigen::AlignedBox3d& box = tiling.cells[cell].box;
+    const Eigen::AlignedBox3d box = tiling.cells[cell].box;
     for_each_cell_near(tiling, box, squared_reach(box, edge), tile.first_cell, tile.last_cell,
                        [&](std::uint32_t near) {
-                         const Eigen::AlignedBox3d& other = tiling.cells[near].box;
+                         const Eigen::AlignedBox3d other = tiling.cells[near].box;
                          const bool may_share = (place_of(other.max()) >= place_of(box.min())).all() &&
                                                 (place_of(other.min()) <= place_of(box.max())).all();
                          if (may_share) found.push_back(near);
@@ -140,7 +140,7 @@ void choose_in_tile(const TileStore& store, TileIndex t, double edge, ChosenPoin
   const Tile& tile = tiling.tiles[t];
   OccupiedCells cells(store.points(t), edge);
   for (const std::uint32_t cell : cells_at_border(tiling, tile, edge)) {
-    for (const StoredPoint& p : store.cell(cell)) cells.compare(p);
+    for (const ScanPoint& p : store.cell(cell)) cells.compare(p);
   }
   cells.for_each_representative([&](LocalIndex p) { chosen.rows.insert(tile.row(p)); });
   for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell; ++cell) {

@@ -22,7 +22,7 @@ namespace lacuna {
 struct Level {
   std::size_t number = 0;            // from 0
   double edge = 0;                   // of its lattice; 0: the level has every point
-  SurveyedScan survey;               // of the whole scan
+  SurveyTotals survey;               // of the whole scan
   double extent = 0;                 // the largest distance between points of the scan
   std::uint64_t tile_points = 0;     // the most in a tile
   TileStore store;                   // distinct points

@@ -107,8 +107,8 @@ class Joiner {
 
 // The points of one tile, as they are put into the store.
 struct JoinedTile {
-  std::vector<StoredPoint> points;
-  std::vector<StoredNormal> normals;
+  std::vector<ScanPoint> points;
+  std::vector<PlainNormal> normals;
   std::vector<Cell> cells;
 };
 
@@ -116,7 +116,7 @@ void add_chosen(const TileStore& below, TileIndex t, const RowSet& rows, JoinedT
   const Tile& tile = below.tiling().tiles[t];
   const std::vector<Eigen::Vector3d> normals = below.normals(t);
   LocalIndex owned = 0;
-  below.for_each_point(t, [&](const StoredPoint& p) {
+  below.for_each_point(t, [&](const ScanPoint& p) {
     if (rows.contains(tile.row(owned))) {
       to.points.push_back(p);
       if (below.has_normals()) {

@@ -30,11 +30,11 @@ Level level_of(ChosenPoints chosen, const Level& below, std::size_t number, doub
 
 // Cells as large as the scan leave too few points to have neighbours. A scan of few points, or of one place,
 // has no more points at any resolution.
-void refuse_too_coarse(std::uint64_t left, const SurveyedScan& survey, const Config& config) {
+void refuse_too_coarse(std::uint64_t left, const SurveyTotals& survey, const Config& config) {
   const std::uint64_t finite = survey.points - survey.dropped;
   const auto k = static_cast<std::uint64_t>(config.neighbourhood.k);
-  if (left > k || finite <= k || survey.bounds.sizes().isZero(0)) return;
-  const Eigen::Vector3d size = survey.bounds.sizes();
+  const Eigen::Vector3d size = Eigen::AlignedBox3d(survey.bounds).sizes();
+  if (left > k || finite <= k || size.isZero(0)) return;
   const ScaleConfig& scale = config.scale;
   const bool is_of_hole = scale.resolution == 0;
   std::ostringstream message;

@@ -57,8 +57,8 @@ void draw(const Loops& loops, std::size_t loop, double edge, Visit&& visit) {
     pass(to);
     before = to;
   };
-  loops.for_each_point(loop, [&](const StoredLoopPoint& p) {
-    const Eigen::Vector3d position = p.point.position();
+  loops.for_each_point(loop, [&](const LoopPoint& p) {
+    const Eigen::Vector3d position = p.position();
     if (first) {
       go_to(position);
     } else {

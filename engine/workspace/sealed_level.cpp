@@ -2,7 +2,7 @@
 #include "engine/workspace/sealed_level.hpp"
 
 #include "engine/store/sealed_part.hpp"
-#include "engine/workspace/stored_survey.hpp"
+#include "engine/survey/survey.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -21,13 +21,9 @@ namespace fs = std::filesystem;
 
 constexpr const char *kPoints = ".points", *kNormals = ".normals";
 
-struct StoredCell {
-  StoredBox box;
-  std::uint64_t first_row, points;
-};
-
-struct StoredLevel {
-  StoredSurvey survey;
+// The numbers of a part of a level, as the part has them.
+struct LevelNumbers {
+  SurveyTotals survey;
   double extent, edge;
   std::uint64_t parts;
   std::uint64_t tile_points, has_normals;
@@ -36,8 +32,8 @@ struct StoredLevel {
   Digest points_digest, normals_digest;  // of the digests of all tiles
 };
 
-StoredLevel stored(const Level& level, const TaskShare& share) {
-  return {.survey = StoredSurvey(level.survey),
+LevelNumbers numbers_of(const Level& level, const TaskShare& share) {
+  return {.survey = level.survey,
           .extent = level.extent,
           .edge = level.edge,
           .parts = share.tasks,
@@ -49,16 +45,15 @@ StoredLevel stored(const Level& level, const TaskShare& share) {
 Tiling tiling_of(const PartReader& part) {
   Tiling tiling;
   tiling.tiles = part.records<Tile>("tiles", 0);
-  for (const StoredCell& cell : part.records<StoredCell>("cells", 0))
-    tiling.cells.push_back({cell.box.box(), Row{cell.first_row}, cell.points});
+  tiling.cells = part.records<Cell>("cells", 0);
   return tiling;
 }
 
-std::optional<AppendLists<Represented>> represented_of(const StoredLevel& stored, const PartReader& part,
+std::optional<AppendLists<Represented>> represented_of(const LevelNumbers& numbers, const PartReader& part,
                                                        const Job& job) {
-  if (stored.represented == 0) return std::nullopt;
-  AppendLists<Represented> represented(job.file("represented"), stored.represented, job.lists);
-  for (std::uint64_t list = 0; list < stored.represented; ++list) {
+  if (numbers.represented == 0) return std::nullopt;
+  AppendLists<Represented> represented(job.file("represented"), numbers.represented, job.lists);
+  for (std::uint64_t list = 0; list < numbers.represented; ++list) {
     part.for_each<Represented>("represented", list,
                                [&](std::span<const Represented> some) { represented.append(list, some); });
   }
@@ -72,8 +67,8 @@ std::optional<StoreFile> open_file(const fs::path& path, std::uint64_t bytes) {
   return file;
 }
 
-std::optional<StoredLevel> record_of(const PartReader& part) {
-  const std::vector<StoredLevel> records = part.records<StoredLevel>("level", 0);
+std::optional<LevelNumbers> record_of(const PartReader& part) {
+  const std::vector<LevelNumbers> records = part.records<LevelNumbers>("level", 0);
   if (records.size() != 1) return std::nullopt;
   return records.front();
 }
@@ -113,7 +108,7 @@ std::optional<PartReader> open_part(std::size_t number, const TaskShare& share, 
 // Returns how many tasks have made a level. Whether they have made it from the right data, each part says.
 std::size_t count_parts(std::size_t number, const Workspace& workspace) {
   const std::optional<PartReader> part = PartReader::open(part_path(number, 0, workspace), std::nullopt);
-  const std::optional<StoredLevel> record = part ? record_of(*part) : std::nullopt;
+  const std::optional<LevelNumbers> record = part ? record_of(*part) : std::nullopt;
   return record ? record->parts : 1;
 }
 
@@ -121,10 +116,9 @@ std::optional<Level> read_part(std::size_t number, const TaskShare& share, const
                                const Workspace& workspace, const Job& job) {
   const std::optional<PartReader> part = open_part(number, share, made_from, workspace);
   if (!part) return std::nullopt;
-  const std::optional<StoredLevel> stored = record_of(*part);
-  if (!stored) return std::nullopt;
-  const StoredLevel& record = *stored;
-  const SurveyedScan survey = record.survey.survey();
+  const std::optional<LevelNumbers> numbers = record_of(*part);
+  if (!numbers) return std::nullopt;
+  const LevelNumbers& record = *numbers;
   Tiling tiling = tiling_of(*part);
   if (!fits(tiling, job)) return std::nullopt;
   std::optional<StoreFile> points =
@@ -133,14 +127,14 @@ std::optional<Level> read_part(std::size_t number, const TaskShare& share, const
       open_file(column_of(number, record.normals_digest, kNormals, workspace), record.normals_bytes);
   if (!points || !normals) return std::nullopt;
   TileStore store({std::move(*points), std::move(*normals), job.file("duplicates")}, std::move(tiling),
-                  part->records<TileDigests>("digests", 0), survey.precision(), record.has_normals != 0,
-                  job.lists);
+                  part->records<TileDigests>("digests", 0), record.survey.precision(),
+                  record.has_normals != 0, job.lists);
   for (TileIndex t = 0; t < store.tiling().tiles.size(); ++t)
     part->for_each<Duplicate>(
         "duplicates", t, [&](std::span<const Duplicate> duplicates) { store.add_duplicates(t, duplicates); });
   return Level{.number = number,
                .edge = record.edge,
-               .survey = survey,
+               .survey = record.survey,
                .extent = record.extent,
                .tile_points = record.tile_points,
                .store = std::move(store),
@@ -181,7 +175,7 @@ StoreFiles temporary_files(const Job& job) {
 void seal_part(Level& level, const TaskShare& share, const std::string& made_from, const Workspace& workspace,
                const Job& job) {
   if (!workspace.is_kept()) return;
-  StoredLevel record = stored(level, share);
+  LevelNumbers record = numbers_of(level, share);
   StoreFile &points = level.store.points_file(), &normals = level.store.normals_file();
   points.start_sync();
   normals.start_sync();
@@ -202,13 +196,10 @@ void seal_part(Level& level, const TaskShare& share, const std::string& made_fro
   normals.seal(column_of(level.number, record.normals_digest, kNormals, workspace));
 
   PartWriter part(part_path(level.number, share.task, workspace));
-  part.add("level", 0, std::span<const StoredLevel>(&record, 1));
+  part.add("level", 0, std::span<const LevelNumbers>(&record, 1));
   part.add("tiles", 0, std::span<const Tile>(tiling.tiles));
   part.add("digests", 0, std::span<const TileDigests>(digests));
-  std::vector<StoredCell> cells;
-  for (const Cell& cell : tiling.cells)
-    cells.push_back({StoredBox(cell.box), value(cell.first_row), cell.points});
-  part.add("cells", 0, std::span<const StoredCell>(cells));
+  part.add("cells", 0, std::span<const Cell>(tiling.cells));
   for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
     add_in_blocks<Duplicate>(part, "duplicates", t,
                              [&](auto&& visit) { level.store.for_each_duplicate(t, visit); });

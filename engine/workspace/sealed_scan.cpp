@@ -2,7 +2,6 @@
 #include "engine/workspace/sealed_scan.hpp"
 
 #include "engine/store/sealed_part.hpp"
-#include "engine/workspace/stored_survey.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -15,33 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kScattered = "points";
-
-struct StoredCount {
-  CellCoord coord;
-  std::uint32_t points;
-  std::uint32_t is_far;
-};
-
-std::vector<StoredCount> stored(std::span<const CountedCell> cells) {
-  std::vector<StoredCount> stored;
-  stored.reserve(cells.size());
-  for (const CountedCell& cell : cells) stored.push_back({cell.coord, cell.points, cell.is_far});
-  return stored;
-}
-
-std::vector<CountedCell> counted(const PartReader& part, std::string_view stream) {
-  std::vector<CountedCell> cells;
-  cells.reserve(part.size(stream, 0) / sizeof(StoredCount));
-  part.for_each<StoredCount>(stream, 0, [&](std::span<const StoredCount> some) {
-    for (const StoredCount& cell : some) cells.push_back({cell.coord, cell.points, cell.is_far != 0});
-  });
-  return cells;
-}
-
-struct StoredPlan {
-  StoredSurvey survey;
-  std::uint64_t heavy, points, tile_points, cell_points;
-};
 
 fs::path survey_path(const Workspace& workspace, std::size_t task) {
   return workspace.folder / ("survey-" + std::to_string(task));
@@ -57,15 +29,18 @@ template <class Record>
 void add(PartWriter& part, std::string_view stream, const std::vector<Record>& records) {
   part.add(stream, 0, std::span<const Record>(records));
 }
+template <class Record>
+void add(PartWriter& part, std::string_view stream, const Record& record) {
+  part.add(stream, 0, std::span<const Record>(&record, 1));
+}
 
 }  // namespace
 
 void seal_survey(const SurveyedScan& survey, const std::vector<std::uint64_t>& pass_counts,
                  const TaskShare& share, const Workspace& workspace) {
   PartWriter part(survey_path(workspace, share.task));
-  const StoredSurvey record(survey);
-  part.add("survey", 0, std::span<const StoredSurvey>(&record, 1));
-  add(part, "cells", stored(survey.cells));
+  add<SurveyTotals>(part, "survey", survey);
+  add(part, "cells", survey.cells);
   add(part, "input", pass_counts);
   part.seal(digest_of(workspace.made_from, share));
 }
@@ -74,11 +49,10 @@ std::optional<SealedSurvey> open_survey(const TaskShare& share, const Workspace&
   const std::optional<PartReader> part =
       PartReader::open(survey_path(workspace, share.task), digest_of(workspace.made_from, share));
   if (!part) return std::nullopt;
-  SealedSurvey sealed{.survey = part->records<StoredSurvey>("survey", 0).at(0).survey(),
-                      .pass_counts = part->records<std::uint64_t>("input", 0),
-                      .seal = line_of(part->checksum())};
-  sealed.survey.cells = counted(*part, "cells");
-  return sealed;
+  return SealedSurvey{
+      .survey = {part->records<SurveyTotals>("survey", 0).at(0), part->records<CountedCell>("cells", 0)},
+      .pass_counts = part->records<std::uint64_t>("input", 0),
+      .seal = line_of(part->checksum())};
 }
 
 std::optional<std::string> seals_of_surveys(std::size_t tasks, const Workspace& workspace) {
@@ -95,15 +69,11 @@ std::optional<std::string> seals_of_surveys(std::size_t tasks, const Workspace& 
 void seal_plan(SealedPlan& sealed, const std::string& made_from, const Workspace& workspace) {
   PartWriter part(plan_path(workspace));
   const TilePlan& plan = sealed.plan;
-  const StoredPlan record{.survey = StoredSurvey(sealed.survey),
-                          .heavy = plan.heavy,
-                          .points = plan.points,
-                          .tile_points = plan.tile_points,
-                          .cell_points = plan.cell_points};
-  part.add("plan", 0, std::span<const StoredPlan>(&record, 1));
-  add(part, "cells", stored(plan.cells));
-  add(part, "aside", stored(plan.aside));
+  add<PlanTotals>(part, "plan", plan);
+  add(part, "cells", plan.cells);
   add(part, "tiles", plan.tiles);
+  add(part, "aside", plan.aside);
+  add(part, "survey", sealed.survey);
   add(part, "input", sealed.pass_counts);
   add(part, "first ids", sealed.first_ids);
   sealed.seal = line_of(part.seal(digest_of(made_from)));
@@ -112,21 +82,13 @@ void seal_plan(SealedPlan& sealed, const std::string& made_from, const Workspace
 std::optional<SealedPlan> open_plan(const std::string& made_from, const Workspace& workspace) {
   const std::optional<PartReader> part = PartReader::open(plan_path(workspace), digest_of(made_from));
   if (!part) return std::nullopt;
-  const StoredPlan record = part->records<StoredPlan>("plan", 0).at(0);
-  SealedPlan sealed{.plan = {},
-                    .survey = record.survey.survey(),
-                    .pass_counts = part->records<std::uint64_t>("input", 0),
-                    .first_ids = part->records<std::uint64_t>("first ids", 0),
-                    .seal = line_of(part->checksum())};
-  sealed.plan = {.grid = sealed.survey.grid,
-                 .cells = counted(*part, "cells"),
-                 .tiles = part->records<Tile>("tiles", 0),
-                 .aside = counted(*part, "aside"),
-                 .heavy = record.heavy,
-                 .points = record.points,
-                 .tile_points = record.tile_points,
-                 .cell_points = record.cell_points};
-  return sealed;
+  return SealedPlan{
+      .plan = {part->records<PlanTotals>("plan", 0).at(0), part->records<CountedCell>("cells", 0),
+               part->records<Tile>("tiles", 0), part->records<CountedCell>("aside", 0)},
+      .survey = part->records<SurveyTotals>("survey", 0).at(0),
+      .pass_counts = part->records<std::uint64_t>("input", 0),
+      .first_ids = part->records<std::uint64_t>("first ids", 0),
+      .seal = line_of(part->checksum())};
 }
 
 void seal_scattered(const ScatteredPoints& points, const TaskShare& share, const std::string& made_from,

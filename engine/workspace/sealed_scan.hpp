@@ -33,7 +33,7 @@ std::optional<std::string> seals_of_surveys(std::size_t tasks, const Workspace& 
 // The tiles of the scan, from all surveys.
 struct SealedPlan {
   TilePlan plan;
-  SurveyedScan survey;                     // of the whole scan, without cells
+  SurveyTotals survey;                     // of the whole scan
   std::vector<std::uint64_t> pass_counts;  // of the whole scan
   std::vector<std::uint64_t> first_ids;    // of each task's points
   std::string seal;

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The number changes with the records in the parts.
-constexpr const char* kProgram = "lacuna " LACUNA_VERSION ", parts of form 5";
+constexpr const char* kProgram = "lacuna " LACUNA_VERSION ", parts of form 6";
 constexpr const char* kRun = "run";      // the part that says whose workspace it is
 constexpr const char* kTasks = "tasks";  // the part that has the plan
 constexpr std::string_view kLevel = "level-", kTiles = "tiles-";
@@ -163,7 +163,7 @@ std::optional<std::vector<std::string>> made_from_of(const fs::path& folder) {
   return text ? std::optional(split(*text, '\n')) : std::nullopt;
 }
 
-StoredRun read_run(const fs::path& folder) {
+KeptRun read_run(const fs::path& folder) {
   const std::optional<PartReader> part = open_run(folder);
   const std::optional<std::string> inputs = part ? text_of(*part, "inputs") : std::nullopt;
   const std::optional<std::string> note = part ? text_of(*part, "note") : std::nullopt;

@@ -61,12 +61,12 @@ std::string evaluation_parameters(const Config& config);
 std::string output_parameters(const Config& config);
 
 // The data of a run in its workspace, from which another process can do a part of the run.
-struct StoredRun {
+struct KeptRun {
   std::vector<std::string> names;  // `PointSource::names`
   std::string note;                // as `RunConfig::note` was
 };
 // Reads the data of the run. Throws `Error` where the folder is no workspace.
-StoredRun read_run(const std::filesystem::path& folder);
+KeptRun read_run(const std::filesystem::path& folder);
 // Returns what the parts are made from, a line each. Returns nothing where the part of the run is damaged:
 // the run makes it again.
 std::optional<std::vector<std::string>> made_from_of(const std::filesystem::path& folder);

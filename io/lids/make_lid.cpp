@@ -36,18 +36,18 @@ Normalised normalised(const Loop& loop, std::span<const Loop> islands) {
   Normalised made;
   made.middle.setZero();
   for (const LoopPoint& point : loop)
-    made.middle += (point.position - loop[0].position) / static_cast<double>(n);
-  made.middle += loop[0].position;
+    made.middle += (point.position() - loop[0].position()) / static_cast<double>(n);
+  made.middle += loop[0].position();
   double extent = 0;
   for (const LoopPoint& point : loop)
-    extent = std::max(extent, (point.position - made.middle).cwiseAbs().maxCoeff());
+    extent = std::max(extent, (point.position() - made.middle).cwiseAbs().maxCoeff());
   made.scale = std::ldexp(1.0, std::ilogb(std::max(extent, std::numeric_limits<double>::min())) + 1);
   const auto place = [&](const LoopPoint& point) {
-    return Eigen::Vector3d((point.position - made.middle) / made.scale);
+    return Eigen::Vector3d((point.position() - made.middle) / made.scale);
   };
   const auto add = [&](const LoopPoint& point) {
     made.points.push_back(place(point));
-    made.surface.push_back(point.surface.cast<double>());
+    made.surface.push_back(Eigen::Vector3f(point.surface.data()).cast<double>());
   };
   double farthest = -1;
   for (std::size_t i = 0; i < n; ++i) {
@@ -75,9 +75,9 @@ Lid placed(LidMesh mesh, const Normalised& normalised, const Loop& loop, std::sp
   for (Eigen::Vector3d& vertex : lid.mesh.vertices)
     vertex = Eigen::Vector3d(vertex * normalised.scale + normalised.middle);
   auto vertex = lid.mesh.vertices.begin();
-  for (const LoopPoint& point : loop) *vertex++ = point.position;
+  for (const LoopPoint& point : loop) *vertex++ = point.position();
   for (const Loop& island : islands) {
-    for (const LoopPoint& point : island) *vertex++ = point.position;
+    for (const LoopPoint& point : island) *vertex++ = point.position();
   }
   for (LidTriangle& triangle : lid.mesh.triangles) {
     for (std::uint32_t& corner : triangle) {

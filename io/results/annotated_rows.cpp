@@ -41,9 +41,9 @@ std::vector<ResultColumn> result_columns(const FileScan& scan, const OutputConfi
   add("scalar_coherent", Scalar::kUint8, &sample.coherent);
   add("scalar_loop", Scalar::kInt32, &sample.loop);
   if (config.points_normals && !scan.has_normals()) {
-    add("nx", Scalar::kFloat32, &sample.normal.x());
-    add("ny", Scalar::kFloat32, &sample.normal.y());
-    add("nz", Scalar::kFloat32, &sample.normal.z());
+    add("nx", Scalar::kFloat32, &sample.normal[0]);
+    add("ny", Scalar::kFloat32, &sample.normal[1]);
+    add("nz", Scalar::kFloat32, &sample.normal[2]);
   }
   return columns;
 }

@@ -18,7 +18,7 @@ void write_boundary(const Detection& detection, const FileScan& scan, const Outp
   PlyWriter writer(out, {vertex}, local_offset(detection, config));
 
   detection.for_each_boundary_point([&](const BoundaryPoint& point) {
-    writer.put_position(coordinate, point.position);
+    writer.put_position(coordinate, point.position());
     writer.put(point.probability);
     writer.put_as(id, static_cast<double>(value(point.id)));
     writer.put(point.loop);

@@ -119,7 +119,7 @@ CoverageGrid cover(const Detection& detection, const FileScan& scan, const Files
   std::vector<Ring2> rings;
   const auto add_ring = [&](std::size_t loop) {
     Ring2& ring = rings.emplace_back();
-    detection.for_each_loop_point(loop, [&](const LoopPoint& p) { ring.push_back(p.position.head<2>()); });
+    detection.for_each_loop_point(loop, [&](const LoopPoint& p) { ring.push_back(p.position().head<2>()); });
   };
   for (std::size_t i = 0; i < detection.loops.size(); ++i) {
     if (detection.loops[i].kind != LoopKind::kHole) continue;

@@ -153,7 +153,7 @@ void write_loop(std::size_t id, const ExplainedDetection& detection, bool with_c
   });
   if (with_coordinates) {
     write_list("coordinates", out, [&](const auto& put) {
-      detection.for_each_loop_point(id, [&](const LoopPoint& point) { put(list(point.position)); });
+      detection.for_each_loop_point(id, [&](const LoopPoint& point) { put(list(point.position())); });
     });
   }
   out.write("}");

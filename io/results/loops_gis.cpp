@@ -188,7 +188,7 @@ class LoopsWriter {
     const auto count = static_cast<int>(loop.size());  // loops.ply allows no more
     line->setNumPoints(count + 1);
     for (int i = 0; i <= count; ++i) {
-      Eigen::Vector3d at = loop[static_cast<std::size_t>(i % count)].position;
+      Eigen::Vector3d at = loop[static_cast<std::size_t>(i % count)].position();
       if (conversion_.plan && !convert_to_degrees(conversion_, at)) return nullptr;
       line->setPoint(i, at.x(), at.y(), at.z());
     }

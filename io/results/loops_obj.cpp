@@ -34,7 +34,7 @@ void write_loops_obj(const ExplainedDetection& detection, OutputFile& out) {
     std::string line;
     detection.for_each_loop_point(id, [&](const LoopPoint& point) {
       line = "v";
-      for (const double component : point.position) append_plain(line += " ", component);
+      for (const double component : point.position()) append_plain(line += " ", component);
       out.write(line += "\n");
     });
     const std::uint64_t first = next;

@@ -44,7 +44,7 @@ void write_loops(const Detection& detection, const FileScan& scan, const OutputC
     const LoopMeasures& measures = detection.loops[loop];
     const LoopColour& colour = colour_of(measures.kind);
     detection.for_each_loop_point(loop, [&](const LoopPoint& point) {
-      writer.put_position(coordinate, point.position);
+      writer.put_position(coordinate, point.position());
       writer.put(static_cast<std::int32_t>(loop));
       writer.put_as(id, static_cast<double>(value(point.id)));
       writer.put(static_cast<std::uint8_t>(measures.kind == LoopKind::kOuter));

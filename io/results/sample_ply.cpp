@@ -71,7 +71,7 @@ void write_sample(const Detection& detection, const FileScan& scan, const Output
 
   ColourRows colours(scan, columns);
   detection.for_each_sampled_point([&](const SampledPoint& point) {
-    writer.put_position(coordinate, point.position);
+    writer.put_position(coordinate, point.position());
     writer.put_as(id, static_cast<double>(value(point.id)));
     for (const float component : point.normal) writer.put(component);
     writer.put(point.probability);

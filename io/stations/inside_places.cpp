@@ -46,7 +46,7 @@ std::vector<Eigen::Vector3d> some_corners(const Detection& detection, const Inne
   std::uint64_t at = 0;
   detection.for_each_loop_point(loop.loop, [&](const LoopPoint& point) {
     if (corners.size() < count && at++ >= corners.size() * loop.points / count)
-      corners.push_back(point.position);
+      corners.push_back(point.position());
   });
   return corners;
 }

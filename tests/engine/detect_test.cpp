@@ -123,9 +123,9 @@ void check_equal(const Detected& engine, const reference::Detection& plain, std:
     wrong_coherence += (q.coherent != 0) != p.coherent;
     wrong_boundary += (q.boundary != 0) != p.boundary;
     if (p.oriented_normal) {
-      const Eigen::Vector3f expected = p.oriented_normal->cast<float>();
-      const bool turned = either_way[value(p.representative)] && (expected + q.normal).norm() < 1e-4f;
-      wrong_normal += !turned && !((expected - q.normal).norm() < 1e-4f);
+      const Eigen::Vector3f expected = p.oriented_normal->cast<float>(), normal(q.normal.data());
+      const bool turned = either_way[value(p.representative)] && (expected + normal).norm() < 1e-4f;
+      wrong_normal += !turned && !((expected - normal).norm() < 1e-4f);
     }
   }
   CHECK(wrong_probability == 0);
@@ -361,8 +361,7 @@ TEST_CASE("a step of the density to a quarter has no loop along it, only the out
     REQUIRE(detected.loops.size() == 1);
     CHECK(detected.loops[0].measures.kind == LoopKind::kOuter);
     for (const LoopPoint& p : detected.loops[0].points) {
-      const double edge =
-          std::min({p.position.x(), p.position.y(), n - 1 - p.position.x(), n - 1 - p.position.y()});
+      const double edge = std::min({p.x, p.y, n - 1 - p.x, n - 1 - p.y});
       if (edge > 3.5) FAIL_CHECK("point " << value(p.id) << " of the loop lies inside");
     }
   }

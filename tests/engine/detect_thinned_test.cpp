@@ -113,7 +113,7 @@ TEST_CASE("the order of the points does not change the loops at a resolution") {
     std::vector<std::vector<double>> loops;
     for (const ReportedLoop& loop : detected.loops) {
       std::vector<double> sorted;
-      for (const LoopPoint& p : loop.points) sorted.push_back(p.position.x());
+      for (const LoopPoint& p : loop.points) sorted.push_back(p.x);
       std::sort(sorted.begin(), sorted.end());
       loops.push_back(sorted);
     }

@@ -42,7 +42,7 @@ std::string Detected::bytes() const {
   }
   for (const BoundaryPoint& p : boundary) {
     put(bytes, p.id);
-    put(bytes, p.position);
+    put(bytes, p.position());
     put(bytes, p.probability);
     put(bytes, p.loop);
   }
@@ -60,7 +60,7 @@ std::string Detected::bytes() const {
     put(bytes, m.parent);
     for (const LoopPoint& p : loop.points) {
       put(bytes, p.id);
-      put(bytes, p.position);
+      put(bytes, p.position());
       put(bytes, p.probability);
     }
   }

@@ -66,7 +66,7 @@ std::map<PointId, Row> TiledScan::rows() const {
   const std::vector<Tile>& tiles = store.tiling().tiles;
   for (TileIndex t = 0; t < tiles.size(); ++t) {
     std::uint64_t row = value(tiles[t].first_row);
-    for (const StoredPoint& p : store.points(t)) rows.emplace(p.id, Row{row++});
+    for (const ScanPoint& p : store.points(t)) rows.emplace(p.id, Row{row++});
   }
   return rows;
 }

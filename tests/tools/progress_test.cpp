@@ -7,11 +7,7 @@ namespace lacuna::tools {
 namespace {
 
 StepProgress evaluating() {
-  return {.step = "evaluate",
-          .done = 3'200'000,
-          .total = 8'000'000,
-          .step_seconds = 2,
-          .run_seconds = 75};
+  return {.step = "evaluate", .done = 3'200'000, .total = 8'000'000, .step_seconds = 2, .run_seconds = 75};
 }
 
 TEST_CASE("a line of progress has the step, its share, speed and time left, and the time of the run") {

@@ -122,7 +122,7 @@ std::unique_ptr<Progress> RunArguments::show_progress() const {
   return make_progress(quiet ? ProgressStyle::kNone : progress);
 }
 
-FilesConfig config_of(const StoredRun& run, const fs::path& workspace) {
+FilesConfig config_of(const KeptRun& run, const fs::path& workspace) {
   FilesConfig config;
   read_parameters(run.note, workspace, parameters(config));
   return config;

@@ -37,7 +37,7 @@ struct ResultArguments : RunArguments {
 };
 
 // The parameters of a run that a workspace keeps.
-io::FilesConfig config_of(const StoredRun& run, const std::filesystem::path& workspace);
+io::FilesConfig config_of(const KeptRun& run, const std::filesystem::path& workspace);
 
 // Opens the files of a run as one scan. Warns of oddities, and refuses degrees. Throws `Error`.
 std::unique_ptr<io::FileScan> open_inputs(const std::vector<io::ScanInput>& inputs,

@@ -91,7 +91,7 @@ struct WorkArguments {
 };
 
 void run_work(const WorkArguments& arguments) {
-  const StoredRun stored = read_run(arguments.workspace);
+  const KeptRun stored = read_run(arguments.workspace);
   FilesConfig config = arguments.run.start(config_of(stored, arguments.workspace));
   config.run.workspace = arguments.workspace.string();
   const std::optional<Step> step = step_of_name(arguments.step, arguments.workspace);
@@ -116,7 +116,7 @@ struct FinishArguments {
 };
 
 void run_finish(const FinishArguments& arguments) {
-  const StoredRun stored = read_run(arguments.workspace);
+  const KeptRun stored = read_run(arguments.workspace);
   FilesConfig config = arguments.run.start(config_of(stored, arguments.workspace));
   config.run.workspace = arguments.workspace.string();
   config.run.note = stored.note;

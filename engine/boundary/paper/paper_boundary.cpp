@@ -24,7 +24,7 @@ constexpr std::uint64_t kBytesPerVertex = 280;
 constexpr RecordStream<LocalIndex> kBorder{"border"};      // points with foreign neighbours, ascending
 constexpr RecordStream<Strength> kStrengths{"strengths"};  // of the border points
 constexpr RecordStream<TileEdge> kInside{"edges"};         // eligible ones
-constexpr RecordStream<StoredCrossing> kUndecided{"undecided crossings"};
+constexpr RecordStream<UndecidedCrossing> kUndecided{"undecided crossings"};
 
 // Returns the steps around the smallest hole that edges of neighbourhoods of K points do not cross.
 std::int64_t minimum_loop(const SpanningConfig& config, double mean_neighbours) {
@@ -35,13 +35,12 @@ std::int64_t minimum_loop(const SpanningConfig& config, double mean_neighbours) 
 // ends of its crossing edges in other tiles.
 class TileVertices {
  public:
-  TileVertices(const Tile& tile, std::span<const StoredVertex> own,
-               std::span<const EligibleCrossing> crossings)
+  TileVertices(const Tile& tile, std::span<const TileVertex> own, std::span<const EligibleCrossing> crossings)
       : own_(static_cast<LocalIndex>(own.size())), numbers_(tile.points) {
     for (LocalIndex v = 0; v < own_; ++v) {
       numbers_[own[v].owned] = v;
       rows_.push_back(tile.row(own[v].owned));
-      ids_.push_back(own[v].point.point.id);
+      ids_.push_back(own[v].id);
     }
     for (const EligibleCrossing& crossing : crossings) foreign_.push_back(crossing.foreign.row);
     std::sort(foreign_.begin(), foreign_.end());
@@ -91,7 +90,7 @@ void PaperBoundary::emit(const EvaluatedTile& tile, TileOutput& output) const {
   output.add(kStrengths, std::move(strengths));
   const TileEdges edges = eligible_edges(tile.points, tile.neighbourhoods, tile.evaluations, config_);
   output.add(kInside, edges.inside);
-  std::vector<StoredCrossing> undecided;
+  std::vector<UndecidedCrossing> undecided;
   for (const Crossing& c : edges.crossings)
     undecided.push_back({tile.vertex(c.owned), tile.vertex(c.foreign), strength(c.owned), c.distance});
   output.add(kUndecided, std::move(undecided));
@@ -100,9 +99,9 @@ void PaperBoundary::emit(const EvaluatedTile& tile, TileOutput& output) const {
   // with foreign neighbours count.
   std::vector<std::uint8_t> is_end(tile.is_border.begin(), tile.is_border.end());
   for (const TileEdge& edge : edges.inside) is_end[edge.a] = is_end[edge.b] = 1;
-  std::vector<StoredVertex> vertices;
+  std::vector<TileVertex> vertices;
   for (LocalIndex p = 0; p < tile.points.owned; ++p) {
-    if (is_end[p] != 0) vertices.push_back({p, loop_point_of(tile, p)});
+    if (is_end[p] != 0) vertices.push_back({loop_point_of(tile, p), p});
   }
   output.add(kVertices, std::move(vertices));
 }
@@ -119,13 +118,13 @@ void PaperBoundary::complete_edges(const TileOutputs& outputs) {
 }
 
 void PaperBoundary::decide_crossings(const TileOutputs& outputs, TileIndex t) {
-  std::vector<StoredCrossing> undecided = outputs.read(kUndecided, t);
+  std::vector<UndecidedCrossing> undecided = outputs.read(kUndecided, t);
   std::sort(undecided.begin(), undecided.end(), [](const auto& a, const auto& b) {
     return a.foreign.row != b.foreign.row ? a.foreign.row < b.foreign.row : a.own.row < b.own.row;
   });
   ColumnReader<Strength> foreign(strengths_);
   std::vector<EligibleCrossing> here;
-  for (const StoredCrossing& c : undecided) {
+  for (const UndecidedCrossing& c : undecided) {
     const Strength& other = foreign[value(c.foreign.row)];
     // Both tiles have the edge if both ends are strong: then the tile of the lower id decides.
     if (is_strong(other.probability, config_) && c.foreign.id < c.own.id) continue;

@@ -16,7 +16,7 @@
 namespace lacuna::paper {
 
 // An edge out of the tile, to be decided once Pi of its foreign end is known.
-struct StoredCrossing {
+struct UndecidedCrossing {
   Vertex own, foreign;
   Strength strength;  // of its own end
   double distance;

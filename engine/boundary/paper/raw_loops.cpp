@@ -30,17 +30,17 @@ WantedPoints wanted_points(const Column<Vertex>& vertices, const Tiling& tiling,
 }
 
 // Writes the points of a tile to their places.
-void place_points(std::vector<WantedPoint> wanted, std::span<const StoredVertex> vertices, const Tile& tile,
-                  Column<StoredLoopPoint>& points) {
+void place_points(std::vector<WantedPoint> wanted, std::span<const TileVertex> vertices, const Tile& tile,
+                  Column<LoopPoint>& points) {
   std::sort(wanted.begin(), wanted.end(), [](const auto& a, const auto& b) { return a.place < b.place; });
-  std::vector<StoredLoopPoint> run;  // of consecutive places
+  std::vector<LoopPoint> run;  // of consecutive places
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const LocalIndex owned = tile.local(wanted[i].row);
     const auto vertex = std::lower_bound(vertices.begin(), vertices.end(), owned,
-                                         [](const StoredVertex& v, LocalIndex p) { return v.owned < p; });
+                                         [](const TileVertex& v, LocalIndex p) { return v.owned < p; });
     if (vertex == vertices.end() || vertex->owned != owned)
       fail_inconsistent("a loop passes through a point that was not kept");
-    run.push_back(vertex->point);
+    run.push_back(*vertex);
     if (i + 1 < wanted.size() && wanted[i + 1].place == wanted[i].place + 1) continue;
     points.write(wanted[i].place + 1 - run.size(), run);
     run.clear();
@@ -56,7 +56,7 @@ void RawLoops::add(std::span<const Vertex> loop) {
 }
 
 Loops RawLoops::with_points(const TileOutputs& outputs, const Tiling& tiling, Job& job) const {
-  Column<StoredLoopPoint> points(job.file("placed-points"));
+  Column<LoopPoint> points(job.file("placed-points"));
   const WantedPoints wanted = wanted_points(vertices_, tiling, job);
   job.arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
     const auto t = static_cast<TileIndex>(i);
@@ -64,7 +64,7 @@ Loops RawLoops::with_points(const TileOutputs& outputs, const Tiling& tiling, Jo
       place_points(wanted.read(t), outputs.read(kVertices, t), tiling.tiles[t], points);
   });
   Loops loops(job.file("loops"));
-  ColumnReader<StoredLoopPoint> reader(points);
+  ColumnReader<LoopPoint> reader(points);
   std::uint64_t first = 0;
   for (const std::uint64_t count : counts_) {
     loops.add(count, {}, [&](std::uint64_t i) { return reader[first + i]; });

@@ -18,11 +18,11 @@
 namespace lacuna::paper {
 
 // An owned point of a tile that a loop may pass through.
-struct StoredVertex {
+struct TileVertex : LoopPoint {
   LocalIndex owned;
-  StoredLoopPoint point;
+  std::uint32_t padding = 0;  // all bytes are in the checksum of a part
 };
-inline constexpr RecordStream<StoredVertex> kVertices{"vertices"};  // in ascending owned index
+inline constexpr RecordStream<TileVertex> kVertices{"vertices"};  // in ascending owned index
 
 class RawLoops {
  public:

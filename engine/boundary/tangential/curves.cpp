@@ -22,7 +22,7 @@ std::size_t place(std::size_t start, std::size_t i, bool forwards, std::size_t c
 // Returns the points that a curve passes more than once, ascending.
 std::span<const PointId> repeated_points(std::span<const CurvePoint> curve, Scratch& scratch) {
   SortedRuns<PointId> ids(scratch.folder() / "curve-ids", scratch.budget() / 4);
-  scratch.for_each(curve, [&](const CurvePoint& p) { ids.add(p.id()); });
+  scratch.for_each(curve, [&](const CurvePoint& p) { ids.add(p.id); });
   const std::span<PointId> repeated = scratch.array<PointId>(curve.size() / 2);
   std::size_t count = 0;
   std::optional<PointId> before;
@@ -103,16 +103,16 @@ void normalise(std::span<const CurvePoint> curve, std::span<CurvePoint> turned, 
   };
   const auto comes_first = [&](const Way& a, const Way& b) {
     for (std::size_t i = 0; i < count; ++i) {
-      const PointId of_a = at(a, i).id(), of_b = at(b, i).id();
+      const PointId of_a = at(a, i).id, of_b = at(b, i).id;
       if (of_a != of_b) return of_a < of_b;
     }
     return false;
   };
-  PointId least = curve.front().id();
-  scratch.for_each(curve, [&](const CurvePoint& p) { least = std::min(least, p.id()); });
+  PointId least = curve.front().id;
+  scratch.for_each(curve, [&](const CurvePoint& p) { least = std::min(least, p.id); });
   std::optional<Way> best;
   for (std::size_t start = 0; start < count; ++start) {
-    if (at({start, true}, 0).id() != least) continue;
+    if (at({start, true}, 0).id != least) continue;
     for (const bool forwards : {true, false}) {
       const Way way{start, forwards};
       if (!best || comes_first(way, *best)) best = way;
@@ -133,9 +133,9 @@ void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
   // For each repeated point, this is 1 + its place on the path, or 0 if it is not on the path.
   const std::span<std::uint32_t> places = scratch.array<std::uint32_t>(repeated.size());
   const auto place_of = [&](const CurvePoint& p) -> std::uint32_t* {
-    const auto at = std::lower_bound(repeated.begin(), repeated.end(), p.id());
-    return at != repeated.end() && *at == p.id() ? &places[static_cast<std::size_t>(at - repeated.begin())]
-                                                 : nullptr;
+    const auto at = std::lower_bound(repeated.begin(), repeated.end(), p.id);
+    return at != repeated.end() && *at == p.id ? &places[static_cast<std::size_t>(at - repeated.begin())]
+                                               : nullptr;
   };
   const std::span<CurvePoint> path = scratch.array<CurvePoint>(curve.size()),
                               turned = scratch.array<CurvePoint>(curve.size());

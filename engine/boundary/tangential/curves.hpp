@@ -16,11 +16,8 @@
 namespace lacuna::tangential {
 
 // A point of a curve. A point with several wedges is on several curves, or several times on one.
-struct CurvePoint {
-  StoredLoopPoint point;
+struct CurvePoint : LoopPoint {
   WedgeEvidence evidence;
-
-  PointId id() const { return point.point.id; }
 };
 
 // The wedges of the same scale at the other ends of a wedge's two boundary edges. `from` comes first.

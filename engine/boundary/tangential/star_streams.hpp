@@ -16,7 +16,7 @@ namespace lacuna::tangential {
 
 // A point of a tile's belt: it has neighbours in other tiles (border), or a neighbour that has.
 struct BeltPoint {
-  StoredLoopPoint point;
+  LoopPoint point;
   LocalIndex owned;
   LocalIndex place;  // among the rows of the belt
   std::uint32_t neighbours;
@@ -26,7 +26,7 @@ struct BeltPoint {
 
 // A measured star some of whose triangles depend on other tiles. Its link goes by rows, which all tiles know.
 struct OpenStar {
-  StoredLoopPoint point;
+  LoopPoint point;
   LocalIndex owned;
   StarPlace place;                                     // among the tile's open link vertices
   double distance;                                     // `Sampling::distance`
@@ -46,7 +46,7 @@ struct OpenStars {
   std::vector<OpenStar> stars;
   std::vector<OpenLinkVertex> vertices;
 
-  void add(const StoredLoopPoint& point, LocalIndex owned, const RadiusBound& bound, double distance,
+  void add(const LoopPoint& point, LocalIndex owned, const RadiusBound& bound, double distance,
            SamplingRadius& sampling_radius, float surface) {
     stars.push_back(
         {point,

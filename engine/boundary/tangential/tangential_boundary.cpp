@@ -53,9 +53,9 @@ void TangentialBoundary::add_loops(std::span<const CurvePoint> curve, Scale scal
     if (simple.size() < least) return;
     const LoopEvidence evidence = evidence_of(simple, scale, config_, scratch);
     if (!evidence.may_be_hole()) return;
-    loops_.add(simple.size(), evidence, [&](std::uint64_t i) {
+    loops_.add(simple.size(), evidence, [&](std::uint64_t i) -> LoopPoint {
       scratch.trim(sizeof(CurvePoint));
-      return simple[i].point;
+      return simple[i];
     });
   });
 }

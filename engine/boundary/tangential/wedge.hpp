@@ -26,7 +26,7 @@ struct WedgeEvidence {
 // A point at the boundary of the consistent triangles, and the ends of its two boundary edges. Between these
 // edges, around the point, there is no consistent triangle.
 struct Wedge {
-  StoredLoopPoint point;
+  LoopPoint point;
   Row row, from, to;
   WedgeEvidence evidence;
   Scale scale;
@@ -40,7 +40,7 @@ inline float clearness(double radius, double sampling_radius, const TangentialCo
 
 // The point of a star, with the data that its wedges need.
 struct StarPoint {
-  StoredLoopPoint point;
+  LoopPoint point;
   Row row;
   double distance;  // `Sampling::distance`
 };

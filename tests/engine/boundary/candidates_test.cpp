@@ -49,9 +49,8 @@ std::vector<Row> coherent(std::vector<Candidate> candidates, TiledScan& scan) {
   TileOutputs outputs(scan.store.tiling(), std::nullopt, scan.job);
   for (auto first = candidates.begin(); first != candidates.end();) {
     const TileIndex tile = scan.tile_of(first->row);
-    std::vector<StoredCandidate> of_tile;
-    for (; first != candidates.end() && scan.tile_of(first->row) == tile; ++first)
-      of_tile.push_back({.candidate = *first});
+    std::vector<Candidate> of_tile;
+    for (; first != candidates.end() && scan.tile_of(first->row) == tile; ++first) of_tile.push_back(*first);
     TileOutput output;
     output.add(kCandidates, of_tile);
     outputs.add(tile, output);

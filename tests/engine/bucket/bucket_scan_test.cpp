@@ -46,8 +46,8 @@ TEST_CASE("every finite point is stored once, in a row of its cell, or is a dupl
     std::vector<PointId> ids;
     std::size_t misplaced = 0, moved = 0;
     for (std::uint32_t c = 0; c < tiling.cells.size(); ++c) {
-      for (const StoredPoint& p : scan.store.cell(c)) {
-        misplaced += !tiling.cells[c].box.contains(p.position());
+      for (const ScanPoint& p : scan.store.cell(c)) {
+        misplaced += !Eigen::AlignedBox3d(tiling.cells[c].box).contains(p.position());
         moved += p.position() != cloud.positions[value(p.id)];
         ids.push_back(p.id);
       }
@@ -59,11 +59,11 @@ TEST_CASE("every finite point is stored once, in a row of its cell, or is a dupl
 
     std::size_t wrong_owners = 0;
     for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
-      const std::vector<StoredPoint> points = scan.store.points(t);
+      const std::vector<ScanPoint> points = scan.store.points(t);
       CHECK(points.size() <=
             static_cast<std::size_t>(std::max<std::int64_t>(scan.config.run.tile_points, 1)));
       scan.store.for_each_duplicate(t, [&](const Duplicate& d) {
-        const StoredPoint& owner = points.at(d.of);
+        const ScanPoint& owner = points.at(d.of);
         wrong_owners += owner.position() != cloud.positions[value(d.id)] || !(owner.id < d.id);
         ids.push_back(d.id);
       });
@@ -80,7 +80,7 @@ TEST_CASE("given normals stay with their points, be they unit vectors or not eve
     const TiledScan scan(cloud, tiling_of(seed));
     std::size_t wrong = 0;
     for (TileIndex t = 0; t < scan.store.tiling().tiles.size(); ++t) {
-      const std::vector<StoredPoint> points = scan.store.points(t);
+      const std::vector<ScanPoint> points = scan.store.points(t);
       const std::vector<Eigen::Vector3d> normals = scan.store.normals(t);
       REQUIRE(normals.size() == points.size());
       for (std::size_t i = 0; i < points.size(); ++i) {

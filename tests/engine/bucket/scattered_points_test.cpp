@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t kPoints = 400'000, kPlaces = 7;
 
-StoredPoint numbered(std::uint64_t id) {
+ScanPoint numbered(std::uint64_t id) {
   return {double(id), 0.5, -1, PointId{id}};
 }
 
@@ -32,8 +32,8 @@ TEST_CASE("points that come from several threads are at their places once each, 
     for (std::uint64_t first = 0; first < 4; ++first) {
       threads.emplace_back([&, first] {
         for (std::uint64_t id = first * 100; id < kPoints; id += 400) {
-          std::vector<StoredPoint> points;
-          std::vector<StoredNormal> normals;
+          std::vector<ScanPoint> points;
+          std::vector<PlainNormal> normals;
           for (std::uint64_t i = id; i < id + 100; ++i) {
             points.push_back(numbered(i));
             if (form.with_normals) normals.push_back({double(i), 1, 2});
@@ -49,7 +49,7 @@ TEST_CASE("points that come from several threads are at their places once each, 
       scattered.for_each(place, [&](const PointsAndNormals& some) {
         wrong += form.with_normals != (some.normals.size() == some.points.size());
         for (std::size_t i = 0; i < some.points.size(); ++i) {
-          const StoredPoint& p = some.points[i];
+          const ScanPoint& p = some.points[i];
           ids.push_back(value(p.id));
           wrong += p.position() != numbered(value(p.id)).position() || value(p.id) / 100 % kPlaces != place;
           if (form.with_normals) wrong += some.normals[i].x != p.x || some.normals[i].z != 2;
@@ -66,7 +66,7 @@ TEST_CASE("points that come from several threads are at their places once each, 
 
 TEST_CASE("a point that single precision would change is an error") {
   const PointForm form{Precision::kSingle, false};
-  const std::vector<StoredPoint> points = {numbered(1), {0.1, 0, 0, PointId{2}}};
+  const std::vector<ScanPoint> points = {numbered(1), {0.1, 0, 0, PointId{2}}};
   CHECK_THROWS_WITH(form.pack(points, {}), Catch::Contains("more digits than before"));
   CHECK(form.pack({points.data(), 1}, {}).size() == form.record_bytes());
 }

@@ -69,7 +69,7 @@ Index index_of(const Cloud& cloud, std::int64_t tile_points) {
   Index index{scan.store.tiling(), {}};
   for (std::uint32_t c = 0; c < index.tiling.cells.size(); ++c) {
     auto& points = index.points.emplace_back();
-    for (const StoredPoint& p : scan.store.cell(c)) points.push_back(p.position());
+    for (const ScanPoint& p : scan.store.cell(c)) points.push_back(p.position());
   }
   return index;
 }
@@ -394,7 +394,8 @@ TEST_CASE("cells near a box are those of a search through all") {
     for (int query = 0; query < 50; ++query) {
       const auto pick = [&] { return static_cast<std::uint32_t>(random.whole(0, cells - 1)); };
       const Eigen::AlignedBox3d box = tiling.cells[pick()].box;
-      const double radius = tiling.cells[pick()].box.diagonal().norm() * random.uniform(0, 5);
+      const double radius =
+          Eigen::AlignedBox3d(tiling.cells[pick()].box).diagonal().norm() * random.uniform(0, 5);
       std::uint32_t skip_first = pick(), skip_last = pick();
       if (skip_first > skip_last || random.chance(0.3)) skip_first = skip_last = 0;
       std::vector<std::uint32_t> expected, found;

@@ -55,7 +55,7 @@ std::vector<Letter> letters_sent(TiledScan& scan, const Cloud& cloud, const std:
   std::vector<Letter> outbox;
   std::size_t moved = 0;
   for (TileIndex t = 0; t < inboxes.lists(); ++t) {
-    const std::vector<StoredPoint> owned = scan.store.points(t);
+    const std::vector<ScanPoint> owned = scan.store.points(t);
     for (const HaloEdge& link : inboxes.read(t)) {
       moved += link.foreign.position() != cloud.positions[value(link.foreign.id)];
       if (from.contains(link.incoming ? link.foreign.id : owned.at(link.owned).id))

@@ -17,19 +17,20 @@ TEST_CASE("loops are sorted by first id, then length, then ids, then scale") {
   Loops loops(folder / "loops");
   const auto add = [&](const Ids& ids, bool is_coarse) {
     loops.add(ids.size(), {.is_coarse = is_coarse}, [&](std::uint64_t i) {
-      return StoredLoopPoint{{double(ids[i]), 0, 0, PointId{ids[i]}}, {0, 0, 0}, 0.5f};
+      return LoopPoint{{double(ids[i]), 0, 0, PointId{ids[i]}}, {0, 0, 0}, 0.5f};
     });
   };
-  for (const Ids& ids : {Ids{5, 6, 9}, Ids{2, 7, 8, 9}, Ids{2, 6, 9}, Ids{5, 6, 8}, Ids{2, 4, 5}}) add(ids, true);
+  for (const Ids& ids : {Ids{5, 6, 9}, Ids{2, 7, 8, 9}, Ids{2, 6, 9}, Ids{5, 6, 8}, Ids{2, 4, 5}})
+    add(ids, true);
   add({2, 6, 9}, false);
   CHECK(loops.points() == 19);
   loops.sort();
   std::vector<Ids> sorted;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     sorted.emplace_back();
-    loops.for_each_point(i, [&](const StoredLoopPoint& p) {
-      sorted.back().push_back(value(p.point.id));
-      CHECK(p.point.x == double(value(p.point.id)));
+    loops.for_each_point(i, [&](const LoopPoint& p) {
+      sorted.back().push_back(value(p.id));
+      CHECK(p.x == double(value(p.id)));
     });
   }
   CHECK(sorted == std::vector<Ids>{{2, 4, 5}, {2, 6, 9}, {2, 6, 9}, {2, 7, 8, 9}, {5, 6, 8}, {5, 6, 9}});

@@ -2,6 +2,7 @@
 #include "engine/loops/measure_loop.hpp"
 
 #include "tests/support/clouds.hpp"
+#include "tests/support/loop_points.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -12,6 +13,7 @@ namespace lacuna {
 namespace {
 
 using Eigen::Vector3d;
+using test::loop_point;
 
 // n points of a circle about the z axis; `outwards`: where the surface lies, 1 outside, -1 inside.
 Loop circle(int n, double radius, float outwards) {
@@ -19,10 +21,7 @@ Loop circle(int n, double radius, float outwards) {
   for (int i = 0; i < n; ++i) {
     const double angle = 2 * std::numbers::pi * i / n;
     const Vector3d at(std::cos(angle), std::sin(angle), 0);
-    loop.push_back({.id = PointId{std::uint64_t(i)},
-                    .position = radius * at,
-                    .surface = 0.1f * outwards * at.cast<float>(),
-                    .probability = 0.75f});
+    loop.push_back(loop_point(std::uint64_t(i), radius * at, 0.1f * outwards * at.cast<float>(), 0.75f));
   }
   return loop;
 }
@@ -32,16 +31,14 @@ Loop square(float outwards) {
   for (const Vector3d& corner :
        {Vector3d(0, 0, 0), Vector3d(2, 0, 0), Vector3d(2, 2, 0), Vector3d(0, 2, 0)}) {
     const Eigen::Vector3f out = (corner - Vector3d(1, 1, 0)).cast<float>();
-    loop.push_back({.id = PointId{loop.size()},
-                    .position = corner,
-                    .surface = outwards * out,
-                    .probability = 0.25f * static_cast<float>(loop.size())});
+    const auto number = static_cast<float>(loop.size());
+    loop.push_back(loop_point(loop.size(), corner, outwards * out, 0.25f * number));
   }
   return loop;
 }
 
 void move(Loop& loop, const Vector3d& by) {
-  for (LoopPoint& p : loop) p.position += by;
+  for (LoopPoint& p : loop) test::move_to(p, p.position() + by);
 }
 
 TEST_CASE("a square of side two has perimeter 8, area 4, diameter 2 sqrt 2") {
@@ -76,7 +73,7 @@ TEST_CASE("the surface outside makes a hole, inside an outer curve, whatever the
 TEST_CASE("the edge of a dented outline is an outer curve though parts of it bend inwards") {
   Loop star = circle(100, 3, -1);
   for (std::size_t i = 0; i < star.size(); ++i)
-    star[i].position *= 1 + 0.3 * std::cos(0.1 * std::numbers::pi * double(i));
+    test::move_to(star[i], (1 + 0.3 * std::cos(0.1 * std::numbers::pi * double(i))) * star[i].position());
   CHECK(measure_loop(star, 1).kind == LoopKind::kOuter);
 }
 
@@ -93,7 +90,7 @@ TEST_CASE("measures do not suffer from coordinates in the millions") {
 
 TEST_CASE("a loop that encloses nothing has area 0, no normal, and finite measures") {
   Loop flat;
-  for (const double x : {0.0, 1.0, 2.0}) flat.push_back({.id = PointId{flat.size()}, .position = {x, 0, 0}});
+  for (const double x : {0.0, 1.0, 2.0}) flat.push_back(loop_point(flat.size(), {x, 0, 0}));
   const LoopMeasures m = measure_loop(flat, 1);
   CHECK(m.area == 0);
   CHECK(m.normal == Vector3d(0, 0, 0));
@@ -104,7 +101,7 @@ TEST_CASE("a loop that encloses nothing has area 0, no normal, and finite measur
 
 TEST_CASE("planarity falls with the thickness of the loop") {
   Loop bent = circle(100, 2, 1);
-  for (LoopPoint& p : bent) p.position.z() = 0.5 * p.position.x() * p.position.y();
+  for (LoopPoint& p : bent) p.z = 0.5 * p.x * p.y;
   const double planarity = measure_loop(bent, 1).planarity;
   CHECK(planarity < 0.75);
   CHECK(planarity >= 0);
@@ -118,11 +115,12 @@ TEST_CASE("the diameter is that of all pairs") {
     Vector3d at(0, 0, 0);
     for (std::int64_t i = 0; i < n; ++i) {
       at += random.direction() * random.uniform(0, 2);
-      loop.push_back({.id = PointId{std::uint64_t(i)}, .position = at});
+      loop.push_back(loop_point(std::uint64_t(i), at));
     }
     double largest = 0;
     for (const LoopPoint& a : loop) {
-      for (const LoopPoint& b : loop) largest = std::max(largest, (a.position - b.position).squaredNorm());
+      for (const LoopPoint& b : loop)
+        largest = std::max(largest, (a.position() - b.position()).squaredNorm());
     }
     CHECK(diameter(loop) == std::sqrt(largest));
   }

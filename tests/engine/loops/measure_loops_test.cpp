@@ -2,6 +2,7 @@
 #include "engine/loops/measure_loops.hpp"
 
 #include "engine/loops/measure_loop.hpp"
+#include "tests/support/loop_points.hpp"
 #include "tests/support/reference.hpp"
 #include "tests/support/tiled_scan.hpp"
 
@@ -55,14 +56,14 @@ TEST_CASE(
     REQUIRE(measured.loops.size() == 4);
     for (std::size_t i = 0; i < 4; ++i) {
       Loop loop;
-      measured.loops.for_each_point(i, [&](const StoredLoopPoint& p) { loop.push_back(loaded(p)); });
+      measured.loops.for_each_point(i, [&](const LoopPoint& p) { loop.push_back(p); });
       std::size_t wrong = 0;
       for (std::size_t j = 0; j < loop.size(); ++j) {
         const LoopPoint& p = loop[j];
         const reference::Point& q = plain.points[value(p.id)];
-        wrong += p.position != cloud.positions[value(p.id)];
+        wrong += p.position() != cloud.positions[value(p.id)];
         wrong += std::abs(p.probability - q.probability) > 1e-6;
-        wrong += (p.surface.cast<double>() - q.surface).norm() > 1e-5;
+        wrong += (test::surface_of(p).cast<double>() - q.surface).norm() > 1e-5;
       }
       CHECK(wrong == 0);
       CHECK(same(measured.measures[i], measure_loop(loop, 64)));  // 64 mean edges of about 1

@@ -3,6 +3,7 @@
 
 #include "engine/loops/measure_loop.hpp"
 #include "tests/support/detected.hpp"
+#include "tests/support/loop_points.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <algorithm>
@@ -47,11 +48,8 @@ std::vector<LoopMeasures> nested(const std::vector<DrawnLoop>& drawn, std::uint6
   std::uint64_t id = 0;
   for (const DrawnLoop& loop : drawn) {
     Loop points;
-    for (const Vector3d& at : loop.points) points.push_back({.id = PointId{id++}, .position = at});
-    level.add(points.size(), {}, [&](std::uint64_t i) {
-      const Vector3d& at = points[i].position;
-      return StoredLoopPoint{{at.x(), at.y(), at.z(), points[i].id}, {0, 0, 0}, 0};
-    });
+    for (const Vector3d& at : loop.points) points.push_back(test::loop_point(id++, at));
+    level.add(points.size(), {}, [&](std::uint64_t i) { return points[i]; });
     loops.loops.chosen.push_back({0, static_cast<std::uint32_t>(loops.measures.size())});
     loops.measures.push_back(measure_loop(points, 1));
     loops.measures.back().kind = loop.kind;

@@ -25,7 +25,7 @@ std::map<Place, std::int32_t> first_loops(const Detected& detected) {
   std::map<Place, std::int32_t> loops;
   for (std::size_t i = 0; i < detected.loops.size(); ++i) {
     for (const LoopPoint& p : detected.loops[i].points)
-      loops.try_emplace(place_of(p.position), static_cast<std::int32_t>(i));
+      loops.try_emplace(place_of(p.position()), static_cast<std::int32_t>(i));
   }
   return loops;
 }
@@ -53,7 +53,7 @@ void check_published(const Detected& detected, const Cloud& cloud) {
       return;
     }
     const BoundaryPoint& b = detected.boundary[next++];
-    wrong_boundary += b.id != PointId{i} || b.position != cloud.positions[i] || b.loop != p.loop ||
+    wrong_boundary += b.id != PointId{i} || b.position() != cloud.positions[i] || b.loop != p.loop ||
                       b.probability != p.probability;
   }
   CHECK(wrong_loops == 0);

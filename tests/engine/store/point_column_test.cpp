@@ -14,9 +14,9 @@
 namespace lacuna {
 namespace {
 
-std::vector<StoredPoint> drawn_points(std::size_t count, bool is_single) {
+std::vector<ScanPoint> drawn_points(std::size_t count, bool is_single) {
   Random random(count);
-  std::vector<StoredPoint> points;
+  std::vector<ScanPoint> points;
   const auto number = [&] {
     const double x = random.uniform(-1e6, 1e6);
     return is_single ? static_cast<double>(static_cast<float>(x)) : x;
@@ -26,7 +26,7 @@ std::vector<StoredPoint> drawn_points(std::size_t count, bool is_single) {
   return points;
 }
 
-bool same(const StoredPoint& a, const StoredPoint& b) {
+bool same(const ScanPoint& a, const ScanPoint& b) {
   return a.position() == b.position() && a.id == b.id;
 }
 
@@ -40,7 +40,7 @@ TEST_CASE("points come back from disk as they were, whatever the precision and t
   for (const Precision precision : {Precision::kSingle, Precision::kDouble}) {
     const test::ScratchFolder folder;
     PointColumn column(StoreFile(folder / "points"), precision);
-    const std::vector<StoredPoint> points = drawn_points(20'000, precision == Precision::kSingle);
+    const std::vector<ScanPoint> points = drawn_points(20'000, precision == Precision::kSingle);
     Random random(5);
     std::size_t wrong = 0;
     for (std::size_t begin = 0, end; begin < points.size(); begin = end) {
@@ -50,7 +50,7 @@ TEST_CASE("points come back from disk as they were, whatever the precision and t
     for (int round = 0; round < 50; ++round) {
       const auto begin = std::size_t(random.whole(0, 19'999));
       const auto count = std::size_t(random.whole(0, std::int64_t(points.size() - begin)));
-      const std::vector<StoredPoint> found = column.read(100 + begin, count);
+      const std::vector<ScanPoint> found = column.read(100 + begin, count);
       REQUIRE(found.size() == count);
       for (std::size_t i = 0; i < count; ++i) wrong += !same(found[i], points[begin + i]);
     }
@@ -61,11 +61,11 @@ TEST_CASE("points come back from disk as they were, whatever the precision and t
 TEST_CASE("what single precision would lose is not written in it") {
   const test::ScratchFolder folder;
   PointColumn column(StoreFile(folder / "points"), Precision::kSingle);
-  const StoredPoint good{0.5, -3, 1e30f, PointId{7}};
+  const ScanPoint good{0.5, -3, 1e30f, PointId{7}};
   CHECK_NOTHROW(column.write(0, std::vector{good}));
-  for (const StoredPoint& bad :
-       {StoredPoint{0.1, 0, 0, PointId{7}}, StoredPoint{0, 1e300, 0, PointId{7}},
-        StoredPoint{0, 0, 1 + 1e-9, PointId{7}}, StoredPoint{0, 0, 0, PointId{std::uint64_t{1} << 32}}})
+  for (const ScanPoint& bad :
+       {ScanPoint{0.1, 0, 0, PointId{7}}, ScanPoint{0, 1e300, 0, PointId{7}},
+        ScanPoint{0, 0, 1 + 1e-9, PointId{7}}, ScanPoint{0, 0, 0, PointId{std::uint64_t{1} << 32}}})
     CHECK_THROWS_AS(column.write(0, std::vector{good, bad}), Error);
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("a scan is of single precision if all of its finite coordinates are") 
   CHECK(surveyed(batch).precision() == Precision::kSingle);
   batch.positions.emplace_back(0.1, 0, 0);
   CHECK(surveyed(batch).precision() == Precision::kDouble);
-  CHECK(SurveyedScan{.ids = (std::uint64_t{1} << 32) + 1}.precision() == Precision::kDouble);
+  CHECK(SurveyTotals{.ids = (std::uint64_t{1} << 32) + 1}.precision() == Precision::kDouble);
 }
 
 }  // namespace

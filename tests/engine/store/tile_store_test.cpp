@@ -29,14 +29,14 @@ std::vector<Tile> two_tiles() {
   return {{.first_row = Row{0}, .raw = 3000}, {.first_row = Row{3008}, .raw = 5000}};
 }
 
-StoredPoint numbered(std::uint64_t id) {
+ScanPoint numbered(std::uint64_t id) {
   return {double(id), 0, 0, PointId{id}};
 }
 
 // A point of cell c has x in [c, c + 1), so order in the store and place in space agree.
-std::vector<StoredPoint> points_of_cell(std::uint32_t cell, std::uint64_t count, std::uint64_t first_id) {
+std::vector<ScanPoint> points_of_cell(std::uint32_t cell, std::uint64_t count, std::uint64_t first_id) {
   Random random(cell + 1);
-  std::vector<StoredPoint> points;
+  std::vector<ScanPoint> points;
   for (std::uint64_t i = 0; i < count; ++i)
     points.push_back({cell + random.uniform(), random.uniform(), random.uniform(), PointId{first_id + i}});
   return points;
@@ -45,8 +45,8 @@ std::vector<StoredPoint> points_of_cell(std::uint32_t cell, std::uint64_t count,
 using Values = std::vector<std::array<double, 4>>;
 
 // Coordinates and id of each point, in order.
-void append_values(Values& values, std::span<const StoredPoint> points) {
-  for (const StoredPoint& p : points) values.push_back({p.x, p.y, p.z, double(value(p.id))});
+void append_values(Values& values, std::span<const ScanPoint> points) {
+  for (const ScanPoint& p : points) values.push_back({p.x, p.y, p.z, double(value(p.id))});
 }
 
 TEST_CASE("points come back in tile order, and in cell order within a tile, with their ids and coordinates") {
@@ -56,7 +56,7 @@ TEST_CASE("points come back in tile order, and in cell order within a tile, with
   const ScratchFolder folder;
   std::vector<Tile> tiles;
   std::vector<std::vector<Cell>> cells;
-  std::vector<std::vector<StoredPoint>> points;
+  std::vector<std::vector<ScanPoint>> points;
   Values expected;
   std::uint64_t id = 100'000;  // ids fall while rows rise
   std::uint32_t cell = 0;
@@ -64,9 +64,9 @@ TEST_CASE("points come back in tile order, and in cell order within a tile, with
     cells.emplace_back();
     points.emplace_back();
     for (const std::uint64_t count : counts) {
-      const std::vector<StoredPoint> of_cell = points_of_cell(cell++, count, id -= count);
+      const std::vector<ScanPoint> of_cell = points_of_cell(cell++, count, id -= count);
       cells.back().push_back({.points = count});
-      for (const StoredPoint& p : of_cell) cells.back().back().box.extend(p.position());
+      for (const ScanPoint& p : of_cell) cells.back().back().box.extend(p.position());
       points.back().insert(points.back().end(), of_cell.begin(), of_cell.end());
     }
     append_values(expected, points.back());
@@ -91,7 +91,7 @@ TEST_CASE("points come back in tile order, and in cell order within a tile, with
   Values by_tile, by_part, by_cell, by_run;
   for (TileIndex tile = 0; tile < tiling.tiles.size(); ++tile) {
     append_values(by_tile, store.points(tile));
-    store.for_each_point(tile, [&](const StoredPoint& p) { append_values(by_part, {&p, 1}); });
+    store.for_each_point(tile, [&](const ScanPoint& p) { append_values(by_part, {&p, 1}); });
     std::vector<PointId> copies;
     store.for_each_duplicate(tile, [&](const Duplicate& d) {
       copies.push_back(d.id);
@@ -108,7 +108,7 @@ TEST_CASE("points come back in tile order, and in cell order within a tile, with
   CHECK(by_part == expected);
   CHECK(by_cell == expected);
 
-  std::vector<StoredPoint> read;
+  std::vector<ScanPoint> read;
   std::vector<Row> rows;
   store.read_cells(all_cells, read, rows);
   append_values(by_run, read);
@@ -133,8 +133,8 @@ TEST_CASE("a tile whose points were cut off on disk is an error, in either preci
   for (const Precision precision : {Precision::kSingle, Precision::kDouble}) {
     const ScratchFolder folder;
     TileStore store(files(folder), two_tiles(), 2, precision, false, std::make_shared<BufferPool>(1 << 16));
-    store.put(0, std::vector<StoredPoint>(3000, numbered(1)), {}, {});
-    store.put(1, std::vector<StoredPoint>(5000, numbered(2)), {}, {});
+    store.put(0, std::vector<ScanPoint>(3000, numbered(1)), {}, {});
+    store.put(1, std::vector<ScanPoint>(5000, numbered(2)), {}, {});
     REQUIRE(test::cut_open_file(getpid(), "points"));
     CHECK(store.points(0).size() == 3000);
     CHECK_THROWS_WITH(store.points(1),

@@ -59,7 +59,7 @@ std::vector<std::size_t> chosen_ids(TiledScan& scan, double edge, std::size_t ta
     const std::size_t before = ids.size();
     const ChosenPoints chosen = choose_points(scan.store, tiling.tiles_in({task, tasks}), edge, 0, scan.job);
     for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
-      const std::vector<StoredPoint> points = scan.store.points(t);
+      const std::vector<ScanPoint> points = scan.store.points(t);
       for (LocalIndex p = 0; p < points.size(); ++p) {
         if (chosen.rows.contains(tiling.tiles[t].row(p))) ids.push_back(value(points[p].id));
       }

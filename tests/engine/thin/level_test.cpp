@@ -32,7 +32,7 @@ Totals totals_of(const Level& level, Job& job) {
 AtLevel seen(const Level& level) {
   AtLevel at{level.edge, {}};
   for (TileIndex t = 0; t < level.store.tiling().tiles.size(); ++t)
-    level.store.for_each_point(t, [&](const StoredPoint& p) { at.ids.push_back(value(p.id)); });
+    level.store.for_each_point(t, [&](const ScanPoint& p) { at.ids.push_back(value(p.id)); });
   std::sort(at.ids.begin(), at.ids.end());
   return at;
 }

@@ -32,7 +32,7 @@ struct ThinnedStore {
   TileStore store;
 };
 
-bool same(const StoredPoint& a, const StoredPoint& b) {
+bool same(const ScanPoint& a, const ScanPoint& b) {
   return a.id == b.id && a.position() == b.position();
 }
 
@@ -46,16 +46,16 @@ TEST_CASE("a thinned store has the chosen points in their order, with their norm
       const Tiling &tiling = thin.store.tiling(), &below = thin.below.store.tiling();
       CHECK(tiling.check());
       CHECK(tiling.points() == thin.chosen.count);
-      std::vector<StoredPoint> expected, found;
+      std::vector<ScanPoint> expected, found;
       for (TileIndex t = 0; t < below.tiles.size(); ++t) {
-        const std::vector<StoredPoint> points = thin.below.store.points(t);
+        const std::vector<ScanPoint> points = thin.below.store.points(t);
         for (LocalIndex p = 0; p < points.size(); ++p) {
           if (thin.chosen.rows.contains(below.tiles[t].row(p))) expected.push_back(points[p]);
         }
       }
       std::size_t wrong = 0;
       for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
-        const std::vector<StoredPoint> points = thin.store.points(t);
+        const std::vector<ScanPoint> points = thin.store.points(t);
         const std::vector<Eigen::Vector3d> normals = thin.store.normals(t);
         REQUIRE(normals.size() == points.size());
         for (std::size_t p = 0; p < points.size(); ++p) wrong += normals[p] != 2 * points[p].position();

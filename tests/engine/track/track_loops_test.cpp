@@ -49,7 +49,7 @@ class Drawn {
         const double angle = 2 * std::numbers::pi * static_cast<double>(i) / count;
         const Eigen::Vector3d p =
             loop.middle + loop.radius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
-        return StoredLoopPoint{{p.x(), p.y(), p.z(), PointId{next_id_ + i}}, {0, 0, 0}, 0.5f};
+        return LoopPoint{{p.x(), p.y(), p.z(), PointId{next_id_ + i}}, {0, 0, 0}, 0.5f};
       });
       next_id_ += static_cast<std::uint64_t>(count);
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/model/loop.hpp"
+#include "tests/support/loop_points.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -24,8 +25,7 @@ inline Loop hole_in_plane(const Line& polygon) {
   for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Vector3d along = polygon[(i + 1) % n] - polygon[(i + n - 1) % n];
     const Eigen::Vector3d out(along.y(), -along.x(), 0);
-    loop.push_back(
-        {.id = PointId{i}, .position = polygon[i], .surface = ((area > 0 ? 1.0 : -1.0) * out).cast<float>()});
+    loop.push_back(loop_point(i, polygon[i], ((area > 0 ? 1.0 : -1.0) * out).cast<float>()));
   }
   return loop;
 }
@@ -46,9 +46,9 @@ inline Loop hole_in_sphere(double half_angle, int points) {
   for (int i = 0; i < points; ++i) {
     const double turn = 2 * std::numbers::pi * i / points;
     const Eigen::Vector3d out(std::cos(turn), std::sin(turn), 0), up(0, 0, 1);
-    loop.push_back({.id = PointId{static_cast<std::uint64_t>(i)},
-                    .position = std::sin(half_angle) * out + std::cos(half_angle) * up,
-                    .surface = (std::cos(half_angle) * out - std::sin(half_angle) * up).cast<float>()});
+    loop.push_back(loop_point(static_cast<std::uint64_t>(i),
+                              std::sin(half_angle) * out + std::cos(half_angle) * up,
+                              (std::cos(half_angle) * out - std::sin(half_angle) * up).cast<float>()));
   }
   return loop;
 }
@@ -56,8 +56,8 @@ inline Loop hole_in_sphere(double half_angle, int points) {
 // Moved by a rigid motion.
 inline Loop moved(Loop loop, const Eigen::Isometry3d& motion) {
   for (LoopPoint& point : loop) {
-    point.position = motion * point.position;
-    point.surface = motion.linear().cast<float>() * point.surface;
+    move_to(point, motion * point.position());
+    surface_of(point) = motion.linear().cast<float>() * surface_of(point).eval();
   }
   return loop;
 }

@@ -7,6 +7,7 @@
 #include "tests/io/lids/watertight.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/draws.hpp"
+#include "tests/support/loop_points.hpp"
 
 #include <algorithm>
 #include <array>
@@ -37,10 +38,10 @@ Loop wavy_hole(int points) {
   for (int i = 0; i < points; ++i) {
     turn += 2 * kPi / points * random.uniform(0.7, 1.3);
     const double r = 1 + 0.3 * std::sin(3 * turn + 1) + 0.02 * random.uniform();
-    loop.push_back({.id = PointId{static_cast<std::uint64_t>(i)},
-                    .position = {r * std::cos(turn), r * std::sin(turn), 0.3 * std::sin(2 * turn)},
-                    .surface = {static_cast<float>(std::cos(turn)), static_cast<float>(std::sin(turn)),
-                                static_cast<float>(0.4 * std::sin(turn))}});
+    const Eigen::Vector3d surface(std::cos(turn), std::sin(turn), 0.4 * std::sin(turn));
+    loop.push_back(test::loop_point(static_cast<std::uint64_t>(i),
+                                    {r * std::cos(turn), r * std::sin(turn), 0.3 * std::sin(2 * turn)},
+                                    surface.cast<float>()));
   }
   return loop;
 }
@@ -50,10 +51,10 @@ Loop hole_in_saddle(int points) {
   Loop loop;
   for (int i = 0; i < points; ++i) {
     const double turn = 2 * kPi * i / points;
-    loop.push_back({.id = PointId{static_cast<std::uint64_t>(i)},
-                    .position = {std::cos(turn), std::sin(turn), std::cos(2 * turn) / 2},
-                    .surface = {static_cast<float>(std::cos(turn)), static_cast<float>(std::sin(turn)),
-                                static_cast<float>(std::cos(2 * turn))}});
+    const Eigen::Vector3d surface(std::cos(turn), std::sin(turn), std::cos(2 * turn));
+    loop.push_back(test::loop_point(static_cast<std::uint64_t>(i),
+                                    {std::cos(turn), std::sin(turn), std::cos(2 * turn) / 2},
+                                    surface.cast<float>()));
   }
   return loop;
 }
@@ -63,7 +64,7 @@ Lid made(const Loop& loop) {
   CHECK(lid.left_out == "");
   CHECK(is_disc_on_loop(lid.mesh));
   REQUIRE(lid.mesh.loop_points == loop.size());
-  for (std::size_t i = 0; i < loop.size(); ++i) CHECK(lid.mesh.vertices[i] == loop[i].position);
+  for (std::size_t i = 0; i < loop.size(); ++i) CHECK(lid.mesh.vertices[i] == loop[i].position());
   return lid;
 }
 
@@ -115,7 +116,7 @@ TEST_CASE("the lid of half a sphere is the membrane of its circle, not a cap") {
 TEST_CASE("where the direction of the surface is not known, the lid is the membrane") {
   for (const float unknown : {0.0f, std::numeric_limits<float>::infinity()}) {
     Loop loop = hole_in_sphere(0.5, 120);
-    for (LoopPoint& point : loop) point.surface.setConstant(unknown);
+    for (LoopPoint& point : loop) point.surface.fill(unknown);
     const double r = std::sin(0.5);
     CHECK(made(loop).area == Approx(60 * r * r * std::sin(2 * kPi / 120)).epsilon(1e-9));
   }
@@ -170,7 +171,7 @@ TEST_CASE(
       CHECK(test::is_surface_on_loops(lid.mesh, 4));
       std::size_t at = hole.size();
       for (const Loop& island : islands) {
-        for (const LoopPoint& point : island) CHECK(lid.mesh.vertices[at++] == point.position);
+        for (const LoopPoint& point : island) CHECK(lid.mesh.vertices[at++] == point.position());
       }
       std::reverse(islands[turn].begin(), islands[turn].end());
     }
@@ -181,7 +182,7 @@ TEST_CASE(
 
 TEST_CASE("a lid between a sphere's hole and an island in it follows the sphere") {
   Loop island = hole_in_sphere(0.3, 60);
-  for (LoopPoint& point : island) point.surface = -point.surface;  // it is inside
+  for (LoopPoint& point : island) test::surface_of(point) *= -1;  // it is inside
   const Lid lid = make_lid(hole_in_sphere(0.7, 140), std::span(&island, 1));
   REQUIRE(lid.left_out == "");
   CHECK(test::is_surface_on_loops(lid.mesh, 2));
@@ -224,7 +225,7 @@ TEST_CASE("the size of a hole does not matter, from 1e-150 to 1e150") {
   const double area = made(loop).area;
   for (const double size : {1e-150, 1e150}) {
     Loop scaled = loop;
-    for (LoopPoint& point : scaled) point.position *= size;
+    for (LoopPoint& point : scaled) test::move_to(point, size * point.position());
     CHECK(made(scaled).area / size / size == Approx(area).epsilon(1e-9));
   }
 }
@@ -241,9 +242,8 @@ TEST_CASE("any loop has a lid that is a disc, or a reason") {
       const double turn = 2 * kPi * static_cast<double>(i) / static_cast<double>(n);
       Eigen::Vector3d at(std::cos(turn), std::sin(turn), 0);
       at += flatness * Eigen::Vector3d(random.normal(), random.normal(), random.normal()) / 2;
-      loop.push_back({.id = PointId{static_cast<std::uint64_t>(i)},
-                      .position = (at * steps).array().round() / steps,
-                      .surface = random.direction().cast<float>()});
+      loop.push_back(test::loop_point(static_cast<std::uint64_t>(i), (at * steps).array().round() / steps,
+                                      random.direction().cast<float>()));
     }
     const Lid lid = make_lid(loop);
     INFO("seed " << seed << ", " << n << " points");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "io/stations/cause.hpp"
+#include "tests/support/loop_points.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -24,10 +25,8 @@ struct FakeDetection {
 
   FakeDetection& with_loop(std::vector<std::uint64_t> ids, LoopKind kind) {
     Loop& loop = found.emplace_back();
-    for (const std::uint64_t id : ids) {
-      loop.push_back(
-          {.id = PointId{id}, .position = {0.1 * static_cast<double>(id), 2, 3}, .probability = 0.25f});
-    }
+    for (const std::uint64_t id : ids)
+      loop.push_back(loop_point(id, {0.1 * static_cast<double>(id), 2, 3}, {0, 0, 0}, 0.25f));
     measures.push_back(
         {.kind = kind, .points = ids.size(), .perimeter = 0.1, .centroid = {1, 2, 3}, .normal = {0, 0, 1}});
     return *this;

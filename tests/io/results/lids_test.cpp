@@ -16,8 +16,7 @@ namespace {
 
 void add(test::FakeDetection& run, LoopKind kind, const std::vector<Eigen::Vector3d>& points) {
   Loop& loop = run.found.emplace_back();
-  for (const Eigen::Vector3d& point : points)
-    loop.push_back({.id = PointId{loop.size()}, .position = point, .surface = {0, 0, 0}});
+  for (const Eigen::Vector3d& point : points) loop.push_back(test::loop_point(loop.size(), point));
   run.measures.push_back({.kind = kind, .points = points.size()});
 }
 

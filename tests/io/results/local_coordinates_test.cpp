@@ -39,10 +39,9 @@ FakeDetection detection_of(const Points& points) {
   detection.with_results(points.size()).with_loop({0, 1, 2}, LoopKind::kHole);
   for (std::size_t i = 0; i < points.size(); ++i) {
     detection.numbers.bounds.extend(points[i]);
-    if (i < 3) detection.found[0][i].position = points[i];
-    detection.boundary.push_back({.id = PointId{i}, .position = points[i], .probability = 0.5f, .loop = -1});
-    detection.sample.push_back(
-        {.id = PointId{i}, .position = points[i], .probability = 0.5f, .normal = {0, 0, 1}});
+    if (i < 3) move_to(detection.found[0][i], points[i]);
+    detection.boundary.push_back({ScanPoint::at(points[i], PointId{i}), 0.5f, -1});
+    detection.sample.push_back({ScanPoint::at(points[i], PointId{i}), 0.5f, {0, 0, 1}});
   }
   detection.numbers.counts.boundary_points = points.size();
   detection.numbers.strays.rest = detection.numbers.bounds;

@@ -137,8 +137,7 @@ TEST_CASE("ids beyond 32 bits are written as double, and coordinates in the scan
   detection.with_loop({1, 2, 5'000'000'001}, LoopKind::kHole);
   detection.numbers.counts.points = 5'000'000'002;
   detection.numbers.counts.boundary_points = 1;
-  detection.boundary = {
-      {.id = PointId{5'000'000'001}, .position = {0.1, 2, 3}, .probability = 0.75f, .loop = 0}};
+  detection.boundary = {{{0.1, 2, 3, PointId{5'000'000'001}}, 0.75f, 0}};
   write_results(detection, scan, FilesConfig{}, folder / "out");
   CHECK(read_table(folder / "out/loops.ply").rows.at(2)[4] == 5'000'000'001.0);
   const Table boundary = read_table(folder / "out/boundary.ply");

@@ -143,8 +143,8 @@ double kept_promise(const Found& found) {
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3f> normals;
   found.detection->for_each_sampled_point([&](const SampledPoint& point) {
-    points.push_back(point.position);
-    normals.push_back(point.normal);
+    points.push_back(point.position());
+    normals.emplace_back(point.normal.data());
   });
   const Obstacles obstacles(points, 3 * found.detection->summary.median_distance / 1.7);
   const auto eyes =

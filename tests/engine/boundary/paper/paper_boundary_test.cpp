@@ -33,9 +33,9 @@ Traced trace(const Cloud& cloud, const Config& config, std::uint64_t global_memo
   Traced result{.eligible_edges = traced.edges, .components = traced.components};
   for (std::size_t i = 0; i < traced.loops.size(); ++i) {
     result.loops.emplace_back();
-    traced.loops.for_each_point(i, [&](const StoredLoopPoint& p) {
-      result.loops.back().push_back(p.point.id);
-      result.wrong_points += p.point.position() != cloud.positions[value(p.point.id)];
+    traced.loops.for_each_point(i, [&](const LoopPoint& p) {
+      result.loops.back().push_back(p.id);
+      result.wrong_points += p.position() != cloud.positions[value(p.id)];
     });
     CHECK(traced.loops.count(i) == result.loops.back().size());
   }

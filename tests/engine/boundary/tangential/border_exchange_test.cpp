@@ -52,8 +52,8 @@ Found wedges_of(const Cloud& cloud, std::int64_t tile_points, std::int64_t threa
     for (const Wedge& wedge : wedges) {
       const auto [low, high] = std::minmax(ids.at(wedge.from), ids.at(wedge.to));
       const auto& [length, sampling_radius, distance, clearness, surface] = wedge.evidence;
-      found.wedges.push_back({wedge.point.point.id, low, high, wedge.scale, length, sampling_radius, distance,
-                              clearness, surface});
+      found.wedges.push_back(
+          {wedge.point.id, low, high, wedge.scale, length, sampling_radius, distance, clearness, surface});
     }
   }
   found.across_tiles = found.wedges.size() > certain;

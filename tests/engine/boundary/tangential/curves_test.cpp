@@ -19,10 +19,10 @@ PointId id_of(std::uint64_t row) {
 }
 
 std::uint64_t row_of(const CurvePoint& p) {
-  return 1000 - value(p.id());
+  return 1000 - value(p.id);
 }
 
-StoredLoopPoint point(PointId id) {
+LoopPoint point(PointId id) {
   return {{0, 0, 0, id}, {0, 0, 0}, 0};
 }
 
@@ -88,7 +88,7 @@ LoopEvidence evidence(const std::vector<CurvePoint>& curve, const TangentialConf
 
 std::vector<std::uint64_t> ids(const std::vector<CurvePoint>& curve) {
   std::vector<std::uint64_t> ids;
-  for (const CurvePoint& p : curve) ids.push_back(value(p.id()));
+  for (const CurvePoint& p : curve) ids.push_back(value(p.id));
   return ids;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/neighbours/stored_search.hpp"
+#include "engine/neighbours/store_search.hpp"
 
 #include "engine/model/neighbourhoods.hpp"
 #include "tests/support/clouds.hpp"
@@ -20,26 +20,25 @@ TEST_CASE("the neighbours of single stored points are those of a plain search") 
                                  {scattered(5, 3), 15},
                                  {scattered(1, 3), 15}}) {
     TiledScan scan(cloud, tiled({}, 300));
-    std::vector<StoredPoint> points;
+    std::vector<ScanPoint> points;
     for (TileIndex t = 0; t < scan.store.tiling().tiles.size(); ++t) {
-      for (const StoredPoint& p : scan.store.points(t)) points.push_back(p);
+      for (const ScanPoint& p : scan.store.points(t)) points.push_back(p);
     }
     const std::map<PointId, Row> row_of = scan.rows();
-    StoredSearch search(scan.store);
+    StoreSearch search(scan.store);
     for (std::size_t i = 0; i < points.size(); i += 1 + points.size() / 60) {
-      std::vector<StoredNeighbour> plain;
-      for (const StoredPoint& q : points) {
+      std::vector<StoreNeighbour> plain;
+      for (const ScanPoint& q : points) {
         if (q.id == points[i].id) continue;
-        plain.push_back({squared_distance(q.position(), points[i].position()), q, row_of.at(q.id)});
+        plain.push_back({q, squared_distance(q.position(), points[i].position()), row_of.at(q.id)});
       }
       std::sort(plain.begin(), plain.end());
       plain.resize(std::min<std::size_t>(plain.size(), k));
-      std::vector<StoredNeighbour> found = search.nearest(points[i], row_of.at(points[i].id), k);
+      std::vector<StoreNeighbour> found = search.nearest(points[i], row_of.at(points[i].id), k);
       std::sort(found.begin(), found.end());
       CHECK(std::equal(plain.begin(), plain.end(), found.begin(), found.end(),
-                       [](const StoredNeighbour& a, const StoredNeighbour& b) {
-                         return a.point.id == b.point.id && a.row == b.row &&
-                                a.squared_distance == b.squared_distance;
+                       [](const StoreNeighbour& a, const StoreNeighbour& b) {
+                         return a.id == b.id && a.row == b.row && a.squared_distance == b.squared_distance;
                        }));
     }
   }
