@@ -35,14 +35,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct FoundLevel {
+struct LevelResult {
   TileOutputs outputs;
   Totals totals;
-  FoundLoops found;
+  FoundLoops boundary;
 };
 
 // Finds the loops of one level.
-FoundLevel find_loops(const Level& level, Consumers& consumers, const Workspace& workspace, Job& job) {
+LevelResult find_loops(const Level& level, Consumers& consumers, const Workspace& workspace, Job& job) {
   // Halo, evaluate: each point's criteria from its exact neighbourhood (paper, 4.1 to 4.6).
   TileOutputs outputs = evaluate_level(level, consumers.all, workspace, job);
   Totals totals = read_totals(outputs, level.store.tiling(), level.extent);
@@ -65,8 +65,8 @@ void find_loops_above(const Level& first, Totals totals, std::vector<LevelLoops>
   std::optional<Level> below;
   while (std::optional<Level> level = level_above(below ? *below : first, totals, workspace, job)) {
     Consumers consumers(*level, job);
-    FoundLevel found = find_loops(*level, consumers, workspace, job);
-    levels.push_back(level_loops(std::move(found.found.loops), level->edge, found.totals));
+    LevelResult found = find_loops(*level, consumers, workspace, job);
+    levels.push_back(level_loops(std::move(found.boundary.loops), level->edge, found.totals));
     totals = std::move(found.totals);
     phase.advance(level->store.tiling().points());
     below.emplace(*std::move(level));
@@ -130,12 +130,12 @@ std::unique_ptr<Detection> detect_once(PointSource& scan, const Config& config, 
 
   // Finds the loops of all levels.
   Consumers consumers(first, job);
-  FoundLevel found = find_loops(first, consumers, workspace, job);
+  LevelResult found = find_loops(first, consumers, workspace, job);
   const TileOutputs& outputs = found.outputs;
   std::vector<LevelLoops> levels;
-  levels.push_back(level_loops(std::move(found.found.loops), first.edge, found.totals));
+  levels.push_back(level_loops(std::move(found.boundary.loops), first.edge, found.totals));
   if (has_levels(config)) find_loops_above(first, found.totals, levels, workspace, job);
-  add_findings(found.totals, found.found, levels, eps, summary);
+  add_findings(found.totals, found.boundary, levels, eps, summary);
 
   // Track: follows each hole through the levels.
   TrackedLoops tracked = track_loops(std::move(levels), job);

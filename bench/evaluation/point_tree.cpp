@@ -1,36 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/evaluation/point_tree.hpp"
 
+#include "bench/evaluation/nanoflann_tree.hpp"
+
 #include <cmath>
 #include <limits>
 
-#include <nanoflann.hpp>
-
 namespace lacuna::evaluation {
-namespace {
 
-struct Adaptor {
-  std::span<const Eigen::Vector3d> points;
-
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  double kdtree_get_pt(std::size_t point, std::size_t axis) const { return points[point][axis]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
+struct PointTree::Tree : NanoflannTree<std::size_t> {
+  using NanoflannTree::NanoflannTree;
 };
 
-using Metric = nanoflann::L2_Simple_Adaptor<double, Adaptor, double, std::size_t>;
-using Index = nanoflann::KDTreeSingleIndexAdaptor<Metric, Adaptor, 3, std::size_t>;
-
-}  // namespace
-
-struct PointTree::Tree {
-  Adaptor adaptor;
-  Index index{3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(12)};
-};
-
-PointTree::PointTree(std::span<const Eigen::Vector3d> points) : tree_(new Tree{.adaptor = {points}}) {}
+PointTree::PointTree(std::span<const Eigen::Vector3d> points) : tree_(std::make_unique<Tree>(points)) {}
 PointTree::~PointTree() = default;
 
 std::vector<double> PointTree::nearest_distances(const Eigen::Vector3d& place, std::size_t count) const {

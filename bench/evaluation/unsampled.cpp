@@ -48,16 +48,16 @@ void visit_places(const Corners& corners, double longest_edge, double radius, co
   visit_places({a, middle, c}, longest_edge, radius, near, visit);
 }
 
-// A place with its distance to the nearest point of the scan.
-struct EmptyPlace {
-  Eigen::Vector3d place;
+// A ball around a place, up to the nearest point of the scan.
+struct EmptyBall {
+  Eigen::Vector3d middle;
   double radius;
 };
 
 // Returns the places of at least the least radius, within `reach` of a loop's point, and perhaps others.
-std::vector<EmptyPlace> empty_places(const Surface& surface, const PointTree& scan, double spacing,
-                                     const PointTree& near, double reach) {
-  std::vector<EmptyPlace> places;
+std::vector<EmptyBall> empty_places(const Surface& surface, const PointTree& scan, double spacing,
+                                    const PointTree& near, double reach) {
+  std::vector<EmptyBall> places;
   for (const Triangle& triangle : surface.triangles) {
     Corners corners;
     for (std::size_t i = 0; i < 3; ++i) corners[i] = surface.positions[triangle[i]];
@@ -103,10 +103,10 @@ std::vector<std::vector<bool>> points_at_unsampled(std::span<const LoopIds> loop
   };
   double reach = 0;
   for (const Eigen::Vector3d& point : loop_points) reach = std::max(reach, 2 * empty_radius(point));
-  const std::vector<EmptyPlace> places =
+  const std::vector<EmptyBall> places =
       empty_places(surface, scan, sampling.spacing, PointTree(loop_points), reach);
   std::vector<Segment> segments;
-  for (std::size_t i = 0; i < places.size(); ++i) segments.push_back({places[i].place, places[i].place, i});
+  for (std::size_t i = 0; i < places.size(); ++i) segments.push_back({places[i].middle, places[i].middle, i});
   const EdgeTree tree(std::move(segments));
 
   std::vector<std::size_t> near;
@@ -119,7 +119,7 @@ std::vector<std::vector<bool>> points_at_unsampled(std::span<const LoopIds> loop
       const double radius = empty_radius(polygon[i]);
       tree.owners_within(polygon[i], 2 * radius, near);
       result[loop][i] = std::any_of(near.begin(), near.end(), [&](std::size_t place) {
-        return places[place].radius > radius && outline.contains(places[place].place);
+        return places[place].radius > radius && outline.contains(places[place].middle);
       });
     }
   }

@@ -20,7 +20,7 @@ constexpr double kOwnEnd =
 constexpr double kOtherEnd = 4;  // the way to another is at most so many times as long as both
 constexpr double kLongWay = 8;   // spacings
 
-double distance(const CurvePlace& a, const CurvePlace& b) {
+double distance(const CurveNode& a, const CurveNode& b) {
   const Vec3 arm = b.position - a.position;
   return std::sqrt(dot(arm, arm));
 }
@@ -54,7 +54,7 @@ std::vector<bool> junctions(const PatchCurves& all, const std::vector<Lattice>& 
   const Junctions patches(lattices, visibility);
   std::vector<bool> joined;
   for (std::size_t curve = 0; curve < all.curves.size(); ++curve)
-    for (const CurvePlace& place : all.curves[curve])
+    for (const CurveNode& place : all.curves[curve])
       joined.push_back(patches.surface_goes_on(place, all.patches[curve]));
   return joined;
 }
@@ -82,7 +82,7 @@ void cut(const Curve& curve, const std::vector<bool>& joined, std::size_t offset
 }
 
 // Piece p has the ends 2 p and 2 p + 1.
-const CurvePlace& end_of(const std::vector<Curve>& pieces, std::size_t end) {
+const CurveNode& end_of(const std::vector<Curve>& pieces, std::size_t end) {
   const Curve& piece = pieces[end / 2];
   return end % 2 == 0 ? piece.front() : piece.back();
 }
@@ -139,7 +139,7 @@ void join(const std::vector<Curve>& pieces, std::vector<Curve>& closed) {
       entry = partner[entry ^ 1];
     }
     for (std::size_t i = 0; i < curve.size(); ++i) {
-      const CurvePlace& next = curve[i + 1 < curve.size() ? i + 1 : 0];
+      const CurveNode& next = curve[i + 1 < curve.size() ? i + 1 : 0];
       curve[i].long_way = distance(curve[i], next) > kLongWay * std::max(curve[i].spacing, next.spacing);
     }
     closed.push_back(std::move(curve));

@@ -8,7 +8,7 @@
 
 namespace lacuna::synth {
 
-struct CurvePlace {
+struct CurveNode {
   Vec3 position;
   Vec3 normal;     // points to a station that samples the place
   double spacing;  // of the points there, metres
@@ -19,7 +19,7 @@ struct CurvePlace {
 };
 
 // A curve is closed.
-using Curve = std::vector<CurvePlace>;
+using Curve = std::vector<CurveNode>;
 
 // Within a patch, curves run between sampled nodes and others (marching squares), and cross the edges between
 // them where sampling ends. Where two patches touch and both are sampled, the surface goes on. Both curves

@@ -24,7 +24,7 @@ Lattice sampled_by(const Lattice& lattice, std::size_t station, std::size_t stat
 template <typename Holds>
 void cut(const Curve& curve, const Holds& holds, std::vector<Curve>& pieces) {
   std::vector<bool> kept;
-  for (const CurvePlace& place : curve) kept.push_back(holds(place));
+  for (const CurveNode& place : curve) kept.push_back(holds(place));
   const auto first_gap = static_cast<std::size_t>(std::find(kept.begin(), kept.end(), false) - kept.begin());
   if (first_gap == curve.size()) {
     pieces.push_back(curve);
@@ -51,9 +51,9 @@ std::vector<Curve> density_steps(const std::vector<Lattice>& lattices, const Sca
   for (std::uint32_t station = 0; stations > 1 && station < stations; ++station) {
     const Visibility own = visibility.only(station), others = visibility.without(station);
     for (const Lattice& lattice : lattices) {
-      const auto is_step = [&](const CurvePlace& at) {
+      const auto is_step = [&](const CurveNode& at) {
         if (at.at_end) return false;
-        const SurfacePlace place{at.position, at.normal, at.shape, lattice.patch.two_sided};
+        const ScenePoint place{at.position, at.normal, at.shape, lattice.patch.two_sided};
         return others.spacing(place) >= kJump * visibility.spacing(place);
       };
       for (const Curve& curve : patch_curves(sampled_by(lattice, station, stations), own))

@@ -92,7 +92,7 @@ Outline HoleField::outline(std::size_t hole) const {
   return {kTwoPi * std::sqrt(0.5 * squares), [ellipse](double t) {
             const auto [sin, cos] = sin_cos(t);
             const double scale = 1 / std::sqrt(ellipse.form(ellipse.row + sin, ellipse.column + cos));
-            return Place{ellipse.row + scale * sin, ellipse.column + scale * cos};
+            return GridPosition{ellipse.row + scale * sin, ellipse.column + scale * cos};
           }};
 }
 

@@ -72,7 +72,7 @@ Junctions::Junctions(const std::vector<Lattice>& lattices, const Visibility& vis
   }
 }
 
-bool Junctions::surface_goes_on(const CurvePlace& place, std::size_t patch) const {
+bool Junctions::surface_goes_on(const CurveNode& place, std::size_t patch) const {
   const bool shadow = place.cause.kind == Cause::kShadow;
   const bool closed = place.cause.kind == Cause::kNone;
   const bool opening = place.cause.kind == Cause::kDoor;
@@ -90,8 +90,8 @@ bool Junctions::surface_goes_on(const CurvePlace& place, std::size_t patch) cons
       continue;
     const Foot foot = foot_on(lattice.patch, p);
     if (foot.distance > reach) continue;
-    const SurfacePlace touched{lattice.patch.place(foot.u, foot.v), lattice.patch.normal(foot.u, foot.v),
-                               lattice.patch.shape, lattice.patch.two_sided};
+    const ScenePoint touched{lattice.patch.place(foot.u, foot.v), lattice.patch.normal(foot.u, foot.v),
+                             lattice.patch.shape, lattice.patch.two_sided};
     if (all_around_sampled(lattice, foot) || visibility_.any(touched)) return true;
   }
   return false;

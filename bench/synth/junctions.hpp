@@ -15,7 +15,7 @@ class Junctions {
 
   // Whether another patch passes through this place of a curve, and is sampled there. It can only at the end
   // of a patch, at the foot of a thing, around an opening, and in a gap that was closed.
-  bool surface_goes_on(const CurvePlace& place, std::size_t patch) const;
+  bool surface_goes_on(const CurveNode& place, std::size_t patch) const;
 
  private:
   struct Bounds {

@@ -95,18 +95,18 @@ class Tracer {
     return curve;
   }
 
-  CurvePlace locate(const Crossing& crossing) const {
+  CurveNode locate(const Crossing& crossing) const {
     Node in = crossing.first;
     Node out{in.column + (crossing.upward ? 0 : 1), in.row + (crossing.upward ? 1 : 0)};
     if (!is_sampled(in)) std::swap(in, out);
-    const SurfacePlace inside = lattice_.at(in.column, in.row);
+    const ScenePoint inside = lattice_.at(in.column, in.row);
     const double spacing = double{lattice_.spacing[lattice_.node(in.column, in.row)]};
-    CurvePlace place{.position = inside.position,
-                     .normal = visibility_.facing(inside).value_or(inside.normal),
-                     .spacing = spacing,
-                     .shape = lattice_.patch.shape,
-                     .cause = {Cause::kEdge, lattice_.patch.shape},
-                     .at_end = !lattice_.inside(out.column, out.row)};
+    CurveNode place{.position = inside.position,
+                    .normal = visibility_.facing(inside).value_or(inside.normal),
+                    .spacing = spacing,
+                    .shape = lattice_.patch.shape,
+                    .cause = {Cause::kEdge, lattice_.patch.shape},
+                    .at_end = !lattice_.inside(out.column, out.row)};
     if (place.at_end) return place;
     double from = 0, to = 1;
     const auto at = [&](double share) {

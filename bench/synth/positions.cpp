@@ -17,13 +17,13 @@ class JitteredPositions : public Positions {
 
   std::uint64_t size() const override { return grid_.nodes(); }
 
-  std::optional<Place> at(std::uint64_t node) const override {
+  std::optional<GridPosition> at(std::uint64_t node) const override {
     const auto row = static_cast<std::uint32_t>(node / grid_.columns);
     const auto column = static_cast<std::uint32_t>(node % grid_.columns);
     if (!grid_.exists(row, column) || holes_.takes(row, column)) return std::nullopt;
     const double jitter = grid_.thinned(column) ? jitter_ * grid_.stride : jitter_;
-    return Place{row + place_.uniform(2 * node, -jitter, jitter),
-                 column + place_.uniform(2 * node + 1, -jitter, jitter)};
+    return GridPosition{row + place_.uniform(2 * node, -jitter, jitter),
+                        column + place_.uniform(2 * node + 1, -jitter, jitter)};
   }
 
   std::vector<NumberLoop> true_loops() const override {

@@ -19,7 +19,7 @@ class Positions {
 
   // All numbers are below this one, in scanline order. Some of them have no point.
   virtual std::uint64_t size() const = 0;
-  virtual std::optional<Place> at(std::uint64_t number) const = 0;
+  virtual std::optional<GridPosition> at(std::uint64_t number) const = 0;
 
   // Returns the numbers of the points around each hole, then along each outer edge, in order. Each loop is
   // closed, and visits no point twice.

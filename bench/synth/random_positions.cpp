@@ -50,11 +50,11 @@ std::uint64_t RandomPositions::points_in(std::uint64_t square) const {
   return count;
 }
 
-std::optional<Place> RandomPositions::at(std::uint64_t number) const {
+std::optional<GridPosition> RandomPositions::at(std::uint64_t number) const {
   const std::uint64_t square = number / kMostInSquare;
   if (number % kMostInSquare >= points_in(square)) return std::nullopt;
-  const Place place{corner_ + static_cast<double>(square / columns_) + place_.uniform(2 * number),
-                    corner_ + static_cast<double>(square % columns_) + place_.uniform(2 * number + 1)};
+  const GridPosition place{corner_ + static_cast<double>(square / columns_) + place_.uniform(2 * number),
+                           corner_ + static_cast<double>(square % columns_) + place_.uniform(2 * number + 1)};
   if (grid_.stride > 1 && place.column > grid_.step_column &&
       kept_.uniform(number) * grid_.stride * grid_.stride >= 1)
     return std::nullopt;
@@ -63,7 +63,7 @@ std::optional<Place> RandomPositions::at(std::uint64_t number) const {
 }
 
 // The squares up to `reach` from the place's own hold all points up to that distance.
-std::uint64_t RandomPositions::nearest(Place place) const {
+std::uint64_t RandomPositions::nearest(GridPosition place) const {
   const auto rows = static_cast<std::int64_t>(rows_), columns = static_cast<std::int64_t>(columns_);
   const auto middle_row = static_cast<std::int64_t>(std::floor(place.row - corner_));
   const auto middle_column = static_cast<std::int64_t>(std::floor(place.column - corner_));
@@ -78,7 +78,7 @@ std::uint64_t RandomPositions::nearest(Place place) const {
         const auto square = static_cast<std::uint64_t>(near_row * columns + near_column);
         const std::uint64_t end = square * kMostInSquare + points_in(square);
         for (std::uint64_t number = square * kMostInSquare; number < end; ++number) {
-          const std::optional<Place> point = at(number);
+          const std::optional<GridPosition> point = at(number);
           if (!point) continue;
           const double down = point->row + static_cast<double>(row - near_row) - place.row;
           const double across = point->column + static_cast<double>(column - near_column) - place.column;
@@ -94,7 +94,7 @@ std::uint64_t RandomPositions::nearest(Place place) const {
 }
 
 std::vector<NumberLoop> RandomPositions::true_loops() const {
-  const auto nearest_to = [this](Place place) { return nearest(place); };
+  const auto nearest_to = [this](GridPosition place) { return nearest(place); };
   std::vector<NumberLoop> loops;
   for (std::size_t hole = 0; hole < holes_.size(); ++hole)
     loops.push_back(ring_along(holes_.outline(hole), nearest_to));

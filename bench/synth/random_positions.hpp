@@ -24,12 +24,12 @@ class RandomPositions : public Positions {
   RandomPositions(const SurfaceGrid& grid, const HoleField& holes, const SurfaceOptions& options);
 
   std::uint64_t size() const override { return rows_ * columns_ * kMostInSquare; }
-  std::optional<Place> at(std::uint64_t number) const override;
+  std::optional<GridPosition> at(std::uint64_t number) const override;
   std::vector<NumberLoop> true_loops() const override;
 
  private:
   std::uint64_t points_in(std::uint64_t square) const;
-  std::uint64_t nearest(Place place) const;
+  std::uint64_t nearest(GridPosition place) const;
 
   const SurfaceGrid& grid_;
   const HoleField& holes_;

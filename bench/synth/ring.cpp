@@ -14,7 +14,7 @@ constexpr double kLastStep = 0x1p-20;
 
 class Walk {
  public:
-  Walk(const Outline& outline, const std::function<std::uint64_t(Place)>& nearest)
+  Walk(const Outline& outline, const std::function<std::uint64_t(GridPosition)>& nearest)
       : outline_(outline), nearest_(nearest) {}
 
   NumberLoop visits() {
@@ -44,7 +44,7 @@ class Walk {
   }
 
   const Outline& outline_;
-  const std::function<std::uint64_t(Place)>& nearest_;
+  const std::function<std::uint64_t(GridPosition)>& nearest_;
   NumberLoop visits_;
 };
 
@@ -73,7 +73,7 @@ NumberLoop without_returns(NumberLoop loop) {
   return loop;
 }
 
-NumberLoop ring_along(const Outline& outline, const std::function<std::uint64_t(Place)>& nearest) {
+NumberLoop ring_along(const Outline& outline, const std::function<std::uint64_t(GridPosition)>& nearest) {
   return without_returns(Walk(outline, nearest).visits());
 }
 

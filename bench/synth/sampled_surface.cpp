@@ -51,11 +51,11 @@ bool is_border(const Lattice& lattice, std::int32_t column, std::int32_t row, co
 // The places where sampling ends, each with the radius within which no hole is.
 struct SampledBorder {
   std::vector<Sphere> spheres;
-  std::vector<SurfacePlace> places;
+  std::vector<ScenePoint> places;
 };
 
 // Returns the side of a two-sided patch on which the first station that samples it lies.
-SurfacePlace with_side(SurfacePlace place, const Visibility& visibility) {
+ScenePoint with_side(ScenePoint place, const Visibility& visibility) {
   if (!place.two_sided) return place;
   if (const std::optional<Vec3> normal = visibility.facing(place)) {
     place.normal = *normal;
@@ -77,20 +77,20 @@ SampledBorder border_of(const std::vector<Lattice>& lattices, const Visibility& 
   return border;
 }
 
-bool on_one_side(const SurfacePlace& a, const SurfacePlace& b) {
+bool on_one_side(const ScenePoint& a, const ScenePoint& b) {
   return a.two_sided || b.two_sided || dot(a.normal, b.normal) > kFarSide;
 }
 
 // Returns the smallest radius of the spheres around each node that is not sampled; 0 at the cores of holes.
 std::vector<std::vector<float>> radii_around(const std::vector<Lattice>& lattices, SampledBorder border) {
-  const std::vector<SurfacePlace> places = std::move(border.places);
+  const std::vector<ScenePoint> places = std::move(border.places);
   const SphereIndex index(std::move(border.spheres));
   std::vector<std::vector<float>> radii;
   for (const Lattice& lattice : lattices) {
     std::vector<float>& own = radii.emplace_back(lattice.sampled.size());
     for_each_node(lattice, [&](std::int32_t column, std::int32_t row, std::size_t node) {
       if (lattice.spacing[node] > 0) return;
-      const SurfacePlace place = lattice.at(column, row);
+      const ScenePoint place = lattice.at(column, row);
       index.for_each_around(place.position, [&](std::uint32_t number) {
         if (!on_one_side(place, places[number])) return;
         const auto radius = static_cast<float>(index.spheres()[number].radius);
@@ -156,7 +156,7 @@ std::vector<Lattice> sample_surfaces(const Scanner& scanner, const Visibility& v
     lattice.sampled.resize(size);
     lattice.by_station.resize(size * scanner.stations().size());
     for_each_node(lattice, [&](std::int32_t column, std::int32_t row, std::size_t node) {
-      const SurfacePlace place = lattice.at(column, row);
+      const ScenePoint place = lattice.at(column, row);
       double sum = 0;
       for (const std::uint32_t sweep : visibility.sweeps()) {
         const double density = visibility.density(place, sweep);

@@ -33,7 +33,7 @@ struct Lattice {
   double u(double column) const { return column / (columns - 1); }
   double v(double row) const { return row / (rows - 1); }
   // Places between the nodes are valid, too.
-  SurfacePlace at(double column, double row) const {
+  ScenePoint at(double column, double row) const {
     return {patch.place(u(column), v(row)), patch.normal(u(column), v(row)), patch.shape, patch.two_sided};
   }
 };

@@ -31,8 +31,8 @@ double distance(Vec3 a, Vec3 b) {
 template <typename Use>
 void for_each_side(const Curve& curve, const Use& use) {
   for (std::size_t i = 0; i < curve.size(); ++i) {
-    const CurvePlace& from = curve[i];
-    const CurvePlace& to = curve[i + 1 < curve.size() ? i + 1 : 0];
+    const CurveNode& from = curve[i];
+    const CurveNode& to = curve[i + 1 < curve.size() ? i + 1 : 0];
     use(from, to, distance(from.position, to.position));
   }
 }
@@ -43,7 +43,7 @@ void for_each_side(const Curve& curve, const Use& use) {
 std::string name_of(const Curve& curve, const Scene& scene) {
   std::map<std::string, double> edges, others;
   double whole = 0, caused = 0;
-  for_each_side(curve, [&](const CurvePlace& from, const CurvePlace&, double length) {
+  for_each_side(curve, [&](const CurveNode& from, const CurveNode&, double length) {
     if (from.long_way) return;
     whole += length;
     if (from.cause.kind == Cause::kNone) return;
@@ -77,7 +77,7 @@ ScanTruth::ScanTruth(const Scanner& scanner, std::uint64_t points) : index_({}) 
   const std::vector<Curve> curves = boundary_curves(lattices, visibility);
   double whole = 0;
   for (const Curve& curve : curves)
-    for_each_side(curve, [&](const CurvePlace&, const CurvePlace&, double length) { whole += length; });
+    for_each_side(curve, [&](const CurveNode&, const CurveNode&, double length) { whole += length; });
   std::vector<Sphere> spheres;
   for (const Curve& curve : curves) {
     const std::string name = name_of(curve, scanner.scene());
@@ -91,12 +91,12 @@ ScanTruth::ScanTruth(const Scanner& scanner, std::uint64_t points) : index_({}) 
 // There is one sphere per place. Places are a step apart at most, but for long ways. A step is not closed.
 void ScanTruth::add(const Curve& curve, double least_step, std::string name, std::vector<Sphere>& spheres) {
   const std::size_t begin = places_.size();
-  const auto add_place = [&](Vec3 position, const CurvePlace& near) {
+  const auto add_place = [&](Vec3 position, const CurveNode& near) {
     spheres.push_back({position, kSearchRadius * near.spacing});
     places_.push_back({near.shape, std::numeric_limits<double>::infinity(), kNobody, kNobody});
   };
   std::size_t sides = name.empty() ? curve.size() - 1 : curve.size();
-  for_each_side(curve, [&](const CurvePlace& from, const CurvePlace& to, double length) {
+  for_each_side(curve, [&](const CurveNode& from, const CurveNode& to, double length) {
     if (sides == 0) return add_place(from.position, from);
     --sides;
     const double step = std::max(kPlaceStep * std::min(from.spacing, to.spacing), least_step);
@@ -112,7 +112,7 @@ void ScanTruth::add(const Curve& curve, double least_step, std::string name, std
 void ScanTruth::note(const Echo& echo, std::uint64_t ray, std::uint64_t id) {
   if (echo.stray) return;
   index_.for_each_around(echo.place, [&](std::uint32_t number) {
-    Place& place = places_[number];
+    NearestEcho& place = places_[number];
     if (place.shape != echo.shape) return;
     const Vec3 arm = echo.place - index_.spheres()[number].centre;
     const double squared = dot(arm, arm);
@@ -126,7 +126,7 @@ void ScanTruth::note(const Echo& echo, std::uint64_t ray, std::uint64_t id) {
 std::vector<std::uint64_t> ScanTruth::ids_along(const Row& row) const {
   std::vector<std::uint64_t> ids;
   std::size_t present = 0;
-  for (const Place& place : std::span(places_).subspan(row.begin, row.end - row.begin)) {
+  for (const NearestEcho& place : std::span(places_).subspan(row.begin, row.end - row.begin)) {
     if (place.id == kNobody) continue;
     ++present;
     if (ids.empty() || ids.back() != place.id) ids.push_back(place.id);

@@ -38,7 +38,7 @@ class ScanTruth {
   std::vector<std::vector<std::uint64_t>> steps() const;
 
  private:
-  struct Place {
+  struct NearestEcho {
     std::uint32_t shape;
     double nearest;  // squared
     std::uint64_t ray, id;
@@ -51,7 +51,7 @@ class ScanTruth {
   void add(const Curve& curve, double least_step, std::string name, std::vector<Sphere>& spheres);
   std::vector<std::uint64_t> ids_along(const Row& row) const;
 
-  std::vector<Place> places_;
+  std::vector<NearestEcho> places_;
   std::vector<Row> rows_;
   SphereIndex index_;
 };

@@ -63,7 +63,7 @@ class PointMaker {
         translate_{options.translate[0], options.translate[1], options.translate[2]},
         height_(options.seed, 2) {}
 
-  Vec3 at(Place place, std::uint64_t number) const {
+  Vec3 at(GridPosition place, std::uint64_t number) const {
     const SurfacePoint p = shape_.at(place.row, place.column);
     if (noise_ == 0) return p.position + translate_;
     return p.position + noise_ * height_.normal(number) * p.normal + translate_;
@@ -96,7 +96,7 @@ SurfaceSummary write_surface(const SurfaceOptions& options) {
 
   for (std::uint64_t turn = 0; turn < positions->size(); ++turn) {
     const std::uint64_t number = options.order == Order::kRandom ? shuffled(turn) : turn;
-    const std::optional<Place> place = positions->at(number);
+    const std::optional<GridPosition> place = positions->at(number);
     if (!place) continue;
     truth.note(number, ply.count());
     ply.add(points.at(*place, number));

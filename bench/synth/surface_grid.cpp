@@ -108,10 +108,10 @@ std::vector<Outline> outer_edges(const SurfaceGrid& grid) {
     const double around = grid.columns;
     return {{around,
              [=](double t) {
-               return Place{0, t * around};
+               return GridPosition{0, t * around};
              }},
             {around, [=](double t) {
-               return Place{height, t * around};
+               return GridPosition{height, t * around};
              }}};
   }
   const double width = grid.columns - 1.0;
@@ -120,10 +120,10 @@ std::vector<Outline> outer_edges(const SurfaceGrid& grid) {
   return {{around, [=](double t) {
              double way = t * around + 0.5 * width;
              if (way >= around) way -= around;
-             if (way < width) return Place{0, way};
-             if (way < width + height) return Place{way - width, width};
-             if (way < 2 * width + height) return Place{height, 2 * width + height - way};
-             return Place{around - way, 0};
+             if (way < width) return GridPosition{0, way};
+             if (way < width + height) return GridPosition{way - width, width};
+             if (way < 2 * width + height) return GridPosition{height, 2 * width + height - way};
+             return GridPosition{around - way, 0};
            }}};
 }
 

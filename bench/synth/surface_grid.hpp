@@ -35,14 +35,14 @@ struct SurfaceGrid {
 };
 
 // A place between the nodes, in fractions of rows and columns.
-struct Place {
+struct GridPosition {
   double row = 0, column = 0;
 };
 
 // A closed curve in the plane of the grid; its parameter goes from 0 to 1.
 struct Outline {
   double length = 0;  // nodes; an ellipse has a bound from above
-  std::function<Place(double)> at;
+  std::function<GridPosition(double)> at;
 };
 
 // The numbers of points, or of the nodes that they stand for, in the order of a closed loop.

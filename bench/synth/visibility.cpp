@@ -61,7 +61,7 @@ Visibility Visibility::without(std::uint32_t station) const {
   return part;
 }
 
-Cause Visibility::cause(const SurfacePlace& place, std::uint32_t number) const {
+Cause Visibility::cause(const ScenePoint& place, std::uint32_t number) const {
   const Scene& scene = scanner_.scene();
   const Sweep& sweep = scanner_.sweeps()[number];
   const Vec3 eye = scanner_.eye(sweep, place.position);
@@ -87,12 +87,12 @@ Cause Visibility::cause(const SurfacePlace& place, std::uint32_t number) const {
   return {};
 }
 
-bool Visibility::any(const SurfacePlace& place) const {
+bool Visibility::any(const ScenePoint& place) const {
   return std::any_of(sweeps_.begin(), sweeps_.end(),
                      [&](std::uint32_t sweep) { return cause(place, sweep).kind == Cause::kNone; });
 }
 
-std::optional<Vec3> Visibility::facing(const SurfacePlace& place) const {
+std::optional<Vec3> Visibility::facing(const ScenePoint& place) const {
   for (const std::uint32_t sweep : sweeps_) {
     if (cause(place, sweep).kind != Cause::kNone) continue;
     const Vec3 eye = scanner_.eye(scanner_.sweeps()[sweep], place.position);
@@ -101,7 +101,7 @@ std::optional<Vec3> Visibility::facing(const SurfacePlace& place) const {
   return std::nullopt;
 }
 
-double Visibility::density(const SurfacePlace& place, std::uint32_t number) const {
+double Visibility::density(const ScenePoint& place, std::uint32_t number) const {
   if (cause(place, number).kind != Cause::kNone) return 0;
   const Sweep& sweep = scanner_.sweeps()[number];
   const Scene& scene = scanner_.scene();
@@ -125,7 +125,7 @@ double Visibility::density(const SurfacePlace& place, std::uint32_t number) cons
   return share * incidence / (square * step * step * elevation);
 }
 
-double Visibility::spacing(const SurfacePlace& place) const {
+double Visibility::spacing(const ScenePoint& place) const {
   double sum = 0;
   for (const std::uint32_t sweep : sweeps_) sum += density(place, sweep);
   return sum > 0 ? 1 / std::sqrt(sum) : 0;

@@ -34,7 +34,7 @@ struct Cause {
 // Returns the cause as a person would say it.
 std::string in_words(const Cause& cause, const Scene& scene);
 
-struct SurfacePlace {
+struct ScenePoint {
   Vec3 position, normal;
   std::uint32_t shape;
   bool two_sided;
@@ -53,20 +53,20 @@ class Visibility {
   const std::vector<std::uint32_t>& sweeps() const { return sweeps_; }
 
   // The cause is kNone if the sweep samples the place.
-  Cause cause(const SurfacePlace& place, std::uint32_t sweep) const;
-  bool any(const SurfacePlace& place) const;
+  Cause cause(const ScenePoint& place, std::uint32_t sweep) const;
+  bool any(const ScenePoint& place) const;
 
   // Returns the normal on the side of the first station that samples the place; empty if no station does.
-  std::optional<Vec3> facing(const SurfacePlace& place) const;
+  std::optional<Vec3> facing(const ScenePoint& place) const;
 
   // Returns the points per square metre that one sweep leaves around the place; 0 if the sweep does not
   // sample it.
-  double density(const SurfacePlace& place, std::uint32_t sweep) const;
+  double density(const ScenePoint& place, std::uint32_t sweep) const;
 
   // Returns the mean distance of the points that all sweeps leave around the place; 0 if none samples it. For
   // a scanner with rings it is the distance of the rings. Grazing rays and rays near the zenith count as less
   // grazing ones, since their points lie close in one direction only.
-  double spacing(const SurfacePlace& place) const;
+  double spacing(const ScenePoint& place) const;
 
  private:
   const Scanner& scanner_;

@@ -58,11 +58,11 @@ class Loops {
 
 // Loops of several levels, some of which are chosen.
 struct ChosenLoops {
-  struct Place {
+  struct LoopOfLevel {
     std::uint32_t level, loop;
   };
   std::vector<Loops> levels;
-  std::vector<Place> chosen;  // in the order of (first id, length, ids)
+  std::vector<LoopOfLevel> chosen;  // in the order of (first id, length, ids)
 
   std::size_t size() const { return chosen.size(); }
   std::uint64_t points() const {

@@ -16,30 +16,30 @@ namespace lacuna {
 template <class Least, class IsEnough, class Enter, class Visit>
 void for_each_cell_least_first(const Tiling& tiling, Least&& least, IsEnough&& is_enough, Enter&& enter,
                                Visit&& visit) {
-  struct Place {
+  struct NodeOrCell {
     double least;
     std::uint32_t index;
     bool is_cell;
 
-    bool operator<(const Place& other) const { return least > other.least; }  // the least one on top
+    bool operator<(const NodeOrCell& other) const { return least > other.least; }  // the least one on top
   };
-  std::priority_queue<Place> places;
-  if (!tiling.nodes.empty()) places.push({least(tiling.nodes[0].box), 0, false});
-  while (!places.empty() && !is_enough(places.top().least)) {
-    const Place place = places.top();
-    places.pop();
-    if (place.is_cell) {
-      visit(place.index);
+  std::priority_queue<NodeOrCell> queue;
+  if (!tiling.nodes.empty()) queue.push({least(tiling.nodes[0].box), 0, false});
+  while (!queue.empty() && !is_enough(queue.top().least)) {
+    const NodeOrCell next = queue.top();
+    queue.pop();
+    if (next.is_cell) {
+      visit(next.index);
       continue;
     }
-    const CellNode& node = tiling.nodes[place.index];
+    const CellNode& node = tiling.nodes[next.index];
     if (!enter(node)) continue;
     if (node.left != 0) {
       for (const std::uint32_t child : {node.left, node.right})
-        places.push({least(tiling.nodes[child].box), child, false});
+        queue.push({least(tiling.nodes[child].box), child, false});
     } else {
       for (std::uint32_t cell = node.first; cell < node.last; ++cell)
-        places.push({least(tiling.cells[cell].box), cell, true});
+        queue.push({least(tiling.cells[cell].box), cell, true});
     }
   }
 }

@@ -131,15 +131,15 @@ void box_gaps(const double* low, const double* high, const LevelSides& level, st
 bool find_blocks(const LevelSides* levels, std::size_t top, const double* low, const double* high,
                  double squared_radius, Surroundings& surroundings) {
   const auto limit = hn::Set(Doubles(), squared_radius);
-  struct Place {
+  struct BoxGroup {
     std::size_t level, group;
   };
-  Place stack[128];
+  BoxGroup stack[128];
   std::size_t depth = 0;
   stack[depth++] = {top, 0};
   surroundings.count = 0;
   while (depth > 0) {
-    const Place at = stack[--depth];
+    const BoxGroup at = stack[--depth];
     const LevelSides& boxes = levels[at.level];
     const std::size_t first_box = at.group * kFan, left = boxes.count - first_box;
     std::uint32_t within = 0;

@@ -22,12 +22,12 @@ class SignedUnionFind {
   SignedUnionFind(std::uint64_t rows, Scratch& scratch)
       : scratch_(scratch), links_(scratch.array<std::uint64_t>(rows)) {}
 
-  struct Place {
+  struct SignedRoot {
     std::uint64_t root;
     bool opposed;
   };
 
-  Place find(std::uint64_t x) {
+  SignedRoot find(std::uint64_t x) {
     scratch_.trim();
     bool opposed = false;
     while (links_[x] != 0) {
@@ -40,7 +40,7 @@ class SignedUnionFind {
   }
 
   void unite(std::uint64_t a, std::uint64_t b, bool opposed) {
-    const Place at_a = find(a), at_b = find(b);
+    const SignedRoot at_a = find(a), at_b = find(b);
     if (at_a.root == at_b.root) return;
     const auto [low, high] = std::minmax(at_a.root, at_b.root);
     links_[high] = link(low, (at_a.opposed != at_b.opposed) != opposed);

@@ -68,12 +68,12 @@ CellTree& CellTree::operator=(CellTree&&) noexcept = default;
 
 // All counts are located before any of them changes: the cache misses of points in random order overlap.
 void CellTree::add(std::span<const CellRun> runs, int doublings) {
-  struct Place {
+  struct Counter {
     Leaf* leaf;
     std::int32_t* count;
   };
   auto& accessor = nodes_->accessor;
-  std::array<Place, kTogether> places;
+  std::array<Counter, kTogether> counters;
   for (; !runs.empty(); runs = runs.subspan(std::min(runs.size(), kTogether))) {
     const std::size_t together = std::min(runs.size(), kTogether);
     for (std::size_t i = 0; i < together; ++i) {
@@ -85,11 +85,11 @@ void CellTree::add(std::span<const CellRun> runs, int doublings) {
         bottoms_ += nodes_->tree.probeNode<Bottom>(cell) == nullptr;
         leaf = accessor.touchLeaf(cell);
       }
-      places[i] = {leaf, leaf->buffer().data() + Leaf::coordToOffset(cell)};
-      __builtin_prefetch(places[i].count, 1);
+      counters[i] = {leaf, leaf->buffer().data() + Leaf::coordToOffset(cell)};
+      __builtin_prefetch(counters[i].count, 1);
     }
     for (std::size_t i = 0; i < together; ++i) {
-      const auto& [leaf, count] = places[i];
+      const auto& [leaf, count] = counters[i];
       if (*count == 0) {
         leaf->setValueOn(static_cast<openvdb::Index>(count - leaf->buffer().data()), 0);
         ++cells_;

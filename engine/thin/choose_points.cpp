@@ -34,7 +34,7 @@ class OccupiedCells {
 
   // Compares a point of another tile with the representative of its cell, if there is one.
   void compare(const ScanPoint& point) {
-    const LatticePlace place = place_of(point);
+    const PointInCell place = place_of(point);
     const std::uint32_t slot = slots_[slot_of(place)];
     if (slot == 0 || !comes_first(place.squared_offset, point, cells_[slot - 1])) return;
     cells_[slot - 1].squared_offset = place.squared_offset;
@@ -63,7 +63,7 @@ class OccupiedCells {
   };
 
   void add(LocalIndex p) {
-    const LatticePlace place = place_of(points_[p]);
+    const PointInCell place = place_of(points_[p]);
     std::uint32_t& slot = slots_[slot_of(place)];
     if (slot == 0) {
       cells_.push_back({place.cell, place.squared_offset, p});
@@ -81,15 +81,15 @@ class OccupiedCells {
   }
 
   // Returns the slot with this cell, or the empty slot where it belongs.
-  std::size_t slot_of(const LatticePlace& place) const {
+  std::size_t slot_of(const PointInCell& place) const {
     std::size_t slot = (place.hash >> 32) & (slots_.size() - 1);
     while (slots_[slot] != 0 && cells_[slots_[slot] - 1].cell != place.cell)
       slot = (slot + 1) & (slots_.size() - 1);
     return slot;
   }
 
-  LatticePlace place_of(const ScanPoint& point) const {
-    const LatticePlace place = lattice_.place_of(point.position());
+  PointInCell place_of(const ScanPoint& point) const {
+    const PointInCell place = lattice_.place_of(point.position());
     if (place.cell.allFinite()) return place;
     std::ostringstream message;
     message << "point " << value(point.id) << " at " << point.position().transpose()

@@ -20,8 +20,8 @@ std::uint64_t hash_of(const Eigen::Vector3d& cell) {
   return mixed(mixed(mixed(0, cell.x()), cell.y()), cell.z());
 }
 
-LatticePlace Lattice::place_of(const Eigen::Vector3d& position) const {
-  LatticePlace place{.cell = {}, .squared_offset = 0, .hash = 0};
+PointInCell Lattice::place_of(const Eigen::Vector3d& position) const {
+  PointInCell place{.cell = {}, .squared_offset = 0, .hash = 0};
   for (int axis = 0; axis < 3; ++axis) {
     const double edges = position[axis] * per_length_;
     place.cell[axis] = std::floor(edges) + 0.0;  // -0 is 0

@@ -10,7 +10,7 @@
 namespace lacuna {
 
 // Where a point lies.
-struct LatticePlace {
+struct PointInCell {
   Eigen::Vector3d cell;   // whole numbers
   double squared_offset;  // squared distance to the cell's middle, in edges
   std::uint64_t hash;     // of the cell
@@ -23,7 +23,7 @@ class Lattice {
   explicit Lattice(double edge) : per_length_(1 / edge) {}  // edge: above 0
 
   // Returns the place of a point. Its cell is not finite where the coordinates are too large for the edge.
-  LatticePlace place_of(const Eigen::Vector3d& position) const;
+  PointInCell place_of(const Eigen::Vector3d& position) const;
 
  private:
   double per_length_;

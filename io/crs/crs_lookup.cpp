@@ -22,7 +22,8 @@ extern "C" void lacuna_look_up_crs(CrsLookup& lookup) {
   lookup.reason = failures.first();
 }
 
-extern "C" bool lacuna_find_scale(const std::string& crs, const Eigen::Vector3d& place, ScaleAtPlace& scale) {
+extern "C" bool lacuna_find_scale(const std::string& crs, const Eigen::Vector3d& place,
+                                  ProjectionScale& scale) {
   register_gdal_drivers();
   const GdalFailures failures;
   OGRSpatialReference system;

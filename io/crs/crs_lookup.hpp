@@ -17,7 +17,7 @@ struct CrsLookup {
   std::string reason;      // GDAL's, where it does not
 };
 
-struct ScaleAtPlace {
+struct ProjectionScale {
   // The lengths in coordinates over the true ones on the ellipsoid, along x and along y, which is 1 at best.
   double scale_x = 1, scale_y = 1;
   double longitude = 0, latitude = 0;  // in degrees
@@ -25,7 +25,7 @@ struct ScaleAtPlace {
 
 using LookUpCrs = void(CrsLookup& lookup);
 // False where the system is not projected, or does not have the place.
-using FindScale = bool(const std::string& crs, const Eigen::Vector3d& place, ScaleAtPlace& scale);
+using FindScale = bool(const std::string& crs, const Eigen::Vector3d& place, ProjectionScale& scale);
 using IsSameCrs = bool(const std::string& a, const std::string& b);  // false where GDAL does not understand
 // Works as to_degrees() of io/crs/degrees.hpp. Returns false if GDAL does not convert all places; then some
 // may be changed.

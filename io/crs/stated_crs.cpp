@@ -107,11 +107,11 @@ std::string known_text(const std::string& crs) {
   return lookup->known_text.empty() && flat != crs ? known_text(flat) : lookup->known_text;
 }
 
-std::optional<ScaleAtPlace> scale_at(const std::string& crs, const Eigen::Vector3d& place) {
+std::optional<ProjectionScale> scale_at(const std::string& crs, const Eigen::Vector3d& place) {
   // GDAL takes 70 ms and 35 MiB, which most scans can do without: within this strip UTM is true to 1 in 300.
   if (is_utm(crs) && place.x() > 0 && place.x() < 1e6) return std::nullopt;
   auto* const find_scale = reinterpret_cast<FindScale*>(find_gis_function(kFindScale));
-  ScaleAtPlace scale;
+  ProjectionScale scale;
   if (crs.empty() || find_scale == nullptr || !find_scale(crs, place, scale)) return std::nullopt;
   return scale;
 }

@@ -27,7 +27,7 @@ std::string known_text(const std::string& crs);
 
 // Returns the scale of a projected system at a place. Returns nothing for other systems, for places that it
 // does not have, and without lacuna_gis.so.
-std::optional<ScaleAtPlace> scale_at(const std::string& crs, const Eigen::Vector3d& place);
+std::optional<ProjectionScale> scale_at(const std::string& crs, const Eigen::Vector3d& place);
 
 // Whether two texts name the same system. Different texts are compared by GDAL; without lacuna_gis.so they
 // are not the same.

@@ -106,7 +106,7 @@ void find_waveforms(const std::filesystem::path& file, std::uint64_t place, LasH
   constexpr std::uint16_t kIsInside = 2;
   if ((value_at<std::uint16_t>(header.bytes, 6) & kIsInside) == 0 || place == 0) return;
   const auto found = std::find_if(header.extended.begin(), header.extended.end(),
-                                  [&](const LasRecordPlace& record) { return record.at == place; });
+                                  [&](const LasRecordExtent& record) { return record.at == place; });
   if (found != header.extended.end()) {
     header.waveforms_at = place;
     return;

@@ -25,7 +25,7 @@ struct LasExtraBytes {
 };
 
 // The place of a variable length record in its file, of either kind.
-struct LasRecordPlace {
+struct LasRecordExtent {
   std::string user;
   std::uint16_t number;
   std::uint64_t at;     // of its own header
@@ -44,7 +44,7 @@ struct LasHeader {
   std::vector<std::byte> laszip;  // data of the record "laszip encoded"; empty without it
   LasCrs crs;
   std::vector<std::byte> bytes;  // the whole header block, as it is in the file
-  std::vector<LasRecordPlace> records, extended;
+  std::vector<LasRecordExtent> records, extended;
   std::optional<std::uint64_t> waveforms_at;  // of the extended record with waveforms, where they are inside
 };
 

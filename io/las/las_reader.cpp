@@ -19,7 +19,7 @@ namespace {
 // Returns the bytes of points and of nothing else: up to the records behind them.
 std::uint64_t point_bytes(const InputFile& in, const LasHeader& header) {
   std::uint64_t end = in.position() + in.remaining();
-  for (const LasRecordPlace& record : header.extended) {
+  for (const LasRecordExtent& record : header.extended) {
     if (record.at >= header.points_at) end = std::min(end, record.at);
   }
   return end - header.points_at;

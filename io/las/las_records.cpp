@@ -19,7 +19,7 @@ std::string las_record_head(std::string_view user, std::uint16_t number, std::ui
   return head;
 }
 
-std::uint64_t copy_las_record(const std::filesystem::path& file, const LasRecordPlace& record,
+std::uint64_t copy_las_record(const std::filesystem::path& file, const LasRecordExtent& record,
                               OutputFile& out) {
   constexpr std::size_t kBuffer = std::size_t{1} << 16;
   InputFile in(file, kBuffer);

@@ -27,7 +27,7 @@ std::string las_record_head(std::string_view user, std::uint16_t number, std::ui
                             std::string_view description);
 
 // Copies a record of the file byte for byte. Returns the number of bytes copied. Throws `Error`.
-std::uint64_t copy_las_record(const std::filesystem::path& file, const LasRecordPlace& record,
+std::uint64_t copy_las_record(const std::filesystem::path& file, const LasRecordExtent& record,
                               OutputFile& out);
 
 }  // namespace lacuna::io

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kHeaderBytes = 375;
 constexpr int kCompressed = 0x80;  // of the point format
 
-bool goes_over(const LasRecordPlace& record) {
+bool goes_over(const LasRecordExtent& record) {
   if (record.user == kLaszip || record.user == "copc") return false;
   return record.user != kLasSpecification || record.number != kLasExtraBytes;
 }
@@ -68,7 +68,7 @@ void LasWriter::write_records(std::span<const LasExtraBytes> extra,
     written_ += kLasRecordHead + data.size();
     ++records_;
   };
-  for (const LasRecordPlace& record : from_.records) {
+  for (const LasRecordExtent& record : from_.records) {
     if (!goes_over(record)) continue;
     written_ += copy_las_record(file_, record, out_);
     ++records_;
@@ -90,7 +90,7 @@ void LasWriter::put_rows(std::span<const std::byte> records) {
 
 void LasWriter::write_extended() {
   extended_at_ = written_;
-  for (const LasRecordPlace& record : from_.extended) {
+  for (const LasRecordExtent& record : from_.extended) {
     if (!goes_over(record)) continue;
     if (record.at == from_.waveforms_at) waveforms_at_ = written_;
     written_ += copy_las_record(file_, record, out_);

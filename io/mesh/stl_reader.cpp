@@ -99,14 +99,14 @@ class AsciiStl final : public ScanReader {
       while (const auto line = in_.next_line()) {
         if (read_line(*line, to)) return true;
       }
-      if (place_ != Place::kOutside)
+      if (within_ != Within::kOutside)
         in_.fail_at_line(in_.line(), "the file ends here within a solid; 'endsolid' must follow");
       return false;
     });
   }
 
  private:
-  enum class Place : std::uint8_t { kOutside, kSolid, kFacet, kLoop, kClosed };
+  enum class Within : std::uint8_t { kOutside, kSolid, kFacet, kLoop, kClosed };
 
   // Whether the line has a vertex.
   bool read_line(std::string_view line, std::byte* to) {
@@ -114,7 +114,7 @@ class AsciiStl final : public ScanReader {
     const std::string keyword = first_word(words);
     if (keyword.empty()) return false;
     if (keyword == "vertex") {
-      if (place_ != Place::kLoop || corners_ == 3) words.fail("a vertex outside of a loop of three");
+      if (within_ != Within::kLoop || corners_ == 3) words.fail("a vertex outside of a loop of three");
       constexpr const char* kNeeded = "'vertex x y z' is allowed";
       for (int i = 0; i < 3; ++i, to += sizeof(double)) {
         const auto value = words.number<double>(kNeeded);
@@ -129,17 +129,17 @@ class AsciiStl final : public ScanReader {
     }
     struct Step {
       const char* keyword;
-      Place from, to;
+      Within from, to;
     };
-    constexpr std::array<Step, 6> kSteps = {{{"solid", Place::kOutside, Place::kSolid},
-                                             {"facet", Place::kSolid, Place::kFacet},
-                                             {"outer", Place::kFacet, Place::kLoop},
-                                             {"endloop", Place::kLoop, Place::kClosed},
-                                             {"endfacet", Place::kClosed, Place::kSolid},
-                                             {"endsolid", Place::kSolid, Place::kOutside}}};
+    constexpr std::array<Step, 6> kSteps = {{{"solid", Within::kOutside, Within::kSolid},
+                                             {"facet", Within::kSolid, Within::kFacet},
+                                             {"outer", Within::kFacet, Within::kLoop},
+                                             {"endloop", Within::kLoop, Within::kClosed},
+                                             {"endfacet", Within::kClosed, Within::kSolid},
+                                             {"endsolid", Within::kSolid, Within::kOutside}}};
     for (const Step& step : kSteps) {
-      if (place_ != step.from || keyword != step.keyword) continue;
-      place_ = step.to;
+      if (within_ != step.from || keyword != step.keyword) continue;
+      within_ = step.to;
       corners_ = 0;
       return false;
     }
@@ -147,16 +147,16 @@ class AsciiStl final : public ScanReader {
   }
 
   std::string allowed_here() const {
-    switch (place_) {
-      case Place::kOutside:
+    switch (within_) {
+      case Within::kOutside:
         return "'solid' and the end of the file";
-      case Place::kSolid:
+      case Within::kSolid:
         return "'facet' and 'endsolid'";
-      case Place::kFacet:
+      case Within::kFacet:
         return "'outer loop'";
-      case Place::kLoop:
+      case Within::kLoop:
         return "'vertex' and 'endloop'";
-      case Place::kClosed:
+      case Within::kClosed:
         break;
     }
     return "'endfacet'";
@@ -164,7 +164,7 @@ class AsciiStl final : public ScanReader {
 
   InputFile in_;
   RowLayout layout_;
-  Place place_ = Place::kOutside;
+  Within within_ = Within::kOutside;
   int corners_ = 0;  // of the facet, so far
 };
 

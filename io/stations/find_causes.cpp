@@ -49,7 +49,7 @@ struct Scanner {
   bool may_return;
 };
 
-Sight look(const Aim& aim, const Scanner& scanner, const InsidePlace& place, double tolerance) {
+Sight look(const Aim& aim, const Scanner& scanner, const InnerSample& place, double tolerance) {
   const double range = aim.range, measured = aim.measured;
   if (!(range > 0)) return {};
   const double cosine = std::fabs(aim.direction.dot(place.normal));
@@ -72,7 +72,7 @@ Sight look(const Aim& aim, const Scanner& scanner, const InsidePlace& place, dou
       .is_floor = std::fabs(place.normal.dot(scanner.axis)) > kLevel && aim.direction.dot(scanner.axis) < 0};
 }
 
-Sight look(const StationView& view, const InsidePlace& place, double tolerance) {
+Sight look(const StationView& view, const InnerSample& place, double tolerance) {
   const Eigen::Vector3d arm = place.position - view.station.place;
   const double range = arm.norm();
   if (!(range > 0)) return {};
@@ -99,7 +99,7 @@ class Findings {
       if (is_certain(views[i])) stations_.push_back(static_cast<std::int32_t>(i));
   }
 
-  void add(const InsidePlace& place, double tolerance) {
+  void add(const InnerSample& place, double tolerance) {
     if (stations_.empty() && !path_) return;
     std::optional<Sight> found;
     const auto take = [&](const Sight& sight) {
@@ -195,12 +195,12 @@ class Findings {
 
 }  // namespace
 
-LoopCause cause_of(std::span<const InsidePlace> places, std::span<const StationView> views,
+LoopCause cause_of(std::span<const InnerSample> places, std::span<const StationView> views,
                    const PathView* path, double tolerance, const std::function<void()>& after_place) {
   Eigen::AlignedBox3d hole;
-  for (const InsidePlace& place : places) hole.extend(place.position);
+  for (const InnerSample& place : places) hole.extend(place.position);
   Findings findings(views, path, hole);
-  for (const InsidePlace& place : places) {
+  for (const InnerSample& place : places) {
     findings.add(place, tolerance);
     if (after_place) after_place();
   }
@@ -221,7 +221,7 @@ void find_causes(StationViews& stations, FileScan& scan, const RunConfig& run,
   arena.for_each(detection.loops.size(), [&](std::size_t i) {
     const LoopMeasures& loop = detection.loops[i];
     if (loop.kind != LoopKind::kHole || detection.stations.empty()) return;
-    const std::vector<InsidePlace> places = inside_places(detection, i);
+    const std::vector<InnerSample> places = inside_places(detection, i);
     LoopCause& cause = detection.causes[i];
     const auto note = [&] { stations.note_touched(kPagesAround * detection.stations.size()); };
     cause = cause_of(places, views, path, tolerance_of(loop), note);

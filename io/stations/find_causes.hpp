@@ -40,7 +40,7 @@ inline constexpr double kLeastIncidence = 0.0523;
 // `after_place` is called after each place.
 // `path` belongs to a moving scanner, and is null without one. Each section of it counts as a station, in the
 // directions in which the scanner sweeps.
-LoopCause cause_of(std::span<const InsidePlace> places, std::span<const StationView> views,
+LoopCause cause_of(std::span<const InnerSample> places, std::span<const StationView> views,
                    const PathView* path, double tolerance, const std::function<void()>& after_place = {});
 double tolerance_of(const LoopMeasures& loop);  // two mean edges of it
 

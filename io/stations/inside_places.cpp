@@ -15,9 +15,9 @@ constexpr std::uint64_t kMostIslandCorners = 16;
 constexpr double kPlaces = 256;  // of a hole, at least
 
 // Spreads places evenly over the triangles, by the sequence R2 (Roberts, 2018).
-std::vector<InsidePlace> places_inside(const LidMesh& mesh) {
+std::vector<InnerSample> places_inside(const LidMesh& mesh) {
   const double spacing = area(mesh) / kPlaces;
-  std::vector<InsidePlace> places;
+  std::vector<InnerSample> places;
   if (!(spacing > 0)) return places;
   for (const LidTriangle& triangle : mesh.triangles) {
     const Eigen::Vector3d vector = area_vector(mesh, triangle);
@@ -53,7 +53,7 @@ std::vector<Eigen::Vector3d> some_corners(const Detection& detection, const Inne
 
 }  // namespace
 
-std::vector<InsidePlace> inside_places(const Detection& detection, std::size_t loop) {
+std::vector<InnerSample> inside_places(const Detection& detection, std::size_t loop) {
   const std::span<const InnerRing> islands = detection.inner_rings_of(loop);
   std::vector<Eigen::Vector3d> corners =
       some_corners(detection, {loop, detection.loops[loop].points}, kMostCorners);
@@ -64,15 +64,15 @@ std::vector<InsidePlace> inside_places(const Detection& detection, std::size_t l
     corners.insert(corners.end(), ring.begin(), ring.end());
     sizes.push_back(ring.size());
   }
-  std::vector<InsidePlace> places = places_inside(triangulate_rings(corners, sizes));
+  std::vector<InnerSample> places = places_inside(triangulate_rings(corners, sizes));
   return places.empty() ? inside_places(std::span(corners).first(sizes[0])) : places;
 }
 
-std::vector<InsidePlace> inside_places(std::span<const Eigen::Vector3d> loop) {
+std::vector<InnerSample> inside_places(std::span<const Eigen::Vector3d> loop) {
   const std::size_t count = std::min<std::size_t>(loop.size(), kMostCorners);
   std::vector<Eigen::Vector3d> corners;
   for (std::size_t i = 0; i < count; ++i) corners.push_back(loop[i * loop.size() / count]);
-  return count < 3 ? std::vector<InsidePlace>() : places_inside(triangulate_polygon(corners));
+  return count < 3 ? std::vector<InnerSample>() : places_inside(triangulate_polygon(corners));
 }
 
 }  // namespace lacuna::io

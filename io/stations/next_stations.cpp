@@ -15,7 +15,7 @@ namespace {
 constexpr double kLeastShare = 0.01;  // of the hidden area, for one more station
 constexpr std::size_t kMostEyes = 500;
 
-bool sees(const Eigen::Vector3d& eye, const InsidePlace& place, const Obstacles& obstacles,
+bool sees(const Eigen::Vector3d& eye, const InnerSample& place, const Obstacles& obstacles,
           const SightLimits& limits) {
   const Eigen::Vector3d arm = place.position - eye;
   const double range = arm.norm();
@@ -76,7 +76,7 @@ std::vector<Eigen::Vector3d> eyes_over_floor(std::span<const Eigen::Vector3d> po
   }
 }
 
-std::vector<NextStation> choose_stations(std::span<const InsidePlace> hidden,
+std::vector<NextStation> choose_stations(std::span<const InnerSample> hidden,
                                          std::span<const Eigen::Vector3d> eyes, const Obstacles& obstacles,
                                          const SightLimits& limits, std::size_t most) {
   std::vector<std::vector<bool>> seen(eyes.size());
@@ -86,7 +86,7 @@ std::vector<NextStation> choose_stations(std::span<const InsidePlace> hidden,
       seen[eye][i] = sees(eyes[eye], hidden[i], obstacles, limits);
   });
   std::vector<double> left;  // of each hidden place
-  for (const InsidePlace& place : hidden) left.push_back(place.area);
+  for (const InnerSample& place : hidden) left.push_back(place.area);
   const double all = std::accumulate(left.begin(), left.end(), 0.0);
   std::vector<NextStation> chosen;
   while (chosen.size() < most) {

@@ -37,7 +37,7 @@ struct NextStation {
 // Returns at most `most` of the eyes. It stops when the next eye would add less than a hundredth of all
 // hidden area. Among equal eyes the first counts. Cost: a ray for each eye and hidden place, in the arena of
 // the calling thread; greedy choice is linear in them for each station.
-std::vector<NextStation> choose_stations(std::span<const InsidePlace> hidden,
+std::vector<NextStation> choose_stations(std::span<const InnerSample> hidden,
                                          std::span<const Eigen::Vector3d> eyes, const Obstacles& obstacles,
                                          const SightLimits& limits, std::size_t most);
 

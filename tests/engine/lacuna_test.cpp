@@ -2,7 +2,7 @@
 // The library's few functions against each other, and against the program.
 #include "engine/lacuna.hpp"
 
-#include "engine/store/scratch_place.hpp"
+#include "engine/store/temporary_storage.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/memory_scan.hpp"
@@ -142,12 +142,12 @@ TEST_CASE("points in memory need no folder where their files fit in memory", "[l
   const Cloud cloud = punched_sheet();
   PointsInMemory scan(cloud.positions, {});
   RunConfig run{.memory_limit = std::uint64_t{64} << 20};
-  CHECK(ScratchPlace(scan, run).path().empty());
+  CHECK(TemporaryStorage(scan, run).path().empty());
   CHECK(run.memory_limit < std::uint64_t{64} << 20);
   const std::vector<Eigen::Vector3d> many(300'000, Eigen::Vector3d::Zero());
   PointsInMemory large(many, {});
   run.memory_limit = std::uint64_t{64} << 20;
-  CHECK_FALSE(ScratchPlace(large, run).path().empty());
+  CHECK_FALSE(TemporaryStorage(large, run).path().empty());
   CHECK(run.memory_limit == std::uint64_t{64} << 20);
 }
 

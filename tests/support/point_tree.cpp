@@ -1,28 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/point_tree.hpp"
 
+#include "bench/evaluation/nanoflann_tree.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include <nanoflann.hpp>
-
 namespace lacuna {
 namespace {
-
-struct Adaptor {
-  std::span<const Eigen::Vector3d> positions;
-
-  std::size_t kdtree_get_point_count() const { return positions.size(); }
-  double kdtree_get_pt(std::size_t point, std::size_t axis) const { return positions[point][axis]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-
-using Metric = nanoflann::L2_Simple_Adaptor<double, Adaptor, double, LocalIndex>;
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<Metric, Adaptor, 3, LocalIndex>;
 
 // nanoflann bounds the distance of a branch by sums that are rounded. So a branch at exactly the distance of
 // the worst neighbour is searched, too.
@@ -95,12 +81,8 @@ class Ball {
 
 }  // namespace
 
-struct PointTree::Index {
-  Adaptor adaptor;
-  Tree tree;
-
-  explicit Index(std::span<const Eigen::Vector3d> positions)
-      : adaptor{positions}, tree(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(12)) {}
+struct PointTree::Index : NanoflannTree<LocalIndex> {
+  using NanoflannTree::NanoflannTree;
 };
 
 PointTree::PointTree(std::span<const Eigen::Vector3d> positions, std::span<const PointId> ids)
@@ -110,12 +92,12 @@ PointTree::~PointTree() = default;
 
 void PointTree::nearest(LocalIndex query, std::size_t k, std::vector<Neighbour>& found) const {
   KNearest result(query, ids_, k, found);
-  index_->tree.findNeighbors(result, positions_[query].data(), kExact);
+  index_->index.findNeighbors(result, positions_[query].data(), kExact);
 }
 
 void PointTree::within(LocalIndex query, double squared_radius, std::vector<Neighbour>& found) const {
   Ball result(query, ids_, squared_radius, found);
-  index_->tree.findNeighbors(result, positions_[query].data(), kExact);
+  index_->index.findNeighbors(result, positions_[query].data(), kExact);
   std::sort(found.begin(), found.end());
 }
 

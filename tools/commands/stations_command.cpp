@@ -48,7 +48,7 @@ struct StationsArguments {
 struct HiddenScan {
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3f> normals;
-  std::vector<InsidePlace> hidden;
+  std::vector<InnerSample> hidden;
   double area = 0;
 };
 
@@ -73,7 +73,7 @@ HiddenScan hidden_in(const Scene& scene) {
     loop.clear();
     for (std::size_t v = scene.loops.first[i]; v < scene.loops.first[i + 1]; ++v)
       loop.push_back(place(scene.loops.vertices[v]));
-    for (InsidePlace& inside : inside_places(loop)) {
+    for (InnerSample& inside : inside_places(loop)) {
       inside.area *= share;
       found.area += inside.area;
       found.hidden.push_back(inside);
@@ -83,11 +83,11 @@ HiddenScan hidden_in(const Scene& scene) {
 }
 
 // One of so many places represents the others, so that rays take seconds.
-void thin(std::vector<InsidePlace>& places) {
+void thin(std::vector<InnerSample>& places) {
   constexpr std::size_t kMost = 6000;
   const std::size_t step = (places.size() + kMost - 1) / kMost;
   if (step < 2) return;
-  std::vector<InsidePlace> kept;
+  std::vector<InnerSample> kept;
   for (std::size_t i = 0; i < places.size(); i += step) {
     kept.push_back(places[i]);
     for (std::size_t j = i + 1; j < std::min(i + step, places.size()); ++j)
@@ -110,7 +110,7 @@ std::vector<Eigen::Vector3d> eyes_of(std::span<const NextStation> chosen) {
 
 // `tried` has the places that `chosen` is from.
 void write_places(const fs::path& file, Overwrite overwrite, const Scene& scene,
-                  std::span<const NextStation> chosen, std::span<const NamedPlace> tried, double hidden) {
+                  std::span<const NextStation> chosen, std::span<const ListedPosition> tried, double hidden) {
   const Json& crs = scene.holes.at("crs");
   const std::vector<Eigen::Vector3d> eyes = eyes_of(chosen);
   const auto degrees = to_degrees(crs.is_string() ? crs.get<std::string>() : "", eyes, file);
@@ -137,10 +137,10 @@ void write_places(const fs::path& file, Overwrite overwrite, const Scene& scene,
   out.commit();
 }
 
-void print_places(const Scene& scene, std::span<const NextStation> chosen, std::span<const NamedPlace> tried,
-                  double hidden, const std::string& unit) {
-  const bool has_names =
-      std::any_of(tried.begin(), tried.end(), [](const NamedPlace& place) { return !place.name.empty(); });
+void print_places(const Scene& scene, std::span<const NextStation> chosen,
+                  std::span<const ListedPosition> tried, double hidden, const std::string& unit) {
+  const bool has_names = std::any_of(tried.begin(), tried.end(),
+                                     [](const ListedPosition& place) { return !place.name.empty(); });
   std::vector<std::vector<std::string>> rows = {
       {"next station", "place of the scanner", "sees", "of what is hidden", "with those before"}};
   double sum = 0;
@@ -182,11 +182,11 @@ std::string why_no_floor(const HiddenScan& scan, const FloorLimits& floor, const
          " above it; --height states a lower scanner" + kWayOut;
 }
 
-std::string why_none_sees(std::span<const InsidePlace> hidden, std::span<const Eigen::Vector3d> eyes,
+std::string why_none_sees(std::span<const InnerSample> hidden, std::span<const Eigen::Vector3d> eyes,
                           const SightLimits& limits, const std::string& unit) {
   bool is_any_near = false, is_any_steep = false;
   for (const Eigen::Vector3d& eye : eyes) {
-    for (const InsidePlace& place : hidden) {
+    for (const InnerSample& place : hidden) {
       const Eigen::Vector3d arm = place.position - eye;
       const bool is_near = arm.norm() <= limits.range;
       is_any_near |= is_near;
@@ -205,7 +205,7 @@ void run_stations(const StationsArguments& arguments) {
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
   const fs::path file = arguments.folder / kNextStationsFile;
   check_output(file, kNextStationsMark, overwrite);
-  std::vector<NamedPlace> places;
+  std::vector<ListedPosition> places;
   if (arguments.places) places = read_places(*arguments.places);
   const Scene scene = read_scene(arguments.folder);
   if (scene.points.positions.empty())
@@ -232,9 +232,9 @@ void run_stations(const StationsArguments& arguments) {
   std::vector<Eigen::Vector3d> eyes;
   if (!arguments.places) {
     eyes = eyes_over_floor(scan.points, scan.normals, obstacles, floor);
-    for (const Eigen::Vector3d& eye : eyes) places.push_back({.name = "", .place = eye});
+    for (const Eigen::Vector3d& eye : eyes) places.push_back({.name = "", .position = eye});
   } else {
-    for (const NamedPlace& place : places) eyes.push_back(place.place);
+    for (const ListedPosition& place : places) eyes.push_back(place.position);
   }
   const std::vector<NextStation> chosen =
       choose_stations(scan.hidden, eyes, obstacles, limits, arguments.count);

@@ -21,7 +21,7 @@ void decide_consistency(Stars<LocalIndex>& stars, std::span<const PointState> st
 
 // Stars by point, as in `Stars`.
 struct StarTable {
-  const StarPlace* places;
+  const StarRange* places;
   const LinkVertex<LocalIndex>* vertices;
   const PointState* states;
   Consistency* consistencies;

@@ -55,7 +55,7 @@ struct RadiusBound {
 };
 
 // Where a star's link is among the vertices of all links. A star is measured once its bound is known.
-struct StarPlace {
+struct StarRange {
   std::uint32_t begin = 0, size = 0;
   RadiusBound bound;
 };

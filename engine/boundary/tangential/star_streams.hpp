@@ -28,7 +28,7 @@ struct BeltPoint {
 struct OpenStar {
   LoopPoint point;
   LocalIndex owned;
-  StarPlace place;                                     // among the tile's open link vertices
+  StarRange place;                                     // among the tile's open link vertices
   double distance;                                     // `Sampling::distance`
   std::array<double, kScales.size()> sampling_radius;  // by scale
   float surface;                                       // mean surface share of the point's neighbours

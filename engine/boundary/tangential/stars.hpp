@@ -91,7 +91,7 @@ class StarFinder {
 // Stars of points 0, 1, 2, ...; `consistencies` has a value for the triangle that begins at each link vertex.
 template <class Name>
 struct Stars {
-  std::vector<StarPlace> places;
+  std::vector<StarRange> places;
   std::vector<LinkVertex<Name>> vertices;
   std::vector<Consistency> consistencies;
 

@@ -117,9 +117,10 @@ TEST_CASE(
 TEST_CASE("a ring has each nearest point once, and leaves out what lies between two visits") {
   const auto ring = [](const NumberLoop& around) {
     const Outline circle{double(around.size()), [&](double t) {
-                           return Place{0, t * double(around.size())};
+                           return GridPosition{0, t * double(around.size())};
                          }};
-    return ring_along(circle, [&](Place place) { return around[std::size_t(place.column) % around.size()]; });
+    return ring_along(circle,
+                      [&](GridPosition place) { return around[std::size_t(place.column) % around.size()]; });
   };
   CHECK(ring({1, 2, 3, 4, 5}) == NumberLoop{2, 3, 4, 5, 1});
   CHECK(ring({1, 1, 2, 3, 3, 3, 1}) == NumberLoop{2, 3, 1});

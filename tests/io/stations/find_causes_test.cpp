@@ -42,13 +42,13 @@ struct Found {
     double same = 0, all = 0;
     for (std::size_t i = 0; i < detection->loops.size(); ++i) {
       if (detection->loops[i].kind != LoopKind::kHole) continue;
-      std::vector<InsidePlace> places = inside_places(*detection, i);
-      std::erase_if(places, [&](const InsidePlace& place) { return !test::is_on_surface(place, scanner); });
+      std::vector<InnerSample> places = inside_places(*detection, i);
+      std::erase_if(places, [&](const InnerSample& place) { return !test::is_on_surface(place, scanner); });
       const LoopCause found =
           cause_of(places, views->views(), views->path(), tolerance_of(detection->loops[i]));
       const auto truth = test::true_shares(places, scanner);
       if (!found.main() || *std::max_element(truth.begin(), truth.end()) == 0) continue;
-      for (const InsidePlace& place : places) {
+      for (const InnerSample& place : places) {
         all += place.area;
         for (std::size_t cause = 0; cause < kCauses; ++cause)
           same += place.area * std::min(truth[cause], found.shares[cause]);
@@ -131,11 +131,11 @@ TEST_CASE("a trajectory needs times of the points") {
 // promised.
 double kept_promise(const Found& found) {
   const synth::Scanner scanner(found.options, synth::make_scene(found.options.scene, found.options.seed));
-  std::vector<InsidePlace> hidden;
+  std::vector<InnerSample> hidden;
   for (std::size_t i = 0; i < found.detection->loops.size(); ++i) {
     const LoopCause& cause = found.detection->causes[i];
     if (!cause.main()) continue;
-    for (InsidePlace& place : inside_places(*found.detection, i)) {
+    for (InnerSample& place : inside_places(*found.detection, i)) {
       place.area *= cause.share(Cause::kHidden) + cause.share(Cause::kOutOfView);
       if (place.area > 0 && test::is_on_surface(place, scanner)) hidden.push_back(place);
     }

@@ -21,7 +21,7 @@ void add_wall(const Eigen::Vector3d& corner, const Eigen::Vector3d& along, doubl
       points.push_back(corner + s * along + Eigen::Vector3d(0, 0, z));
 }
 
-InsidePlace on_floor(double x, double y, double area) {
+InnerSample on_floor(double x, double y, double area) {
   return {{x, y, 0}, {0, 0, 1}, area};
 }
 
@@ -50,7 +50,7 @@ TEST_CASE("next stations are chosen by what each adds, within range and angle") 
   std::vector<Eigen::Vector3d> points;
   add_wall({5, 0, 0}, {0, 1, 0}, 10, 3, points);
   const Obstacles obstacles(points, 0.1);
-  const std::vector<InsidePlace> hidden = {on_floor(2, 5, 3), on_floor(8, 5, 2), on_floor(8, 2, 2),
+  const std::vector<InnerSample> hidden = {on_floor(2, 5, 3), on_floor(8, 5, 2), on_floor(8, 2, 2),
                                            on_floor(2, 9, 0.01)};
   const std::vector<Eigen::Vector3d> eyes = {{1, 5, 1.6}, {9, 5, 1.6}, {3, 5, 1.6}};
   const SightLimits limits{.range = 6, .least_cosine = 0.1};
@@ -72,7 +72,7 @@ TEST_CASE("two next stations see at least 63 % of what the best two would") {
   const Obstacles nothing({}, 0.1);
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
     Random random(seed);
-    std::vector<InsidePlace> hidden;
+    std::vector<InnerSample> hidden;
     for (int i = 0; i < 200; ++i)
       hidden.push_back(on_floor(random.uniform(0, 20), random.uniform(0, 20), random.uniform()));
     std::vector<Eigen::Vector3d> eyes;

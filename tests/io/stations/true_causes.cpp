@@ -19,8 +19,8 @@ Vec3 vec3(const Eigen::Vector3d& v) {
 }
 
 // Where the normal through a place hits a shape, if that is near.
-std::optional<SurfacePlace> on_surface(const Scene& scene, const io::InsidePlace& place) {
-  std::optional<SurfacePlace> nearest;
+std::optional<ScenePoint> on_surface(const Scene& scene, const io::InnerSample& place) {
+  std::optional<ScenePoint> nearest;
   double least = kNear;
   for (const double side : {1.0, -1.0}) {
     const Vec3 normal = side * vec3(place.normal);
@@ -28,10 +28,10 @@ std::optional<SurfacePlace> on_surface(const Scene& scene, const io::InsidePlace
     const double away = std::fabs(hit.range - kNear);
     if (!(away < least)) continue;
     least = away;
-    nearest = SurfacePlace{.position = vec3(place.position) + (kNear - hit.range) * normal,
-                           .normal = normal,
-                           .shape = hit.shape,
-                           .two_sided = true};
+    nearest = ScenePoint{.position = vec3(place.position) + (kNear - hit.range) * normal,
+                         .normal = normal,
+                         .shape = hit.shape,
+                         .two_sided = true};
   }
   return nearest;
 }
@@ -62,26 +62,26 @@ int rank_of(io::Cause cause) {
 
 }  // namespace
 
-bool is_on_surface(const io::InsidePlace& place, const Scanner& scanner) {
+bool is_on_surface(const io::InnerSample& place, const Scanner& scanner) {
   return on_surface(scanner.scene(), place).has_value();
 }
 
-double area_seen_by_last(std::span<const io::InsidePlace> places, const Scanner& scanner) {
+double area_seen_by_last(std::span<const io::InnerSample> places, const Scanner& scanner) {
   const Visibility last = Visibility(scanner).only(static_cast<std::uint32_t>(scanner.stations().size() - 1));
   double area = 0;
-  for (const io::InsidePlace& place : places) {
-    const std::optional<SurfacePlace> surface = on_surface(scanner.scene(), place);
+  for (const io::InnerSample& place : places) {
+    const std::optional<ScenePoint> surface = on_surface(scanner.scene(), place);
     if (surface && last.any(*surface)) area += place.area;
   }
   return area;
 }
 
-std::array<double, io::kCauses> true_shares(std::span<const io::InsidePlace> places, const Scanner& scanner) {
+std::array<double, io::kCauses> true_shares(std::span<const io::InnerSample> places, const Scanner& scanner) {
   std::array<double, io::kCauses> shares{};
   double all = 0;
   const Visibility visibility(scanner);
-  for (const io::InsidePlace& place : places) {
-    const std::optional<SurfacePlace> surface = on_surface(scanner.scene(), place);
+  for (const io::InnerSample& place : places) {
+    const std::optional<ScenePoint> surface = on_surface(scanner.scene(), place);
     std::optional<io::Cause> found;
     double nearest = 0;
     bool is_sampled = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/store/scratch_place.hpp"
+#include "engine/store/temporary_storage.hpp"
 
 #include "engine/run/job.hpp"
 
@@ -7,7 +7,7 @@
 
 namespace lacuna {
 
-ScratchPlace::ScratchPlace(const PointSource& scan, RunConfig& run) {
+TemporaryStorage::TemporaryStorage(const PointSource& scan, RunConfig& run) {
   constexpr std::uint64_t kBytesPerPoint = 160;  // more than any scan of bench/NOTES.md took
   const std::uint64_t limit = Memory::share(run.memory_limit).limit;
   const std::uint64_t most = limit / 2 / kBytesPerPoint;  // points

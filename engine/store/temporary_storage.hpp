@@ -13,10 +13,10 @@ namespace lacuna {
 
 // Uses files in memory, where they fit within half of the limit. Else it uses a folder in `run.scratch`, or
 // in the system's folder for temporary files. The folder is removed with this object.
-class ScratchPlace {
+class TemporaryStorage {
  public:
   // Files in memory are taken from `run.memory_limit`. Throws `Error`.
-  ScratchPlace(const PointSource& scan, RunConfig& run);
+  TemporaryStorage(const PointSource& scan, RunConfig& run);
 
   std::filesystem::path path() const { return folder_ ? folder_->path() : std::filesystem::path(); }
 
