@@ -41,8 +41,7 @@ std::unique_ptr<Found> find_in_files(const std::vector<fs::path>& files, const p
                                      const py::object& progress) {
   io::FilesConfig config;
   set_parameters(parameters, config);
-  return find(tools::expand_inputs(files, tools::read_options(config), config.input), config, py::none(),
-              progress);
+  return find(tools::expand_inputs(files, config), config, py::none(), progress);
 }
 
 // Names, defaults and what is allowed, of all parameters.

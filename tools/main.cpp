@@ -1,6 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/program.hpp"
+// The program `lacuna`: its commands.
+#include "tools/commands/commands.hpp"
+#include "tools/console/command_line.hpp"
+#include "tools/run/run_program.hpp"
 
 int main(int argc, char** argv) {
-  return lacuna::tools::run(argc, argv);
+  using namespace lacuna::tools;
+  CommandLine line("lacuna", "Lacuna finds holes in scanned surfaces, also in scans larger than memory.",
+                   "lacuna " LACUNA_VERSION);
+  const Command program = line.program();
+  add_detect_command(program);
+  add_info_command(program);
+  add_check_command(program);
+  add_report_command(program);
+  add_render_command(program);
+  add_compare_command(program);
+  add_stations_command(program);
+  add_find_stations_command(program);
+  add_plan_command(program);
+  add_work_command(program);
+  add_finish_command(program);
+  add_status_command(program);
+  add_clean_command(program);
+  return run_program("lacuna", line, argc, argv);
 }

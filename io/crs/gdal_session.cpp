@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/crs/gdal_session.hpp"
 
+#include "engine/run/error.hpp"
 #include "io/crs/crs_text.hpp"
 
 #include <algorithm>
@@ -46,6 +47,13 @@ bool read_crs(const std::string& text, OGRSpatialReference& crs) {
   if (read_exact_crs(text, crs)) return true;
   const std::string flat(without_vertical(text));
   return !flat.empty() && flat != text && read_exact_crs(flat, crs);
+}
+
+bool read_crs_of_file(const std::string& text, OGRSpatialReference& crs) {
+  const GdalFailures failures;
+  if (text.empty() || read_crs(text, crs)) return true;
+  crs.Clear();
+  return false;
 }
 
 DegreesConversion conversion_to_degrees(OGRSpatialReference& crs) {
@@ -102,6 +110,11 @@ GdalFailures::GdalFailures() {
 
 GdalFailures::~GdalFailures() {
   CPLPopErrorHandler();
+}
+
+void GdalFailures::require(bool is_well, const std::filesystem::path& name) const {
+  if (is_well && first_.empty()) return;
+  throw Error(name.string() + ": cannot be written: GDAL: " + (first_.empty() ? "no reason given" : first_));
 }
 
 GdalTextSink::GdalTextSink(const Take& take) : take_(take) {

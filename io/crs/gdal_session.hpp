@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -36,6 +37,8 @@ void register_gdal_drivers();
 bool read_exact_crs(const std::string& text, OGRSpatialReference& crs);
 // Works likewise, but leaves out a vertical part that GDAL does not understand: the horizontal part holds.
 bool read_crs(const std::string& text, OGRSpatialReference& crs);
+// Reads the system of a file that is written. False, and none, where GDAL does not understand it.
+bool read_crs_of_file(const std::string& text, OGRSpatialReference& crs);
 
 // Converts positions of a system to longitude and latitude of WGS 84. z becomes metres, as RFC 7946 demands,
 // above what it was above. Geocentric positions get the height above the ellipsoid.
@@ -70,6 +73,9 @@ class GdalFailures {
 
   const std::string& first() const { return first_; }
   void forget() { first_.clear(); }
+  // Throws `Error` about the file `name` that is written, unless all is well. A failure that GDAL reports
+  // without an error in its answer is one, too.
+  void require(bool is_well, const std::filesystem::path& name) const;
 
  private:
   std::string first_;

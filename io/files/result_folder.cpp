@@ -143,14 +143,19 @@ std::unique_ptr<OutputFile> ResultFolder::open(const std::string& name, Writer w
   return std::make_unique<OutputFile>(folder_ / name, place, writer);
 }
 
+void ResultFolder::add(const std::string& name, const std::function<void(OutputFile& out)>& write,
+                       Writer writer) const {
+  const std::unique_ptr<OutputFile> out = open(name, writer);
+  write(*out);
+  out->close();
+}
+
 std::vector<fs::path> ResultFolder::commit() {
-  {
-    const auto list = open(kList);
+  add(kList, [&](OutputFile& list) {
     for (const std::string& name : files_in(staged())) {
-      if (name != kList) list->write(name + "\n");
+      if (name != kList) list.write(name + "\n");
     }
-    list->close();
-  }
+  });
   std::vector<fs::path> written;
   for (const auto& entry : fs::directory_iterator(staged())) {
     if (entry.path().filename() != kList) written.push_back(folder_ / entry.path().filename());

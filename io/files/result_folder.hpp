@@ -19,6 +19,7 @@
 #include "io/files/output_file.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,6 +43,9 @@ class ResultFolder {
 
   // Opens a new file of this name, such as "holes.csv" or "points/a.ply". The caller closes it before commit.
   std::unique_ptr<OutputFile> open(const std::string& name, Writer writer = Writer::kThis) const;
+  // Opens the file, lets `write` fill it, and closes it. From several threads, for different files.
+  void add(const std::string& name, const std::function<void(OutputFile& out)>& write,
+           Writer writer = Writer::kThis) const;
 
   // Returns the files at the top of the folder, and its subfolders, in the order of their names. Throws
   // `Error`; then the folder is as it was.

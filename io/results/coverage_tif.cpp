@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/results/coverage_tif.hpp"
 
-#include "engine/run/error.hpp"
 #include "io/crs/gdal_session.hpp"
 
 #include <cmath>
@@ -27,33 +26,24 @@ std::vector<float> spacings(const CoverageGrid& grid) {
 
 }  // namespace
 
-extern "C" bool lacuna_write_coverage(const CoverageTask& task) {
+extern "C" bool lacuna_write_coverage(const CoverageGrid& grid, const GisOutput& out) {
   register_gdal_drivers();
   const GdalFailures failures;
-  const auto require = [&](bool is_well) {
-    if (is_well && failures.first().empty()) return;
-    throw Error(task.name.string() + ": cannot be written: GDAL: " +
-                (failures.first().empty() ? "no reason given" : failures.first()));
-  };
-  const CoverageGrid& grid = task.grid;
+  const auto require = [&](bool is_well) { failures.require(is_well, out.name); };
   const auto columns = static_cast<int>(grid.columns), rows = static_cast<int>(grid.rows);
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GTiff");
   require(driver != nullptr);
   CPLStringList options;
   for (const char* option : {"COMPRESS=DEFLATE", "PREDICTOR=3", "TILED=YES", "BIGTIFF=IF_SAFER"})
     options.AddString(option);
-  Dataset dataset(driver->Create(task.place.c_str(), columns, rows, 3, GDT_Float32, options.List()));
+  Dataset dataset(driver->Create(out.place.c_str(), columns, rows, 3, GDT_Float32, options.List()));
   require(dataset != nullptr);
-  dataset->SetMetadataItem("TIFFTAG_SOFTWARE", std::string(kCoverageSoftware).c_str());
+  dataset->SetMetadataItem("TIFFTAG_SOFTWARE", "Lacuna coverage");
   double to_map[6] = {grid.corner.x(), grid.edge, 0, grid.corner.y(), 0, -grid.edge};
   require(dataset->SetGeoTransform(to_map) == CE_None);
   OGRSpatialReference crs;
-  bool is_understood = true;
-  if (!task.crs.empty()) {
-    GdalFailures of_crs;
-    is_understood = read_crs(task.crs, crs);
-  }
-  if (!task.crs.empty() && is_understood) require(dataset->SetSpatialRef(&crs) == CE_None);
+  const bool is_understood = read_crs_of_file(out.crs, crs);
+  if (!crs.IsEmpty()) require(dataset->SetSpatialRef(&crs) == CE_None);
   std::vector<float> spacing = spacings(grid);
   const auto put = [&](int band, const char* name, const std::vector<float>& values) {
     GDALRasterBand* const to = dataset->GetRasterBand(band);

@@ -15,6 +15,10 @@ namespace {
 
 constexpr const char* kUser = "--gpkg, --geojson, --coverage and --area";
 
+GisOutput gis_output(const FileScan& scan, const OutputFile& out) {
+  return {.crs = scan.common_crs(), .name = out.path(), .place = out.place()};
+}
+
 // A run gives one warning for all files.
 void warn_not_understood(const FileScan& scan) {
   static std::once_flag warned;
@@ -46,15 +50,9 @@ void write_loops_gis(const ExplainedDetection& detection, const FileScan& scan, 
                .format = format,
                .with_polygons = config.polygons,
                .unit = scan.length_unit(),
-               .crs = scan.common_crs(),
-               .name = out.path(),
-               .place = {},
+               .out = gis_output(scan, out),
                .take = {}};
-  if (is_geojson) {
-    task.take = [&](std::string_view text) { out.write(text); };
-  } else {
-    task.place = out.place();
-  }
+  if (is_geojson) task.take = [&](std::string_view text) { out.write(text); };
   switch (write(task)) {
     case GisCrs::kWritten:
       return;
@@ -76,14 +74,12 @@ void write_coverage(const Detection& detection, const FileScan& scan, const File
   static auto* const write = reinterpret_cast<WriteCoverage*>(load_gis_function(kWriteCoverage, kUser));
   const CoverageGrid grid = cover(detection, scan, config);
   if (grid.size() == 0) return;  // GDAL makes no raster without cells
-  if (!write({.grid = grid, .crs = scan.common_crs(), .name = out.path(), .place = out.place()}))
-    warn_not_understood(scan);
+  if (!write(grid, gis_output(scan, out))) warn_not_understood(scan);
 }
 
 void write_voids_gpkg(const AreaCheck& check, const FileScan& scan, OutputFile& out) {
   static auto* const write = reinterpret_cast<WriteVoidsGis*>(load_gis_function(kWriteVoidsGis, kUser));
-  if (!write({.check = check, .crs = scan.common_crs(), .name = out.path(), .place = out.place()}))
-    warn_not_understood(scan);
+  if (!write(check, gis_output(scan, out))) warn_not_understood(scan);
 }
 
 }  // namespace lacuna::io

@@ -18,15 +18,10 @@
 namespace lacuna::io {
 namespace {
 
-struct Format {
-  const char* driver;
-  std::vector<std::string> options;  // of its layer
-};
-
-Format format_of(GisFormat format) {
-  if (format == GisFormat::kGeoPackage) return {"GPKG", {std::string("DESCRIPTION=") + kGisDescription}};
+std::vector<const char*> layer_options(GisFormat format) {
+  if (format == GisFormat::kGeoPackage) return {"DESCRIPTION=loops of lacuna detect"};
   // With digits behind the point instead, GDAL takes zeros before the last one for a rounding error.
-  return {"GeoJSON", {"RFC7946=NO", "SIGNIFICANT_FIGURES=17"}};
+  return {"RFC7946=NO", "SIGNIFICANT_FIGURES=17"};
 }
 
 struct Layer {
@@ -56,19 +51,11 @@ class LoopsWriter {
   }
 
  private:
-  // A failure that GDAL reports without an error in its answer is one, too.
-  void require(bool is_well) const {
-    if (is_well && failures_.first().empty()) return;
-    const std::string& reason = failures_.first();
-    throw Error(task_.name.string() +
-                ": cannot be written: GDAL: " + (reason.empty() ? "no reason given" : reason));
-  }
+  void require(bool is_well) const { failures_.require(is_well, task_.out.name); }
 
   GisCrs set_crs() {
-    if (task_.crs.empty()) return GisCrs::kNone;
-    has_crs_ = read_crs(task_.crs, crs_);
-    failures_.forget();
-    if (!has_crs_) crs_.Clear();
+    if (task_.out.crs.empty()) return GisCrs::kNone;
+    has_crs_ = read_crs_of_file(task_.out.crs, crs_);
     return has_crs_ ? GisCrs::kWritten : GisCrs::kNotUnderstood;
   }
 
@@ -100,10 +87,10 @@ class LoopsWriter {
   }
 
   void create() {
-    const Format format = format_of(task_.format);
-    GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName(format.driver);
+    const char* const format = task_.format == GisFormat::kGeoPackage ? "GPKG" : "GeoJSON";
+    GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName(format);
     require(driver != nullptr);
-    const std::string place = task_.format == GisFormat::kGeoJson ? "/vsistdout/" : task_.place.string();
+    const std::string place = task_.format == GisFormat::kGeoJson ? "/vsistdout/" : task_.out.place.string();
     dataset_.reset(driver->Create(place.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
     require(dataset_ != nullptr);
     // Without a crs the GeoPackage has the srs_id -1, and not 0, a geographic one.
@@ -119,7 +106,7 @@ class LoopsWriter {
 
   void create_layer(const char* name, bool is_of_polygons) {
     CPLStringList options;
-    for (const std::string& option : format_of(task_.format).options) options.AddString(option.c_str());
+    for (const char* const option : layer_options(task_.format)) options.AddString(option);
     OGRLayer* const layer =
         dataset_->CreateLayer(name, crs_.IsEmpty() ? nullptr : &crs_,
                               is_of_polygons ? wkbPolygon25D : wkbLineString25D, options.List());

@@ -20,16 +20,20 @@ enum class GisFormat : std::uint8_t { kGeoPackage, kGeoJson };
 // The layers of the files.
 inline constexpr const char* kGisLayer = "lacuna_loops";
 inline constexpr const char* kGisAreas = "lacuna_areas";  // the second one of a GeoPackage, with polygons
-inline constexpr const char* kGisDescription = "loops of lacuna detect";
+
+// A file that GDAL makes.
+struct GisOutput {
+  std::string crs;              // as FileScan::common_crs
+  std::filesystem::path name;   // what errors call it
+  std::filesystem::path place;  // where it is made
+};
 
 struct GisTask {
   const ExplainedDetection& detection;
   GisFormat format;
   bool with_polygons;
-  std::string unit;                                 // as FileScan::length_unit
-  std::string crs;                                  // as FileScan::common_crs
-  std::filesystem::path name;                       // what errors call it
-  std::filesystem::path place;                      // of a GeoPackage, where it is made
+  std::string unit;  // as FileScan::length_unit
+  GisOutput out;
   std::function<void(std::string_view text)> take;  // of a GeoJSON; may throw
 };
 

@@ -8,7 +8,6 @@
 #include "io/results/points_form.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -23,47 +22,28 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPointsFolder = "points";  // in the output folder
 
-enum class FileFormat : std::uint8_t { kPly, kCsv, kLas, kLaz };
-
-struct WrittenFormat {
+struct FileFormat {
   std::string_view extension;
   std::unique_ptr<PointsForm> (*form)(const PointsPlan& plan);
 };
 
-// In the order of FileFormat.
-const std::array<WrittenFormat, 4>& written_formats() {
-  using Form = std::unique_ptr<PointsForm>;
-  static const std::array<WrittenFormat, 4> formats = {{
-      {".ply", [](const PointsPlan& plan) -> Form { return ply_form(plan); }},
-      {".csv", [](const PointsPlan& plan) -> Form { return csv_form(plan); }},
-      {".las", las_form},
-      {".laz", laz_form},
-  }};
-  return formats;
-}
-
-const WrittenFormat& written(FileFormat format) {
-  return written_formats().at(static_cast<std::size_t>(format));
-}
-
-std::string_view extension_of(FileFormat format) {
-  return written(format).extension;
-}
+constexpr FileFormat kPly{".ply", ply_form}, kCsv{".csv", csv_form}, kLas{".las", las_form},
+    kLaz{".laz", laz_form};
 
 // A file of the annotated scan.
 struct PointsFile {
   std::string name;
-  FileFormat format;
+  const FileFormat* format;
   FileRange files;  // of the scan
 };
 
-FileFormat own_format(const FileScan& scan, std::size_t file) {
+const FileFormat* own_format(const FileScan& scan, std::size_t file) {
   const std::string& format = scan.formats()[file];
   const bool has_pose = scan.poses()[file].has_value();
-  if (format.starts_with("text")) return FileFormat::kCsv;
-  if (format.starts_with("LAS") && !has_pose) return FileFormat::kLas;
-  if (format.starts_with("LAZ") && !has_pose) return FileFormat::kLaz;
-  return FileFormat::kPly;
+  if (format.starts_with("text")) return &kCsv;
+  if (format.starts_with("LAS") && !has_pose) return &kLas;
+  if (format.starts_with("LAZ") && !has_pose) return &kLaz;
+  return &kPly;
 }
 
 bool is_in_folder(const OutputConfig& config) {
@@ -80,14 +60,14 @@ std::string points_name(const OutputConfig& config) {
 std::vector<PointsFile> points_files(const FileScan& scan, const OutputConfig& config) {
   if (!is_in_folder(config)) {
     const bool is_csv = config.points_format == PointsFormat::kCsv;
-    return {{points_name(config), is_csv ? FileFormat::kCsv : FileFormat::kPly, {0, scan.files().size()}}};
+    return {{points_name(config), is_csv ? &kCsv : &kPly, {0, scan.files().size()}}};
   }
   std::vector<PointsFile> files;
   std::map<std::string, std::size_t> inputs;  // by the name of what is written
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
-    const FileFormat format = own_format(scan, i);
+    const FileFormat* const format = own_format(scan, i);
     std::string name = scan.files()[i].stem().string();
-    name += extension_of(format);
+    name += format->extension;
     if (const auto [known, is_new] = inputs.emplace(name, i); !is_new)
       throw Error(scan.files()[i].string() + ": its results and those of " +
                   scan.files()[known->second].string() + " would both be " + kPointsFolder + "/" + name +
@@ -113,8 +93,7 @@ std::vector<ResultColumn> results_of(const FileScan& scan, const OutputConfig& c
                                      const PointsFile& file) {
   std::vector<ResultColumn> results = result_columns(scan, config);
   const auto layouts = std::span(scan.layouts()).subspan(file.files.first, file.files.end - file.files.first);
-  if (file.format != FileFormat::kPly || std::any_of(layouts.begin(), layouts.end(), has_own_quality))
-    return results;
+  if (file.format != &kPly || std::any_of(layouts.begin(), layouts.end(), has_own_quality)) return results;
   const auto loop = std::find_if(results.begin(), results.end(),
                                  [](const auto& result) { return result.name == kBeforeQuality; });
   results.insert(loop + 1, {std::string(kQuality), Scalar::kFloat32, results.front().offset});
@@ -139,14 +118,14 @@ PointsPlan plan_of(const FileScan& scan, const OutputConfig& config, const Point
 // One file that is being written: rows of the input, each with its results.
 class AnnotatedFile {
  public:
-  AnnotatedFile(const PointsPlan& plan, FileFormat format, std::unique_ptr<OutputFile> out,
+  AnnotatedFile(const PointsPlan& plan, const FileFormat& format, std::unique_ptr<OutputFile> out,
                 std::uint64_t rows)
       : results_(plan.results),
         out_(std::move(out)),
-        form_(written(format).form(plan)),
+        form_(format.form(plan)),
         input_(form_->open()),
         writer_(form_->writer(*out_, rows)) {
-    if (format != FileFormat::kCsv) missing_ = rows;
+    if (&format != &kCsv) missing_ = rows;
   }
 
   // Writes the next rows with these results. Returns their number; 0: the input has no more rows.
@@ -185,7 +164,7 @@ class AnnotatedFile {
 
 void check_points(const FileScan& scan, const FilesConfig& config) {
   for (const PointsFile& file : wanted_files(scan, config))
-    written(file.format).form(plan_of(scan, config.output, file, {}));
+    file.format->form(plan_of(scan, config.output, file, {}));
 }
 
 void write_points(const Detection& detection, const FileScan& scan, const FilesConfig& config,
@@ -203,7 +182,7 @@ void write_points(const Detection& detection, const FileScan& scan, const FilesC
     const PointsPlan plan = plan_of(scan, output, file, offset);
     const std::uint64_t rows =
         files.size() == 1 ? detection.summary.counts.points : scan.rows(file.files.first);
-    open = std::make_unique<AnnotatedFile>(plan, file.format, folder.open(plan.name), rows);
+    open = std::make_unique<AnnotatedFile>(plan, *file.format, folder.open(plan.name), rows);
   };
   open_next();
   detection.for_each_result_block([&](PointId, std::span<const PointResult> results) {

@@ -14,86 +14,59 @@
 #include "io/results/voids.hpp"
 #include "io/scan/plan_system.hpp"
 
-#include <algorithm>
-#include <iterator>
+#include <functional>
 #include <limits>
-#include <string_view>
+#include <string>
+#include <vector>
 
 namespace lacuna::io {
 namespace {
 
 struct ResultFile {
-  std::string_view name;
-  void (*write)(const ExplainedDetection&, const FileScan&, const FilesConfig&, OutputFile&);
-  bool (*is_wanted)(const FilesConfig&);
+  std::string name;
+  bool is_wanted;
+  std::function<void(OutputFile& out)> write;
   Writer writer = Writer::kThis;
-  bool is_of_others = false;  // made of the other results, once these are complete
 };
 
-using D = const ExplainedDetection&;
-using S = const FileScan&;
-using C = const FilesConfig&;
-bool always(C) {
-  return true;
-}
-
-bool has_lids(C config) {
-  return config.output.lids;
-}
-
-bool has_area(C config) {
+bool has_area(const FilesConfig& config) {
   return !config.area.area.empty();
-}
-
-// The complete lids.obj of the same run.
-std::filesystem::path lids_obj(const OutputFile& out) {
-  return out.place().parent_path() / "lids.obj";
 }
 
 bool needs_gis_library(const FilesConfig& config) {
   return config.output.gpkg || config.output.geojson || config.output.coverage > 0 || has_area(config);
 }
 
-const std::vector<ResultFile>& all_results() {
-  static const std::vector<ResultFile> results = {
-      {"loops.ply", [](D d, S s, C c, OutputFile& out) { write_loops(d, s, c.output, out); }, always},
-      {"boundary.ply", [](D d, S s, C c, OutputFile& out) { write_boundary(d, s, c.output, out); }, always},
-      {"sample.ply", [](D d, S s, C c, OutputFile& out) { write_sample(d, s, c.output, out); },
-       [](C c) { return c.results.sample_points > 0; }},
-      {"loops.obj", [](D d, S, C, OutputFile& out) { write_loops_obj(d, out); },
-       [](C c) { return c.output.obj; }},
-      {"loops.gpkg",
-       [](D d, S s, C c, OutputFile& out) { write_loops_gis(d, s, c.output, GisFormat::kGeoPackage, out); },
-       [](C c) { return c.output.gpkg; }, Writer::kLibrary},
-      {"loops.geojson",
-       [](D d, S s, C c, OutputFile& out) { write_loops_gis(d, s, c.output, GisFormat::kGeoJson, out); },
-       [](C c) { return c.output.geojson; }},
-      {"lids.obj", [](D d, S, C, OutputFile& out) { write_lids_obj(d, out); }, has_lids},
-      {"lids.ply", [](D d, S s, C c, OutputFile& out) { write_lids_ply(lids_obj(out), d, s, c.output, out); },
-       has_lids, Writer::kThis, true},
-      {"lids.csv", [](D, S, C, OutputFile& out) { write_lids_table(lids_obj(out), out); }, has_lids,
-       Writer::kThis, true},
-      {"coverage.tif", [](D d, S s, C c, OutputFile& out) { write_coverage(d, s, c, out); },
-       [](C c) { return c.output.coverage > 0; }, Writer::kLibrary},
-      {"voids.gpkg", [](D d, S s, C, OutputFile& out) { write_voids_gpkg(*d.area, s, out); }, has_area,
-       Writer::kLibrary},
-      {"voids.csv", [](D d, S, C, OutputFile& out) { write_voids_table(*d.area, out); }, has_area},
-      {kVoidsFile, [](D d, S s, C c, OutputFile& out) { write_voids_json(*d.area, s, c.area, out); },
-       has_area},
-      {"report.html",
-       [](D, S, C, OutputFile& out) { write_report(read_scene(out.place().parent_path()), out); },
-       [](C c) { return c.output.report; }, Writer::kThis, true},
-      {"holes.csv", [](D d, S, C, OutputFile& out) { write_table(d, out); }, always},
-      {"run.json", [](D d, S s, C c, OutputFile& out) { write_run(d, s, c, out); }, always},
-      {"holes.json", write_holes, always}};
-  return results;
+std::vector<ResultFile> results_of(const ExplainedDetection& detection, const FileScan& scan,
+                                   const FilesConfig& config) {
+  const OutputConfig& output = config.output;
+  return {{"loops.ply", true, [&](OutputFile& out) { write_loops(detection, scan, output, out); }},
+          {"boundary.ply", true, [&](OutputFile& out) { write_boundary(detection, scan, output, out); }},
+          {"sample.ply", config.results.sample_points > 0,
+           [&](OutputFile& out) { write_sample(detection, scan, output, out); }},
+          {"loops.obj", output.obj, [&](OutputFile& out) { write_loops_obj(detection, out); }},
+          {"loops.gpkg", output.gpkg,
+           [&](OutputFile& out) { write_loops_gis(detection, scan, output, GisFormat::kGeoPackage, out); },
+           Writer::kLibrary},
+          {"loops.geojson", output.geojson,
+           [&](OutputFile& out) { write_loops_gis(detection, scan, output, GisFormat::kGeoJson, out); }},
+          {"lids.obj", output.lids, [&](OutputFile& out) { write_lids_obj(detection, out); }},
+          {"coverage.tif", output.coverage > 0,
+           [&](OutputFile& out) { write_coverage(detection, scan, config, out); }, Writer::kLibrary},
+          {"holes.csv", true, [&](OutputFile& out) { write_table(detection, out); }},
+          {"run.json", true, [&](OutputFile& out) { write_run(detection, scan, config, out); }},
+          {"holes.json", true, [&](OutputFile& out) { write_holes(detection, scan, config, out); }}};
 }
 
-std::vector<ResultFile> results_of(const FilesConfig& config) {
-  std::vector<ResultFile> results;
-  std::copy_if(all_results().begin(), all_results().end(), std::back_inserter(results),
-               [&](const ResultFile& result) { return result.is_wanted(config); });
-  return results;
+// Results that are made of other ones, which are complete. `folder`: where these are.
+std::vector<ResultFile> results_of_results(const Detection& detection, const FileScan& scan,
+                                           const OutputConfig& output, const std::filesystem::path& folder) {
+  const std::filesystem::path lids = folder / "lids.obj";
+  return {
+      {"lids.ply", output.lids,
+       [&, lids](OutputFile& out) { write_lids_ply(lids, detection, scan, output, out); }},
+      {"lids.csv", output.lids, [lids](OutputFile& out) { write_lids_table(lids, out); }},
+      {"report.html", output.report, [folder](OutputFile& out) { write_report(read_scene(folder), out); }}};
 }
 
 }  // namespace
@@ -113,18 +86,14 @@ std::vector<std::filesystem::path> write_results(const ExplainedDetection& detec
 
   const TaskArena arena(static_cast<std::size_t>(config.run.threads));
   arena.for_each(1, [&](std::size_t) { write_points(detection, scan, config, folder); });
-  const std::vector<ResultFile> results = results_of(config);
-  const auto write = [&](std::size_t i) {
-    const auto file = folder.open(std::string(results[i].name), results[i].writer);
-    results[i].write(detection, scan, config, *file);
-    file->close();
+  if (has_area(config)) add_voids(*detection.area, scan, config.area, folder);
+  const std::vector<ResultFile> results = results_of(detection, scan, config);
+  const auto write = [&](const ResultFile& file) {
+    if (file.is_wanted) folder.add(file.name, file.write, file.writer);
   };
-  arena.for_each(results.size(), [&](std::size_t i) {
-    if (!results[i].is_of_others) write(i);
-  });
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    if (results[i].is_of_others) write(i);
-  }
+  arena.for_each(results.size(), [&](std::size_t i) { write(results[i]); });
+  for (const ResultFile& file : results_of_results(detection, scan, config.output, folder.staged()))
+    write(file);
   scan.check_unchanged();
   return folder.commit();
 }

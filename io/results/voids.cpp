@@ -52,25 +52,7 @@ void write_list(std::string_view key, const List& elements, const Print& print_e
   out.write("]");
 }
 
-struct VoidsFile {
-  const char* name;
-  void (*write)(const AreaCheck&, const FileScan&, const AreaConfig&, OutputFile&);
-  Writer writer = Writer::kThis;
-};
-constexpr VoidsFile kVoidsFiles[] = {
-    {"voids.gpkg",
-     [](const AreaCheck& check, const FileScan& scan, const AreaConfig&, OutputFile& out) {
-       write_voids_gpkg(check, scan, out);
-     },
-     Writer::kLibrary},
-    {"voids.csv", [](const AreaCheck& check, const FileScan&, const AreaConfig&,
-                     OutputFile& out) { write_voids_table(check, out); }},
-    {kVoidsFile, write_voids_json}};
-
-}  // namespace
-
-void write_voids_json(const AreaCheck& check, const FileScan& scan, const AreaConfig& config,
-                      OutputFile& out) {
+void write_json(const AreaCheck& check, const FileScan& scan, const AreaConfig& config, OutputFile& out) {
   Json head = begin_json(kVoidsSchema);
   put_crs(scan, head);
   head["file"] = config.area;
@@ -96,7 +78,7 @@ void write_voids_json(const AreaCheck& check, const FileScan& scan, const AreaCo
   out.write("\n}\n");
 }
 
-void write_voids_table(const AreaCheck& check, OutputFile& out) {
+void write_table(const AreaCheck& check, OutputFile& out) {
   out.write("id,kind,counts,area,circle,x,y,spacing,excepted\n");
   for (std::size_t id = 0; id < check.voids.size(); ++id) {
     const Void& each = check.voids[id];
@@ -111,13 +93,19 @@ void write_voids_table(const AreaCheck& check, OutputFile& out) {
   }
 }
 
+}  // namespace
+
+void add_voids(const AreaCheck& check, const FileScan& scan, const AreaConfig& config,
+               const ResultFolder& folder) {
+  folder.add(
+      "voids.gpkg", [&](OutputFile& out) { write_voids_gpkg(check, scan, out); }, Writer::kLibrary);
+  folder.add("voids.csv", [&](OutputFile& out) { write_table(check, out); });
+  folder.add(kVoidsFile, [&](OutputFile& out) { write_json(check, scan, config, out); });
+}
+
 std::vector<std::filesystem::path> write_voids(const AreaCheck& check, const FileScan& scan,
                                                const AreaConfig& config, ResultFolder& folder) {
-  for (const VoidsFile& each : kVoidsFiles) {
-    const auto file = folder.open(each.name, each.writer);
-    each.write(check, scan, config, *file);
-    file->close();
-  }
+  add_voids(check, scan, config, folder);
   scan.check_unchanged();
   return folder.commit();
 }

@@ -14,12 +14,11 @@
 
 namespace lacuna::io {
 
-// The sums, the voids with their outlines, and the table. Memory: one void. What is not finite is null.
-void write_voids_json(const AreaCheck& check, const FileScan& scan, const AreaConfig& config,
-                      OutputFile& out);
-
-// One line for each void. What is not finite is empty.
-void write_voids_table(const AreaCheck& check, OutputFile& out);
+// Writes voids.json, voids.csv and voids.gpkg to the folder. The first has the sums, the voids with their
+// outlines, and the table; what is not finite is null. The second has a line for each void; what is not
+// finite is empty. Memory: one void. Throws `Error`.
+void add_voids(const AreaCheck& check, const FileScan& scan, const AreaConfig& config,
+               const ResultFolder& folder);
 
 // Writes these files alone to the folder, which then takes its name. Returns the files. Throws `Error`.
 LACUNA_API std::vector<std::filesystem::path> write_voids(const AreaCheck& check, const FileScan& scan,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/results/voids_gis.hpp"
 
-#include "engine/run/error.hpp"
 #include "io/crs/gdal_session.hpp"
 
 #include <cmath>
@@ -20,20 +19,15 @@ namespace {
 // Writes one file.
 class VoidsWriter {
  public:
-  explicit VoidsWriter(const VoidsTask& task) : task_(task) {}
+  VoidsWriter(const AreaCheck& check, const GisOutput& out) : check_(check), out_(out) {}
 
   bool write() {
-    bool is_understood = true;
-    if (!task_.crs.empty()) {
-      is_understood = read_crs(task_.crs, crs_);
-      failures_.forget();
-      if (!is_understood) crs_.Clear();
-    }
+    const bool is_understood = read_crs_of_file(out_.crs, crs_);
     // Without a crs the GeoPackage has the srs_id -1, and not 0, a geographic one.
     if (crs_.IsEmpty()) crs_.SetLocalCS("Undefined Cartesian SRS");
     GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GPKG");
     require(driver != nullptr);
-    dataset_.reset(driver->Create(task_.place.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+    dataset_.reset(driver->Create(out_.place.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
     require(dataset_ != nullptr);
     write_voids(create_layer(kVoidsLayer, {{"id", OFTInteger64},
                                            {"kind", OFTString},
@@ -44,7 +38,7 @@ class VoidsWriter {
                                            {"y", OFTReal},
                                            {"spacing", OFTReal},
                                            {"excepted", OFTReal}}));
-    if (!task_.check.tiles.empty())
+    if (!check_.tiles.empty())
       write_tiles(create_layer(kTilesLayer, {{"area", OFTReal},
                                              {"covered", OFTReal},
                                              {"voids", OFTInteger64},
@@ -59,15 +53,11 @@ class VoidsWriter {
  private:
   using Fields = std::vector<std::pair<const char*, OGRFieldType>>;
 
-  void require(bool is_well) const {
-    if (is_well && failures_.first().empty()) return;
-    throw Error(task_.name.string() + ": cannot be written: GDAL: " +
-                (failures_.first().empty() ? "no reason given" : failures_.first()));
-  }
+  void require(bool is_well) const { failures_.require(is_well, out_.name); }
 
   OGRLayer& create_layer(const char* name, const Fields& fields) {
     CPLStringList options;
-    options.AddString((std::string("DESCRIPTION=") + kVoidsDescription).c_str());
+    options.AddString("DESCRIPTION=voids of an area");
     OGRLayer* const layer = dataset_->CreateLayer(name, &crs_, wkbPolygon, options.List());
     require(layer != nullptr);
     for (const auto& [field_name, type] : fields) {
@@ -100,8 +90,8 @@ class VoidsWriter {
 
   void write_voids(OGRLayer& layer) const {
     require(layer.StartTransaction() == OGRERR_NONE);
-    for (std::size_t id = 0; id < task_.check.voids.size(); ++id) {
-      const Void& each = task_.check.voids[id];
+    for (std::size_t id = 0; id < check_.voids.size(); ++id) {
+      const Void& each = check_.voids[id];
       OGRFeature feature(layer.GetLayerDefn());
       feature.SetField(0, static_cast<GIntBig>(id));
       feature.SetField(1, std::string(name_of(each.kind)).c_str());
@@ -117,7 +107,7 @@ class VoidsWriter {
 
   void write_tiles(OGRLayer& layer) const {
     require(layer.StartTransaction() == OGRERR_NONE);
-    for (const AreaTile& tile : task_.check.tiles) {
+    for (const AreaTile& tile : check_.tiles) {
       OGRFeature feature(layer.GetLayerDefn());
       set(feature, 0, tile.area);
       set(feature, 1, tile.covered());
@@ -125,13 +115,14 @@ class VoidsWriter {
       feature.SetField(3, static_cast<GIntBig>(tile.points));
       set(feature, 4, tile.density());
       set(feature, 5, tile.spacing());
-      const double edge = task_.check.tile_edge, x = tile.corner.x(), y = tile.corner.y();
+      const double edge = check_.tile_edge, x = tile.corner.x(), y = tile.corner.y();
       put(layer, feature, {{{x, y}, {x + edge, y}, {x + edge, y + edge}, {x, y + edge}}});
     }
     require(layer.CommitTransaction() == OGRERR_NONE);
   }
 
-  const VoidsTask& task_;
+  const AreaCheck& check_;
+  const GisOutput& out_;
   GdalFailures failures_;
   OGRSpatialReference crs_;
   Dataset dataset_;
@@ -139,11 +130,11 @@ class VoidsWriter {
 
 }  // namespace
 
-extern "C" bool lacuna_write_voids_gis(const VoidsTask& task) {
+extern "C" bool lacuna_write_voids_gis(const AreaCheck& check, const GisOutput& out) {
   register_gdal_drivers();
   const GdalSetting time("OGR_CURRENT_DATE", kSameTime),
       no_sync("OGR_SQLITE_SYNCHRONOUS", "OFF");  // synced in the end
-  return VoidsWriter(task).write();
+  return VoidsWriter(check, out).write();
 }
 
 }  // namespace lacuna::io

@@ -21,7 +21,7 @@ using Paths = std::vector<fs::path>;
 
 Paths files_of(const std::vector<fs::path>& given) {
   Paths files;
-  for (const ScanInput& input : expand_inputs(given, {})) files.push_back(input.file);
+  for (const ScanInput& input : expand_inputs(given)) files.push_back(input.file);
   return files;
 }
 
@@ -61,13 +61,13 @@ TEST_CASE("text with binary scans is not read; options read deeper folders and l
   const auto a = scratch.write("in/a.ply", ply), deep = scratch.write("in/deeper/b.ply", ply);
   const auto broken = scratch.write("in/c.ply", "ply\nbroken\n");
   scratch.write("in/control_points.txt", "1 2 3\n4 5 6\n");
-  InputConfig config;
-  config.recursive = config.skip_damaged = true;
-  const std::vector<ScanInput> inputs = expand_inputs({scratch / "in"}, {}, config);
+  FilesConfig config;
+  config.input.recursive = config.input.skip_damaged = true;
+  const std::vector<ScanInput> inputs = expand_inputs({scratch / "in"}, config);
   REQUIRE(inputs.size() == 2);
   CHECK(inputs[0].file == a);
   CHECK(inputs[1].file == deep);
-  CHECK_THROWS_WITH(expand_inputs({broken}, {}, config), Catch::Matchers::Contains("no other file is left"));
+  CHECK_THROWS_WITH(expand_inputs({broken}, config), Catch::Matchers::Contains("no other file is left"));
 }
 
 TEST_CASE("a file whose own count is trusted is not damaged") {
@@ -78,10 +78,10 @@ TEST_CASE("a file whose own count is trusted is not damaged") {
   const auto file = scratch.write("a.las", bytes);
   FilesConfig config;
   config.input.skip_damaged = true;
-  CHECK_THROWS_WITH(expand_inputs({file}, read_options(config), config.input),
+  CHECK_THROWS_WITH(expand_inputs({file}, config),
                     Catch::Matchers::Contains("the header counts 1 points, but 2 whole ones"));
   config.input.trust = Trust::kFile;
-  CHECK(expand_inputs({file}, read_options(config), config.input).size() == 1);
+  CHECK(expand_inputs({file}, config).size() == 1);
 }
 
 TEST_CASE("a pose follows a name in a list, as numbers or as the file that holds them") {
@@ -89,7 +89,7 @@ TEST_CASE("a pose follows a name in a list, as numbers or as the file that holds
   scratch.write("turned.xf", "0 -1 0 1\n1 0 0 2\n0 0 1 3\n0 0 0 1\n");
   const auto list =
       scratch.write("list.txt", "a b.xyz pose=turned.xf\nc.xyz\tpose=4 5 6 0 0 0 1\nd.xyz\npose=e.xyz\n");
-  const std::vector<ScanInput> inputs = expand_inputs({as_list(list)}, {});
+  const std::vector<ScanInput> inputs = expand_inputs({as_list(list)});
   REQUIRE(inputs.size() == 4);
   CHECK(inputs[0].file == scratch / "a b.xyz");
   CHECK(inputs[0].pose->translation() == Eigen::Vector3d(1, 2, 3));
@@ -99,20 +99,20 @@ TEST_CASE("a pose follows a name in a list, as numbers or as the file that holds
   CHECK(inputs[3].file == scratch / "pose=e.xyz");
   CHECK_FALSE(inputs[3].pose);
   const auto wrong = scratch.write("wrong.txt", "d.xyz\na.xyz pose=1 2 3\n");
-  CHECK_THROWS_WITH(expand_inputs({as_list(wrong)}, {}),
+  CHECK_THROWS_WITH(expand_inputs({as_list(wrong)}),
                     Catch::Matchers::Contains("wrong.txt: line 2: a pose of 3 numbers"));
   const auto missing = scratch.write("missing.txt", "a.xyz pose=none.xf\n");
-  CHECK_THROWS_WITH(expand_inputs({as_list(missing)}, {}), Catch::Matchers::Contains("none.xf"));
+  CHECK_THROWS_WITH(expand_inputs({as_list(missing)}), Catch::Matchers::Contains("none.xf"));
 }
 
 TEST_CASE("a folder without a scan, an empty list and one that is missing are errors that name them") {
   const test::ScratchFolder scratch;
   fs::create_directory(scratch / "none");
-  CHECK_THROWS_WITH(expand_inputs({scratch / "none"}, {}),
+  CHECK_THROWS_WITH(expand_inputs({scratch / "none"}),
                     Catch::Matchers::Contains("none: no scan file in this folder"));
   const auto list = scratch.write("list.txt", "# nothing\n");
-  CHECK_THROWS_WITH(expand_inputs({as_list(list)}, {}), Catch::Matchers::Contains("names no file"));
-  CHECK_THROWS_WITH(expand_inputs({"@missing.txt"}, {}),
+  CHECK_THROWS_WITH(expand_inputs({as_list(list)}), Catch::Matchers::Contains("names no file"));
+  CHECK_THROWS_WITH(expand_inputs({"@missing.txt"}),
                     Catch::Matchers::Contains("missing.txt: cannot be opened"));
 }
 
@@ -156,7 +156,9 @@ TEST_CASE(
     "point tiles that are not as ept.json and the hierarchy say are an error, which --skip-damaged ends") {
   const auto fails = [](const Ept& ept, const std::string& reason) {
     CHECK_THAT(ept.error(), Contains(reason) && Contains("; --skip-damaged reads the tiles that are there"));
-    CHECK(expand_inputs({ept.folder}, {}, {.skip_damaged = true}).size() >= 2);
+    FilesConfig skipping;
+    skipping.input.skip_damaged = true;
+    CHECK(expand_inputs({ept.folder}, skipping).size() >= 2);
   };
   const auto hierarchy = [&](const std::string& json, const std::string& reason) {
     const Ept ept;

@@ -36,8 +36,7 @@ struct CheckArguments {
 void run_check(const CheckArguments& arguments) {
   const FilesConfig config = arguments.run.start();
   if (config.area.area.empty()) throw WrongOption("--area is required");
-  const std::unique_ptr<FileScan> scan =
-      open_inputs(expand_inputs(arguments.scans, read_options(config), config.input), config);
+  const std::unique_ptr<FileScan> scan = open_inputs(expand_inputs(arguments.scans, config), config);
   const Area area = *read_area(*scan, config);
   std::optional<MadeFolder> parent;
   std::optional<ResultFolder> folder;

@@ -183,11 +183,10 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   for (const std::string& warning : station_warnings(detection.stations)) spdlog::warn("{}", warning);
   for (const std::string& warning : scan_warnings(scan, detection, config)) spdlog::warn("{}", warning);
 
-  const Clock::time_point end = Clock::now();
-  std::string summary = print_summary(detection, scan,
-                                      {.write_seconds = std::chrono::duration<double>(end - writing).count(),
-                                       .total_seconds = std::chrono::duration<double>(end - start).count()},
-                                      scan.length_unit());
+  const auto seconds_since = [end = Clock::now()](Clock::time_point begin) {
+    return std::chrono::duration<double>(end - begin).count();
+  };
+  std::string summary = print_summary(detection, scan, seconds_since(writing), seconds_since(start));
   for (const fs::path& file : written) summary += "written: " + visible(file.string()) + "\n";
   summary += readers_note(scan, config.output);
   if (workspace)
@@ -207,8 +206,7 @@ void run_detect(const Command& command, const DetectArguments& arguments) {
   require(command, "SCAN");
   require(command, "--out");
   if (arguments.run.out.empty()) throw WrongOption("--out", "a folder name is needed");
-  const std::string summary =
-      detect_to(expand_inputs(arguments.scans, read_options(config), config.input), config, arguments.run);
+  const std::string summary = detect_to(expand_inputs(arguments.scans, config), config, arguments.run);
   if (!arguments.run.quiet) std::cout << summary;
 }
 

@@ -104,8 +104,7 @@ void find_certainties(std::vector<Listed>& stations, FileScan& scan, const RunCo
 void run_find_stations(const FindArguments& arguments) {
   const FilesConfig config = arguments.parameters.read().config;
   prepare_process(config.run);
-  const ReadOptions options = read_options(config);
-  FileScan scan(expand_inputs(arguments.scans, options, config.input), config.input, options.memory);
+  FileScan scan(expand_inputs(arguments.scans, config), config.input, read_options(config).memory);
   std::vector<Listed> stations;
   std::vector<std::string> others;
   for (const Sweep& sweep : read_sweeps(scan)) {

@@ -250,7 +250,7 @@ void run_info(const InfoArguments& arguments) {
   const FilesConfig config = arguments.parameters.read().config;
   prepare_process(config.run);
   const ReadOptions options = read_options(config);
-  FileScan scan(expand_inputs(arguments.scans, options, config.input), config.input, options.memory);
+  FileScan scan(expand_inputs(arguments.scans, config), config.input, options.memory);
   std::vector<FileInfo> files;
   for (std::size_t i = 0; i < scan.files().size(); ++i) files.push_back(read_file_info(scan, i, options));
   const RunInfo run = inspect_run(scan, config);

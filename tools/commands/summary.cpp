@@ -160,7 +160,7 @@ std::vector<std::pair<std::string, std::string>> findings(const Summary& summary
 }
 
 // Prints a row for each phase; phases of one name share a row with the sum of their times.
-std::string print_times(const Summary& summary, const RunTimes& times) {
+std::string print_times(const Summary& summary, double write_seconds) {
   std::vector<PhaseTime> phases;
   const auto add = [&phases](const PhaseTime& phase) {
     const auto same = std::ranges::find(phases, phase.name, &PhaseTime::name);
@@ -171,7 +171,7 @@ std::string print_times(const Summary& summary, const RunTimes& times) {
     }
   };
   for (const PhaseTime& phase : summary.phases) add(phase);
-  add({"write", times.write_seconds});
+  add({"write", write_seconds});
   std::vector<std::vector<std::string>> rows;
   for (const PhaseTime& phase : phases) {
     rows.push_back(
@@ -197,8 +197,9 @@ double length_bound(double extent) {
   return extent > 0 && std::isfinite(extent) ? std::pow(10, std::round(std::log10(extent / 20))) : 0;
 }
 
-std::string print_summary(const ExplainedDetection& detection, const FileScan& scan, const RunTimes& times,
-                          std::string_view unit) {
+std::string print_summary(const ExplainedDetection& detection, const FileScan& scan, double write_seconds,
+                          double total_seconds) {
+  const std::string& unit = scan.length_unit();
   const Summary& summary = detection.summary;
   const std::vector<LoopMeasures>& loops = detection.loops;
   const double extent = extent_of(summary);
@@ -226,10 +227,10 @@ std::string print_summary(const ExplainedDetection& detection, const FileScan& s
   if (summary.surface_area > 0)
     facts.emplace_back("surface", print_surface(summary.surface_area, holes.area, unit));
   facts.emplace_back("peak memory", print_size(peak_memory()) + " of " + print_size(summary.memory_limit));
-  facts.emplace_back("time", print_duration(times.total_seconds) + " with " +
+  facts.emplace_back("time", print_duration(total_seconds) + " with " +
                                  counted(summary.threads, "thread", "threads") + ", " +
-                                 print_rate(summary.counts.points, times.total_seconds));
-  return text + print_facts(facts) + "\n" + print_times(summary, times) + "\n";
+                                 print_rate(summary.counts.points, total_seconds));
+  return text + print_facts(facts) + "\n" + print_times(summary, write_seconds) + "\n";
 }
 
 }  // namespace lacuna::tools

@@ -7,19 +7,12 @@
 #include "io/stations/cause.hpp"
 
 #include <string>
-#include <string_view>
 
 namespace lacuna::tools {
 
-struct RunTimes {
-  double write_seconds = 0;
-  double total_seconds = 0;
-};
-
 // Returns the findings, the largest holes by area, outer curves as sums; then counts, and time per phase.
-// `unit` is the unit of the scan's coordinates, such as "m"; empty if not known.
-std::string print_summary(const io::ExplainedDetection& detection, const io::FileScan& scan, const RunTimes& times,
-                          std::string_view unit = "");
+std::string print_summary(const io::ExplainedDetection& detection, const io::FileScan& scan,
+                          double write_seconds, double total_seconds);
 
 // Returns the length that is "long" in a scan of this extent: the power of ten nearest to a twentieth of it.
 // Returns 0 without an extent.

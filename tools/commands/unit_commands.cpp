@@ -71,8 +71,7 @@ void run_plan(const PlanArguments& arguments) {
   if (workspace.empty()) throw WrongOption("--workspace is required");
   constexpr std::uint64_t kMemoryOfTask = std::uint64_t{4} << 30;
   if (config.run.memory_limit == 0) config.run.memory_limit = kMemoryOfTask;
-  const std::unique_ptr<FileScan> scan =
-      open_inputs(expand_inputs(arguments.scans, read_options(config), config.input), config);
+  const std::unique_ptr<FileScan> scan = open_inputs(expand_inputs(arguments.scans, config), config);
   config.run.note = print_config(config);
   const MadeFolder folder(workspace);
   const FolderLock alone(folder.path());

@@ -182,8 +182,9 @@ void add_list(const fs::path& list, std::vector<ScanInput>& files) {
 
 }  // namespace
 
-std::vector<ScanInput> expand_inputs(const std::vector<fs::path>& given, const ReadOptions& options,
-                                     const InputConfig& config) {
+std::vector<ScanInput> expand_inputs(const std::vector<fs::path>& given, const FilesConfig& all) {
+  const InputConfig& config = all.input;
+  const ReadOptions options = read_options(all);
   std::vector<ScanInput> files;
   for (const fs::path& input : given) {
     std::error_code error;  // what is missing is an error later, when it is opened
