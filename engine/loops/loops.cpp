@@ -8,7 +8,7 @@ namespace lacuna {
 void Loops::add(std::uint64_t count, const LoopEvidence& evidence,
                 const std::function<LoopPoint(std::uint64_t)>& point) {
   const std::lock_guard lock(*mutex_);
-  index_.push_back({points_.size(), count, point(0).point.id, evidence});
+  index_.push_back({points_.size(), count, point(0).id, evidence});
   ColumnWriter<LoopPoint> writer(points_);
   for (std::uint64_t i = 0; i < count; ++i) writer.add(point(i));
   writer.finish();
@@ -25,7 +25,7 @@ int Loops::compare(const Loops& a, const Entry& i, const Loops& b, const Entry& 
   if (i.count != j.count) return i.count < j.count ? -1 : 1;
   ColumnReader<LoopPoint> of_a(a.points_), of_b(b.points_);
   for (std::uint64_t k = 0; k < i.count; ++k) {
-    const PointId id_a = of_a[i.first + k].point.id, id_b = of_b[j.first + k].point.id;
+    const PointId id_a = of_a[i.first + k].id, id_b = of_b[j.first + k].id;
     if (id_a != id_b) return id_a < id_b ? -1 : 1;
   }
   return 0;

@@ -34,7 +34,7 @@ std::span<LoopSample> sample_loops(const MeasuredLoops& loops, Job& job, Scratch
   for_each_loop(loops.loops, job, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch&) {
     const std::size_t count = sample_count(loops.measures[i]);
     for (std::size_t s = 0; s < count; ++s) {
-      const ScanPoint& p = loop[s * loop.size() / count].point;
+      const ScanPoint& p = loop[s * loop.size() / count];
       samples[kSamples * i + s] = {{p.x, p.y, p.z}};
     }
   });

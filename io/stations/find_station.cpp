@@ -89,7 +89,6 @@ struct SweepReader final : RowObserver {
         throw Error("the scans have more than " + std::to_string(kMostSweeps) +
                     " numbers of scanners, so they are not single sweeps");
       sweep.jumps.add(kept[i]);
-      ++sweep.points;
     }
   }
 };

@@ -55,7 +55,6 @@ struct Sweep {
   std::size_t file;
   std::optional<std::uint32_t> source;
   Jumps jumps;
-  std::uint64_t points = 0;
 };
 
 // Reads the scan. Returns sweeps in the order of files and numbers, at most kMostSweeps. Throws `Error`.

@@ -6,6 +6,7 @@
 #include "tools/commands/commands.hpp"
 #include "tools/commands/detect_command.hpp"
 #include "tools/console/area_text.hpp"
+#include "tools/console/terminal.hpp"
 #include "tools/console/visible_text.hpp"
 #include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
@@ -17,8 +18,6 @@
 #include <memory>
 #include <optional>
 #include <vector>
-
-#include <spdlog/spdlog.h>
 
 namespace lacuna::tools {
 using namespace io;
@@ -48,13 +47,13 @@ void run_check(const CheckArguments& arguments) {
   }
   const std::unique_ptr<Progress> progress = arguments.run.show_progress();
   const AreaCheck check = check_area(area, *scan, config, *progress);
-  for (const std::string& warning : area_warnings(check)) spdlog::warn("{}", warning);
+  print_warnings(area_warnings(check));
   const PlanGrid& grid = area.grid;
   const Eigen::Vector2d size(static_cast<double>(grid.columns), static_cast<double>(grid.rows));
   const Eigen::Vector2d min = grid.from_cells({0, 0}), max = grid.from_cells(size);
   const Eigen::AlignedBox3d bounds(Eigen::Vector3d(min.x(), min.y(), 0),
                                    Eigen::Vector3d(max.x(), max.y(), 0));
-  for (const std::string& warning : filter_warnings(*scan, config.input, bounds)) spdlog::warn("{}", warning);
+  print_warnings(filter_warnings(*scan, config.input, bounds));
   const std::string_view unit = scan->length_unit();
   const std::string answer = print_is_covered(check, unit);
   std::string text = answer + "\n\n";

@@ -113,7 +113,7 @@ RunArguments::RunArguments(const Command& command, ParameterScope scope) : param
 FilesConfig RunArguments::start(FilesConfig base) const {
   auto [config, warnings] = parameters.read(std::move(base));
   if (quiet) quiet_log();
-  for (const std::string& warning : warnings) spdlog::warn("{}", warning);
+  print_warnings(warnings);
   prepare_process(config.run);
   return config;
 }
@@ -131,7 +131,7 @@ FilesConfig config_of(const KeptRun& run, const fs::path& workspace) {
 std::unique_ptr<FileScan> open_inputs(const std::vector<ScanInput>& inputs, const FilesConfig& config) {
   auto scan = std::make_unique<FileScan>(inputs, config.input, read_options(config).memory);
   require_lengths(*scan);
-  for (const std::string& warning : input_warnings(*scan)) spdlog::warn("{}", warning);
+  print_warnings(input_warnings(*scan));
   return scan;
 }
 
@@ -166,7 +166,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   }
   const MadeFolder parent(scratch_parent(config.run, out));
   const TemporaryFolder scratch(parent.path(), "lacuna-");
-  for (const std::string& warning : memory_warnings(config)) spdlog::warn("{}", warning);
+  print_warnings(memory_warnings(config));
   const std::unique_ptr<Progress> progress = arguments.show_progress();
 
   const std::unique_ptr<StationViews> stations = watch_stations(scan, config.output, scratch.path());
@@ -178,10 +178,9 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   const std::vector<fs::path> written = write_results(detection, scan, with_min_hole(config), out);
   note_complete_results();
   progress->end();
-  if (detection.area)
-    for (const std::string& warning : area_warnings(*detection.area)) spdlog::warn("{}", warning);
-  for (const std::string& warning : station_warnings(detection.stations)) spdlog::warn("{}", warning);
-  for (const std::string& warning : scan_warnings(scan, detection, config)) spdlog::warn("{}", warning);
+  if (detection.area) print_warnings(area_warnings(*detection.area));
+  print_warnings(station_warnings(detection.stations));
+  print_warnings(scan_warnings(scan, detection, config));
 
   const auto seconds_since = [end = Clock::now()](Clock::time_point begin) {
     return std::chrono::duration<double>(end - begin).count();

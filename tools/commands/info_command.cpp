@@ -259,13 +259,12 @@ void run_info(const InfoArguments& arguments) {
   } else {
     print_text(files, scan, run);
   }
-  for (const std::string& warning : input_warnings(scan)) spdlog::warn("{}", warning);
+  print_warnings(input_warnings(scan));
   const Summary& summary = run.inspection.summary;
-  for (const std::string& warning : filter_warnings(scan, config.input, summary.strays.rest))
-    spdlog::warn("{}", warning);
+  print_warnings(filter_warnings(scan, config.input, summary.strays.rest));
   if (const std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
     spdlog::warn("{}", strays);
-  for (const std::string& warning : station_warnings(run.stations)) spdlog::warn("{}", warning);
+  print_warnings(station_warnings(run.stations));
 }
 
 }  // namespace

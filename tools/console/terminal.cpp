@@ -115,6 +115,10 @@ void print_error(std::string_view reason) {
   console().print_line(name() + ": error: " + std::string(reason));
 }
 
+void print_warnings(std::span<const std::string> warnings) {
+  for (const std::string& warning : warnings) spdlog::warn("{}", warning);
+}
+
 const std::string& program_name() {
   return name();
 }

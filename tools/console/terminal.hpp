@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -15,9 +16,10 @@ void start_log(const std::string& program);
 const std::string& program_name();  // "lacuna" before start_log
 void quiet_log();                   // warnings and errors only
 
-void print_error(std::string_view reason);  // "PROGRAM: error: ..."
-void print_line(std::string_view line);     // above the line of progress
-void show_bar(std::string bar);             // in place of the one before
+void print_error(std::string_view reason);                   // "PROGRAM: error: ..."
+void print_warnings(std::span<const std::string> warnings);  // by the log, a line each
+void print_line(std::string_view line);                      // above the line of progress
+void show_bar(std::string bar);                              // in place of the one before
 void clear_progress();
 // The last line that the program prints, if stderr takes it at once: nothing gets to the console afterwards.
 void print_last_line(std::string_view line);
