@@ -23,7 +23,7 @@ Level make_level(PointSource& scan, Job& job) {
       [&](std::size_t place, const VisitPoints& visit) { scattered.for_each(place, visit); },
       temporary_files(job), job);
   const double extent = extent_of(survey.bounds);
-  return {.survey = std::move(survey), .extent = extent, .store = std::move(store), .represented = {}};
+  return {.survey = survey, .extent = extent, .store = std::move(store), .represented = {}};
 }
 
 }  // namespace
@@ -32,11 +32,7 @@ TiledScan::TiledScan(const Cloud& cloud, const Config& config)
     : TiledScan(*std::make_unique<MemoryScan>(cloud), config) {}
 
 TiledScan::TiledScan(PointSource& scan, const Config& given)
-    : config(given),
-      job(config, folder.path(), quiet),
-      level(make_level(scan, job)),
-      survey(level.survey),
-      store(level.store) {}
+    : config(given), job(config, folder.path(), quiet), level(make_level(scan, job)), store(level.store) {}
 
 TileOutputs TiledScan::evaluate(const std::vector<TileConsumer>& consumers) {
   TileOutputs outputs(store.tiling(), std::nullopt, job);

@@ -40,7 +40,6 @@ struct TiledScan {
   NoProgress quiet;
   Job job;
   Level level;
-  SurveyedScan& survey;  // without its cells
   TileStore& store;
 };
 

@@ -52,7 +52,7 @@ TEST_CASE("points that come from several threads are at their places once each, 
           const ScanPoint& p = some.points[i];
           ids.push_back(value(p.id));
           wrong += p.position() != numbered(value(p.id)).position() || value(p.id) / 100 % kPlaces != place;
-          if (form.with_normals) wrong += some.normals[i].x != p.x || some.normals[i].z != 2;
+          if (form.with_normals) wrong += some.normals[i][0] != p.x || some.normals[i][2] != 2;
         }
       });
     }

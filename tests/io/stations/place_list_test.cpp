@@ -24,11 +24,11 @@ TEST_CASE("a list of places has x y z on each line, and maybe a name before them
                                                "17,7,8,9"));
   REQUIRE(places.size() == 3);
   CHECK(places[0].name == "door");
-  CHECK(places[0].place == Eigen::Vector3d(1, -2.5, 300));
+  CHECK(places[0].position == Eigen::Vector3d(1, -2.5, 300));
   CHECK(places[1].name.empty());
-  CHECK(places[1].place == Eigen::Vector3d(4, 5, 6));
+  CHECK(places[1].position == Eigen::Vector3d(4, 5, 6));
   CHECK(places[2].name == "17");
-  CHECK(places[2].place == Eigen::Vector3d(7, 8, 9));
+  CHECK(places[2].position == Eigen::Vector3d(7, 8, 9));
 }
 
 TEST_CASE("an error in a list of places names the file, the line and what is needed") {
