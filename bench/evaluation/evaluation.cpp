@@ -2,6 +2,7 @@
 #include "bench/evaluation/evaluation.hpp"
 
 #include "bench/evaluation/loop_kind.hpp"
+#include "bench/evaluation/loops_reader.hpp"
 #include "bench/evaluation/mesh_boundary.hpp"
 #include "bench/evaluation/mesh_reader.hpp"
 #include "bench/evaluation/polylines.hpp"
@@ -10,7 +11,6 @@
 #include "engine/run/error.hpp"
 #include "io/files/input_file.hpp"
 #include "io/loops/json.hpp"
-#include "io/loops/loops_reader.hpp"
 #include "io/ply/ply_reader.hpp"
 #include "io/scan/file_scan.hpp"
 
@@ -223,6 +223,7 @@ Evaluation evaluate(const Result& result, const Truth& truth, const EvaluationRu
   evaluation.loops = match_loops(result.loops, truth.loops, truth.positions, match);
   mark_steps(result.loops, truth.steps, truth.loops, truth.positions, match, evaluation.loops);
   if (truth.surface) mark_unsampled(result, truth, match, evaluation.loops);
+  evaluation.scores = score_loops(evaluation.loops.loops, evaluation.loops.true_loops);
   if (result.boundary) {
     check_ids(result.file.parent_path() / "boundary.ply", *result.boundary, truth);
     evaluation.boundary =

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bench/evaluation/boundary_points.hpp"
+#include "bench/evaluation/loop_scores.hpp"
 #include "bench/evaluation/unsampled.hpp"
 #include "io/scan/file_scan.hpp"
 #include "tools/matching/match_loops.hpp"
@@ -23,7 +24,7 @@ using namespace matching;
 // `vertices`.
 struct Result {
   std::filesystem::path file;  // with the loops
-  std::vector<io::LoopIds> loops;
+  std::vector<LoopIds> loops;
   std::vector<Eigen::Vector3d> vertices;               // of polylines, which need not be points of the scan
   std::vector<double> confidence;                      // of each loop, NaN if unknown; may be empty
   std::optional<std::vector<std::uint64_t>> boundary;  // flagged points
@@ -38,8 +39,8 @@ struct Truth {
   std::vector<Eigen::Vector3d> positions;
   std::vector<std::uint64_t> stand_ins;
   std::vector<TrueLoop> loops;
-  std::vector<io::LoopIds> steps;  // of density; see io::read_steps()
-  double spacing = 0;              // median, over the places that take part
+  std::vector<LoopIds> steps;  // of density; see read_steps()
+  double spacing = 0;          // median, over the places that take part
   std::optional<Surface> surface;
 };
 
@@ -50,6 +51,7 @@ struct EvaluationRule {
 
 struct Evaluation {
   LoopAccuracy loops;
+  LoopScores scores;
   std::optional<PointAccuracy> boundary;  // radius: the tolerance
   std::optional<double> confidence;       // area under the ROC curve
 };

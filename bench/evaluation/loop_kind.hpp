@@ -2,9 +2,9 @@
 // Whether a true loop goes around a hole or around a piece of surface.
 #pragma once
 
+#include "bench/evaluation/loops_reader.hpp"
 #include "bench/evaluation/point_tree.hpp"
 #include "engine/model/loop.hpp"
-#include "io/loops/loops_reader.hpp"
 
 #include <optional>
 #include <span>
@@ -16,7 +16,7 @@ namespace lacuna::evaluation {
 // Uses the rule for found loops (engine/loops/measure_loop.hpp): the surface is where the means of the 15
 // nearest points are. `points` are the points of the tree, and ids are places in `positions`. Returns nothing
 // for fewer than three ids.
-std::optional<LoopKind> kind_of(const io::LoopIds& loop, std::span<const Eigen::Vector3d> positions,
+std::optional<LoopKind> kind_of(const LoopIds& loop, std::span<const Eigen::Vector3d> positions,
                                 std::span<const Eigen::Vector3d> points, const PointTree& tree);
 
 }  // namespace lacuna::evaluation

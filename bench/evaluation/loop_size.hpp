@@ -21,6 +21,6 @@ struct LoopSize {
 
 // Ids are places in `positions`, which are finite there. A loop without edges has a size of 0.
 LoopSize size_of(const TrueLoop& loop, std::span<const Eigen::Vector3d> positions);
-LoopSize size_of(const io::LoopIds& loop, std::span<const Eigen::Vector3d> positions);
+LoopSize size_of(const LoopIds& loop, std::span<const Eigen::Vector3d> positions);
 
 }  // namespace lacuna::evaluation

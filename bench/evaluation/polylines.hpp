@@ -2,7 +2,7 @@
 // Reads loops of other programs, as lines of a PLY file.
 #pragma once
 
-#include "io/loops/loops_reader.hpp"
+#include "bench/evaluation/loops_reader.hpp"
 
 #include <filesystem>
 #include <vector>
@@ -17,6 +17,6 @@ bool has_polylines(const std::filesystem::path& file);
 // 'vertex2'. Ids are places among the vertices. Loops are in the order of their first vertices; vertices
 // without an edge are in no loop. Throws `Error` if a vertex has one edge, or more than two, or does not
 // exist.
-std::vector<io::LoopIds> read_polylines(const std::filesystem::path& file);
+std::vector<LoopIds> read_polylines(const std::filesystem::path& file);
 
 }  // namespace lacuna::evaluation

@@ -50,7 +50,7 @@ std::string print_scores(const EvaluationText& text) {
   const Truth& truth = text.truth;
   const Evaluation& evaluation = text.evaluation;
   std::ostringstream out;
-  const LoopScores& scores = evaluation.loops.scores;
+  const LoopScores& scores = evaluation.scores;
   out << visible(text.result_path.string()) << " against " << visible(text.truth_path.string())
       << "\n  true loops  " << print_count(scores.true_loops) << ", of " << text.rule.min_vertices
       << " vertices or more; shorter ones: " << print_count(scores.short_loops) << "\n  found       "
@@ -116,7 +116,7 @@ std::string print_conclusion(const LoopScores& scores) {
 }  // namespace
 
 std::string print_details(const EvaluationText& text) {
-  return print_scores(text) + print_loops(text) + print_conclusion(text.evaluation.loops.scores);
+  return print_scores(text) + print_loops(text) + print_conclusion(text.evaluation.scores);
 }
 
 }  // namespace lacuna::evaluation

@@ -33,7 +33,7 @@ Json points_json(const PointScores& scores) {
 
 std::string print_json(const EvaluationText& text) {
   const auto& [result, truth, evaluation] = std::tie(text.result, text.truth, text.evaluation);
-  const LoopScores& scores = evaluation.loops.scores;
+  const LoopScores& scores = evaluation.scores;
   Json root = {{"result", text.result_path.string()},
                {"truth", text.truth_path.string()},
                {"surface", truth.surface ? Json(text.surface_path.string()) : Json()},

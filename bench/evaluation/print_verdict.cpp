@@ -53,7 +53,7 @@ std::string counted(std::size_t count, const char* one, const char* several) {
 }
 
 std::string print_sentence(const EvaluationText& text) {
-  const LoopScores& scores = text.evaluation.loops.scores;
+  const LoopScores& scores = text.evaluation.scores;
   std::string line = "found ";
   if (!knows_kinds(text)) {
     line += print_tally(tally(text, {}), "true loop", "true loops");

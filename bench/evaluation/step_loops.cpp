@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/evaluation/step_loops.hpp"
 
+#include "bench/evaluation/loop_scores.hpp"
 #include "tools/matching/edge_tree.hpp"
 
 #include <utility>

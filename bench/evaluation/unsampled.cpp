@@ -14,7 +14,6 @@
 
 namespace lacuna::evaluation {
 using namespace matching;
-using namespace io;
 
 namespace {
 

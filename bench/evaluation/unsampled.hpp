@@ -2,8 +2,8 @@
 // Finds loops around places of the true surface where the scan has no points.
 #pragma once
 
+#include "bench/evaluation/loops_reader.hpp"
 #include "bench/evaluation/mesh_reader.hpp"
-#include "io/loops/loops_reader.hpp"
 
 #include <cstdint>
 #include <span>
@@ -36,7 +36,7 @@ struct Sampling {
 // is not finite has no places.
 //
 // Cost: n log n for the scan, log n for every triangle, and for every place near a loop.
-std::vector<std::vector<bool>> points_at_unsampled(std::span<const io::LoopIds> loops, const Surface& surface,
+std::vector<std::vector<bool>> points_at_unsampled(std::span<const LoopIds> loops, const Surface& surface,
                                                    const Sampling& sampling);
 
 }  // namespace lacuna::evaluation

@@ -37,7 +37,7 @@ void write_loop(OutputFile& file, const std::string& name, const std::vector<std
 }
 
 void write_step(OutputFile& file, const std::vector<std::uint64_t>& step) {
-  file.write(std::string(kStepMark) + " " + line_of(step));
+  file.write(std::string(evaluation::kStepMark) + " " + line_of(step));
 }
 
 }  // namespace lacuna::synth

@@ -2,8 +2,8 @@
 // The file of true loops of a synthetic scan.
 #pragma once
 
+#include "bench/evaluation/loops_reader.hpp"
 #include "io/files/output_file.hpp"
-#include "io/loops/loops_reader.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -14,7 +14,7 @@
 namespace lacuna::synth {
 
 // Each file of true loops begins with this text, by which a program recognises an earlier one.
-inline constexpr std::string_view kTruthMark = io::kLoopsTextMark;
+inline constexpr std::string_view kTruthMark = evaluation::kLoopsTextMark;
 
 // Returns `truth`, or NAME.loops.txt next to the scan if `truth` is empty. Throws `Error` if that is the scan
 // itself.
@@ -23,7 +23,7 @@ std::filesystem::path truth_file_of(const std::filesystem::path& scan, const std
 void write_truth_head(io::OutputFile& file, const std::filesystem::path& scan);
 // Writes a comment that names the loop, and a line with its ids.
 void write_loop(io::OutputFile& file, const std::string& name, const std::vector<std::uint64_t>& loop);
-// Writes a step of density: a comment with the ids along it, for io::read_steps().
+// Writes a step of density: a comment with the ids along it, for evaluation::read_steps().
 void write_step(io::OutputFile& file, const std::vector<std::uint64_t>& step);
 
 }  // namespace lacuna::synth

@@ -41,9 +41,9 @@ void run_check(const CheckArguments& arguments) {
   std::optional<ResultFolder> folder;
   if (!arguments.run.out.empty()) {
     parent.emplace(parent_of(arguments.run.out));
+    watch_results(arguments.run.out, arguments.run.out / kVoidsFile);
     folder.emplace(arguments.run.out);
     check_not_input(*folder, *scan);
-    watch_results(folder->path(), folder->path() / kVoidsFile);
   }
   const std::unique_ptr<Progress> progress = arguments.run.show_progress();
   const AreaCheck check = check_area(area, *scan, config, *progress);

@@ -154,9 +154,9 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
 
   const std::optional<Area> area = read_area(scan, config);
   const MadeFolder out_parent(parent_of(arguments.out));
+  watch_results(arguments.out, arguments.out / "holes.json");  // from the first temporary file on
   ResultFolder out(arguments.out);
   check_results(scan, config, out);
-  watch_results(out.path(), out.path() / "holes.json");
   const std::unique_ptr<UsedWorkspace> workspace = use_workspace(config.run.workspace);
   if (workspace) {
     const fs::path& folder = workspace->folder.path();

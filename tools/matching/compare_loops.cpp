@@ -11,10 +11,10 @@ namespace lacuna::matching {
 namespace {
 
 // Appends the points of all loops to the positions; returns the loops by place there.
-std::vector<io::LoopIds> place(std::span<const ComparedLoop> loops, std::vector<Eigen::Vector3d>& positions) {
-  std::vector<io::LoopIds> placed;
+std::vector<LoopIds> place(std::span<const ComparedLoop> loops, std::vector<Eigen::Vector3d>& positions) {
+  std::vector<LoopIds> placed;
   for (const ComparedLoop& loop : loops) {
-    io::LoopIds& ids = placed.emplace_back();
+    LoopIds& ids = placed.emplace_back();
     for (const Eigen::Vector3d& point : loop.points) {
       ids.push_back(positions.size());
       positions.push_back(point);
@@ -45,10 +45,10 @@ std::string_view name_of(Change change) {
 std::vector<LoopChange> compare_loops(std::span<const ComparedLoop> before,
                                       std::span<const ComparedLoop> after, double tolerance) {
   std::vector<Eigen::Vector3d> positions;
-  const std::vector<io::LoopIds> first = place(before, positions), second = place(after, positions);
+  const std::vector<LoopIds> first = place(before, positions), second = place(after, positions);
   const MatchRule rule{.tolerance = tolerance, .min_vertices = 0};
   const std::vector<std::uint64_t> same_places = stand_ins(positions);
-  const auto matches = [&](std::span<const io::LoopIds> loops, std::span<const io::LoopIds> others) {
+  const auto matches = [&](std::span<const LoopIds> loops, std::span<const LoopIds> others) {
     const std::vector<TrueLoop> truth = loops_through(others, same_places);
     return match_loops(loops, truth, positions, rule).loops;
   };

@@ -5,7 +5,6 @@
 #include <numeric>
 
 namespace lacuna::matching {
-using namespace io;
 
 namespace {
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "engine/model/loop.hpp"
-#include "io/loops/loops_reader.hpp"
 #include "tools/matching/edge_tree.hpp"
 
 #include <array>
@@ -16,6 +15,8 @@
 #include <Eigen/Core>
 
 namespace lacuna::matching {
+
+using LoopIds = std::vector<std::uint64_t>;  // closed, in the order of its edges, at least one id
 
 // A place may have several points; ids here are the ids of the points that stand for a place (see stand_ins).
 struct TrueLoop {
@@ -30,8 +31,7 @@ struct TrueLoop {
 std::vector<std::uint64_t> stand_ins(std::span<const Eigen::Vector3d> positions);
 
 // Returns the closed polygons through `ids`, in their order.
-std::vector<TrueLoop> loops_through(std::span<const io::LoopIds> ids,
-                                    std::span<const std::uint64_t> stand_ins);
+std::vector<TrueLoop> loops_through(std::span<const LoopIds> ids, std::span<const std::uint64_t> stand_ins);
 
 // Holds all edges of the loops; their owners are places in `truth`.
 EdgeTree tree_of_truth(std::span<const TrueLoop> truth, std::span<const Eigen::Vector3d> positions);

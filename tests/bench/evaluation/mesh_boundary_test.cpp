@@ -10,7 +10,6 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna::evaluation {
-using namespace io;
 
 namespace {
 

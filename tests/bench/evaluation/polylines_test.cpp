@@ -34,7 +34,7 @@ TEST_CASE("loops follow the edges of a PLY file, whatever the order of its edges
   const ScratchFolder folder;
   const auto file = folder.write("a.ply", ply(zeros(8), 8, "5 3\n0 7\n3 1\n7 2\n1 5\n2 0\n", 6));
   CHECK(has_polylines(file));
-  CHECK(read_polylines(file) == std::vector<io::LoopIds>{{0, 7, 2}, {1, 3, 5}});
+  CHECK(read_polylines(file) == std::vector<matching::LoopIds>{{0, 7, 2}, {1, 3, 5}});
 }
 
 TEST_CASE("lines that are no closed loops are refused in one line that names the vertex or the edge") {

@@ -6,7 +6,6 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna::evaluation {
-using namespace io;
 
 namespace {
 

@@ -11,7 +11,6 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna::evaluation {
-using namespace io;
 
 namespace {
 

@@ -12,7 +12,6 @@
 
 namespace lacuna::evaluation {
 using namespace matching;
-using namespace io;
 
 namespace {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // True loops of scenes whose outlines are computed by hand.
+#include "bench/evaluation/loops_reader.hpp"
 #include "bench/synth/scanner.hpp"
 #include "bench/synth/trig.hpp"
 #include "bench/synth/vec3.hpp"
-#include "io/loops/loops_reader.hpp"
 #include "tests/bench/synth/made.hpp"
 
 #include <algorithm>
@@ -202,14 +202,14 @@ TEST_CASE("a tripod circle that another station samples sparsely is a step of de
   Scene scene = closed_room({1, 2, 1.5});
   scene.stand_high.x = 5;
   CHECK(make(options, scene).loops.size() == 1);
-  CHECK(io::read_steps(folder / "made.loops.txt").empty());
+  CHECK(evaluation::read_steps(folder / "made.loops.txt").empty());
   options.stations = 2;
   options.seed = 9;
   const std::vector<Vec3> eyes = Scanner(options, scene).stations();
   REQUIRE(std::fabs(eyes[0].x - eyes[1].x) > 3);  // so that no place lies in both circles
   const Made made = make(options, scene);
   CHECK(made.loops.empty());
-  const auto steps = io::read_steps(folder / "made.loops.txt");
+  const auto steps = evaluation::read_steps(folder / "made.loops.txt");
   REQUIRE(steps.size() == 2);
   std::set<std::size_t> found;
   for (const auto& step : steps) {

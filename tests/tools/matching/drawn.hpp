@@ -17,9 +17,9 @@ struct Drawing {
   std::vector<Eigen::Vector3d> positions;
 
   // A regular polygon of n points, a unit apart. Returns their ids, in order.
-  io::LoopIds ring(std::uint64_t n, double x, double y) {
+  matching::LoopIds ring(std::uint64_t n, double x, double y) {
     const double radius = 0.5 / std::sin(std::numbers::pi / static_cast<double>(n));
-    io::LoopIds ids;
+    matching::LoopIds ids;
     for (std::uint64_t i = 0; i < n; ++i) {
       const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n);
       ids.push_back(positions.size());
@@ -35,7 +35,7 @@ struct Drawing {
 };
 
 // The first points of a loop.
-inline io::LoopIds part(const io::LoopIds& loop, double share) {
+inline matching::LoopIds part(const matching::LoopIds& loop, double share) {
   const auto count = static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(loop.size())));
   return {loop.begin(), loop.begin() + count};
 }

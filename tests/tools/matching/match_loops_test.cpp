@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/matching/match_loops.hpp"
 
+#include "bench/evaluation/loop_scores.hpp"
 #include "tests/tools/matching/drawn.hpp"
 
 #include <limits>
@@ -8,13 +9,17 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna::matching {
-using namespace io;
+using evaluation::LoopScores;
 
 namespace {
 
 LoopAccuracy match(const Drawing& drawing, const std::vector<LoopIds>& loops,
                    const std::vector<LoopIds>& truth, const MatchRule& rule = {.tolerance = 2}) {
   return match_loops(loops, loops_through(truth, stand_ins(drawing.positions)), drawing.positions, rule);
+}
+
+LoopScores scores_of(const LoopAccuracy& result) {
+  return evaluation::score_loops(result.loops, result.true_loops);
 }
 
 // There and back again, so that no edge cuts across.
@@ -39,7 +44,7 @@ TEST_CASE("a loop along a true loop finds it, the next ones repeat it") {
   CHECK(result.loops[0].covered == 1);
   CHECK_FALSE(result.true_loops[0].found_by);
   CHECK(result.true_loops[1].found_by == 0u);
-  const LoopScores& scores = result.scores;
+  const LoopScores scores = scores_of(result);
   CHECK((scores.true_loops == 2 && scores.found == 1 && scores.missed == 1));
   CHECK((scores.loops == 3 && scores.false_loops == 0 && scores.repeated == 2));
   CHECK(scores.recall == 0.5);
@@ -55,8 +60,8 @@ TEST_CASE("a loop that covers less than 70 percent of a true one does not find i
   CHECK(less.loops[0].true_loop == 0u);
   CHECK(less.loops[0].on == 1);
   CHECK(less.loops[0].covered == Approx(0.62));
-  CHECK(less.scores.found == 0);
-  CHECK(less.scores.precision == 0);
+  CHECK(scores_of(less).found == 0);
+  CHECK(scores_of(less).precision == 0);
   const LoopAccuracy more = match(drawing, {and_back(part(ring, 0.68))}, {ring}, {.tolerance = 1.5});
   CHECK(more.loops[0].covered == Approx(0.70));
   CHECK(more.loops[0].verdict == EdgeDecision::kFound);
@@ -118,8 +123,9 @@ TEST_CASE("the halves of a true loop are parted, unless one of them covers 70 pe
   const LoopAccuracy result = match(drawing, {below, above}, {ring}, {.tolerance = 1});
   CHECK(result.loops[0].verdict == EdgeDecision::kParted);
   CHECK(result.loops[1].verdict == EdgeDecision::kParted);
-  CHECK((result.scores.parted == 2 && result.scores.false_loops == 0 && result.scores.missed == 1));
-  CHECK(result.scores.precision == 0);
+  CHECK(
+      (scores_of(result).parted == 2 && scores_of(result).false_loops == 0 && scores_of(result).missed == 1));
+  CHECK(scores_of(result).precision == 0);
   const LoopIds most(ring.begin(), ring.begin() + 60), rest(ring.begin() + 60, ring.end());
   const LoopAccuracy uneven = match(drawing, {most, rest}, {ring}, {.tolerance = 1});
   CHECK(uneven.loops[0].verdict == EdgeDecision::kFound);
@@ -136,10 +142,10 @@ TEST_CASE("short true loops count neither as found nor as missed, and loops on t
   CHECK(result.loops[1].verdict == EdgeDecision::kShort);
   CHECK_FALSE(result.true_loops[0].counts);
   CHECK(result.true_loops[0].found_by == 0u);
-  const LoopScores& scores = result.scores;
+  const LoopScores scores = scores_of(result);
   CHECK((scores.true_loops == 1 && scores.short_loops == 2 && scores.found == 0 && scores.missed == 1));
   CHECK((scores.false_loops == 0 && scores.repeated == 0 && scores.precision == 1));
-  CHECK(match(drawing, {small}, {small}, {.tolerance = 2, .min_vertices = 7}).scores.found == 1);
+  CHECK(scores_of(match(drawing, {small}, {small}, {.tolerance = 2, .min_vertices = 7})).found == 1);
 }
 
 TEST_CASE("a loop on a short true loop next to a long one goes to the long one") {
@@ -163,19 +169,19 @@ TEST_CASE("distances are to edges, so long ones hide nothing") {
   for (int i = 0; i < 30; ++i) dense.push_back(drawing.point(side - i, side));
   for (int i = 0; i < 30; ++i) dense.push_back(drawing.point(0, side - i));
   const MatchRule rule{.tolerance = 0.5, .min_vertices = 4};
-  CHECK(match(drawing, {dense}, {corners}, rule).scores.found == 1);
-  CHECK(match(drawing, {corners}, {dense}, rule).scores.found == 1);
+  CHECK(scores_of(match(drawing, {dense}, {corners}, rule)).found == 1);
+  CHECK(scores_of(match(drawing, {corners}, {dense}, rule)).found == 1);
 }
 
 TEST_CASE("without loops and without truth there is no precision and no recall") {
   const LoopAccuracy nothing = match(Drawing{}, {}, {});
-  CHECK_FALSE(nothing.scores.precision);
-  CHECK_FALSE(nothing.scores.recall);
+  CHECK_FALSE(scores_of(nothing).precision);
+  CHECK_FALSE(scores_of(nothing).recall);
   Drawing drawing;
   const LoopIds ring = drawing.ring(40, 0, 0);
-  CHECK(match(drawing, {}, {ring}).scores.recall == 0);
-  CHECK(match(drawing, {ring}, {}).scores.precision == 0);
-  CHECK(match(drawing, {ring}, {}).scores.false_loops == 1);
+  CHECK(scores_of(match(drawing, {}, {ring})).recall == 0);
+  CHECK(scores_of(match(drawing, {ring}, {})).precision == 0);
+  CHECK(scores_of(match(drawing, {ring}, {})).false_loops == 1);
 }
 
 TEST_CASE("points that are not finite are near nothing") {
@@ -184,25 +190,7 @@ TEST_CASE("points that are not finite are near nothing") {
   drawing.positions[ring[3]].x() = std::numeric_limits<double>::quiet_NaN();
   const LoopAccuracy result = match(drawing, {ring}, {ring});
   CHECK(result.loops[0].on == Approx(39.0 / 40));
-  CHECK(result.scores.found == 1);
-}
-
-TEST_CASE("the area under the ROC curve is the share of pairs in the right order") {
-  const auto area = [](std::vector<EdgeDecision> verdicts, std::vector<double> confidence) {
-    std::vector<LoopMatch> loops;
-    for (const EdgeDecision verdict : verdicts) loops.push_back({.verdict = verdict});
-    return area_under_roc(loops, confidence);
-  };
-  using enum EdgeDecision;
-  CHECK(area({kFound, kRepeated, kFalse, kFalse}, {0.9, 0.8, 0.2, 0.1}) == 1);
-  CHECK(area({kFound, kFound, kFalse, kFalse}, {0.9, 0.15, 0.2, 0.1}) == 0.75);
-  CHECK(area({kFound, kFalse}, {0.5, 0.5}) == 0.5);
-  CHECK(area({kFound, kFalse}, {0.1, 0.2}) == 0);
-  CHECK(area({kFound, kFalse, kShort, kFalse}, {0.5, 0.4, 0.1, std::nan("")}) == 1);
-  CHECK(area({kFound, kJoined, kParted, kFalse}, {0.5, 0.9, 0.1, 0.4}) == 1);
-  CHECK_FALSE(area({kFound, kFound}, {0.5, 0.4}));
-  CHECK_FALSE(area({kFalse}, {0.5}));
-  CHECK_FALSE(area({}, {}));
+  CHECK(scores_of(result).found == 1);
 }
 
 }  // namespace lacuna::matching

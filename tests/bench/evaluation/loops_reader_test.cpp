@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/loops/loops_reader.hpp"
+#include "bench/evaluation/loops_reader.hpp"
 
 #include "tests/io/io_support.hpp"
 
@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 
 namespace lacuna::test {
-using namespace io;
+using namespace evaluation;
 
 namespace {
 

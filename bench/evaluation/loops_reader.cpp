@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/loops/loops_reader.hpp"
+#include "bench/evaluation/loops_reader.hpp"
 
 #include "engine/run/error.hpp"
 #include "io/files/input_file.hpp"
@@ -10,7 +10,9 @@
 #include <string>
 #include <utility>
 
-namespace lacuna::io {
+namespace lacuna::evaluation {
+using namespace io;
+
 namespace {
 
 constexpr double kIdsEnd = 0x1p53;  // from here on a double is no longer any whole number
@@ -136,4 +138,4 @@ std::vector<std::uint64_t> read_ids(const std::filesystem::path& file) {
   return read_column(file, "scalar_id");
 }
 
-}  // namespace lacuna::io
+}  // namespace lacuna::evaluation

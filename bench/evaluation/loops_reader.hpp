@@ -2,15 +2,16 @@
 // Loops read back: what `lacuna detect` writes as loops.ply, and loops as text.
 #pragma once
 
+#include "tools/matching/true_loops.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace lacuna::io {
-
-using LoopIds = std::vector<std::uint64_t>;  // closed, in the order of its edges, at least one id
+namespace lacuna::evaluation {
+using namespace matching;
 
 // Reads loops.ply in the order of its property "scalar_loop", which counts from 0 without gaps. In text, a
 // line has one loop, ids divided by blanks; lines that are blank or begin with # are passed over. Returns no
@@ -40,4 +41,4 @@ std::vector<LoopIds> read_steps(const std::filesystem::path& file);
 // Returns the ids of boundary.ply, in file order. Throws `Error`.
 std::vector<std::uint64_t> read_ids(const std::filesystem::path& file);
 
-}  // namespace lacuna::io
+}  // namespace lacuna::evaluation
