@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/console/overall_progress.hpp"
 
-#include <algorithm>
+#include "tools/console/shown_progress.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -59,33 +59,39 @@ TEST_CASE("a stage whose size is not known advances with time and is never throu
   CHECK(first.at(1e9, 0, 0).share < 1);
 }
 
-TEST_CASE("counts beyond the total do not exceed the stage") {
-  OverallProgress progress({{"a", 1}, {"b", 1}});
-  progress.begin("a", 0);
-  CHECK(progress.at(1, 500, 100).share == Approx(0.5));
+ProgressState evaluating() {
+  return {.stage = "evaluate",
+          .done = 3'200'000,
+          .total = 10'000'000,
+          .stage_seconds = 2,
+          .seconds = 12.3456,
+          .overall = {.share = 0.379, .seconds_left = 41.2}};
 }
 
-TEST_CASE("the expected stages are those of the config") {
-  const auto names = [](const Config& config) {
-    std::vector<std::string> all;
-    for (const ExpectedStage& stage : expected_stages(config)) all.push_back(stage.name);
-    return all;
-  };
-  const auto has = [&](const Config& config, const char* name) {
-    const auto all = names(config);
-    return std::find(all.begin(), all.end(), name) != all.end();
-  };
-  Config config;
-  CHECK(names(config) == std::vector<std::string>{"survey", "bucket", "halo", "evaluate", "loops", "levels",
-                                                  "track", "measure", "nest", "coherence", "sample",
-                                                  "collect", "write"});
-  config.scale.every_point = true;
-  CHECK(!has(config, "levels"));
-  config.scale = {.min_hole = 0.2};
-  CHECK(names(config)[2] == "thin");
-  const double without = expected_stages(config).back().weight;
-  config.results.points = true;
-  CHECK(expected_stages(config).back().weight > without);
+TEST_CASE("the progress bar shows the share of the run, the stage, its rate and the time left of the run") {
+  ProgressState state = evaluating();
+  CHECK(progress_bar(state, 70) == "lacuna  37 %  [===      ]  evaluate    1.60 M points/s  0:42 min left");
+  CHECK(progress_bar(state, 62) == "lacuna  37 %  evaluate    1.60 M points/s  0:42 min left");
+  CHECK(progress_bar(state, 20) == "lacuna  37 %  evalu");
+  state.overall = {.share = 1, .seconds_left = 3723};
+  CHECK(progress_bar(state, 62) == "lacuna 100 %  evaluate    1.60 M points/s  1:02:03 h left");
+  state.done = 0;
+  state.overall = {};
+  CHECK(progress_bar(state, 42) == "lacuna   0 %  evaluate                   ");
+}
+
+TEST_CASE("the progress bar is shorter than the terminal is wide, whatever it shows") {
+  for (std::size_t width = 0; width < 200; ++width) {
+    for (const std::uint64_t done : {0ull, 1ull, 1000ull, ~0ull}) {
+      for (const double seconds : {0.0, 1e-9, 100.0, 1e12}) {
+        const ProgressState state{.stage = "a stage with a long name",
+                                  .done = done,
+                                  .stage_seconds = seconds,
+                                  .overall = {.share = 1, .seconds_left = seconds}};
+        REQUIRE(progress_bar(state, width).size() <= (width > 0 ? width - 1 : 0));
+      }
+    }
+  }
 }
 
 }  // namespace

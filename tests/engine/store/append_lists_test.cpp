@@ -8,8 +8,6 @@
 #include "tests/support/scratch_folder.hpp"
 
 #include <algorithm>
-#include <numeric>
-#include <thread>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -65,27 +63,6 @@ TEST_CASE("one thread's appends to a list stay in order") {
     CHECK(std::is_sorted(read.begin(), read.end()));
     CHECK(read.size() == (list == 0 ? 33334u : 33333u));
   }
-}
-
-TEST_CASE("appends from many threads lose nothing") {
-  const ScratchFolder folder;
-  AppendLists<std::uint64_t> lists(folder / "lists", 5, std::make_shared<BufferPool>(0));
-  std::vector<std::thread> threads;
-  for (std::uint64_t t = 0; t < 8; ++t) {
-    threads.emplace_back([&lists, t] {
-      for (std::uint64_t i = 0; i < 20'000; ++i) lists.append((t + i) % 5, t * 20'000 + i);
-    });
-  }
-  for (std::thread& thread : threads) thread.join();
-  std::vector<std::uint64_t> all;
-  for (std::size_t list = 0; list < 5; ++list) {
-    const std::vector<std::uint64_t> read = lists.read(list);
-    all.insert(all.end(), read.begin(), read.end());
-  }
-  std::sort(all.begin(), all.end());
-  std::vector<std::uint64_t> expected(160'000);
-  std::iota(expected.begin(), expected.end(), 0);
-  CHECK(all == expected);
 }
 
 TEST_CASE("many lists on disk in many small pieces take no more memory than their budget and a table") {
