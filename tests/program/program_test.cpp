@@ -106,7 +106,8 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
          {"detect", "a.ply", "--out", "d", "--colour=3", "unknown option --colour (see"},
          {"detect", "--print-config", "--config", config, "c.toml:2: unknown key \"sigmas\""},
          {"detect", "--print-config", "--config", "aerail", "(did you mean \"aerial\"?)"},
-         {"detect", "--print-config", "--config", "no.toml", "a TOML file, or one of these: aerial, default"},
+         {"detect", "--print-config", "--config", "aerail", "a TOML file, or one of these: aerial"},
+         {"detect", "--print-config", "--config", "no.toml", "no.toml: cannot be opened"},
          {"info", "SCAN"},
          {"render", "d", "--out", "x.jpg", "allowed: a name that ends in .png"}},
         [](const Words& words) { return run_program(words); });

@@ -10,21 +10,8 @@
 namespace lacuna {
 namespace {
 
-OrientedEnd end_at(std::uint64_t id, const Eigen::Vector3d& normal) {
-  return {PointId{id}, Row{100 + id}, normal};
-}
-
 OrientationEdge edge(double weight, std::uint64_t low, std::uint64_t high) {
   return {weight, PointId{low}, PointId{high}, Row{low}, Row{high}, 0};
-}
-
-TEST_CASE("an edge is the same from both ends, to the last bit") {
-  Random random(1);
-  for (int i = 0; i < 1000; ++i) {
-    const OrientedEnd a = end_at(1, random.direction()), b = end_at(2, random.direction());
-    const OrientationEdge one = orientation_edge(a, b), other = orientation_edge(b, a);
-    CHECK((one.weight == other.weight && one.opposed == other.opposed && one.low == other.low));
-  }
 }
 
 TEST_CASE("a forest of parts' forests and the edges between is the forest of the whole") {
