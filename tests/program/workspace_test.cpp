@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // detect --workspace: a run that is stopped, however, goes on to the results of an undisturbed one.
-#include "tests/support/clouds.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/sheet.hpp"

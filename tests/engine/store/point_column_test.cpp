@@ -4,7 +4,6 @@
 
 #include "engine/run/error.hpp"
 #include "engine/survey/survey.hpp"
-#include "tests/support/clouds.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <cmath>

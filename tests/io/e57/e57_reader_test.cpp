@@ -3,7 +3,6 @@
 #include "io/files/little_endian.hpp"
 #include "io/formats.hpp"
 #include "tests/io/broken_files.hpp"
-#include "tests/support/draws.hpp"
 #include "tests/support/e57_encoder.hpp"
 
 #include <cmath>

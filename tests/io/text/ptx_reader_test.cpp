@@ -11,8 +11,6 @@ using namespace io;
 
 namespace {
 
-using Catch::Matchers::Contains;
-
 // Turned by a quarter about z, and moved.
 const std::string kPose = "10 20 30\n0 1 0\n-1 0 0\n0 0 1\n0 1 0 0\n-1 0 0 0\n0 0 1 0\n10 20 30 1\n";
 const std::string kStill = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";

@@ -3,7 +3,6 @@
 #include "engine/boundary/tangential/sampling_radius.hpp"
 
 #include "tests/support/clouds.hpp"
-#include "tests/support/draws.hpp"
 
 #include <algorithm>
 #include <vector>
