@@ -66,6 +66,14 @@ std::vector<std::vector<PointId>> brute_force_neighbours(const Cloud& cloud, con
   return neighbours;
 }
 
+void check_neighbours(const Cloud& cloud, const Config& config) {
+  const Detection result = detect(cloud, config);
+  const auto expected = brute_force_neighbours(cloud, result, config.neighbourhood.k);
+  std::size_t differing = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) differing += result.points[i].neighbours != expected[i];
+  CHECK(differing == 0);
+}
+
 }  // namespace
 
 // ---- Neighbourhoods ----------------------------------------------------------------------------------
@@ -75,12 +83,7 @@ TEST_CASE("neighbours are those of a brute force search, in order, on random clo
     INFO("seed " << seed);
     const Cloud cloud = random_cloud(seed);
     if (cloud.size() > 1000) continue;
-    const Config config = random_config(seed, typical_spacing(cloud));
-    const Detection result = detect(cloud, config);
-    const auto expected = brute_force_neighbours(cloud, result, config.neighbourhood.k);
-    std::size_t differing = 0;
-    for (std::size_t i = 0; i < cloud.size(); ++i) differing += result.points[i].neighbours != expected[i];
-    CHECK(differing == 0);
+    check_neighbours(cloud, random_config(seed, typical_spacing(cloud)));
   }
 }
 
@@ -88,11 +91,7 @@ TEST_CASE("neighbours are those of a brute force search on the hard cloud, where
   const Cloud cloud = hard_cloud(1).joined(lattice(6).translated({16, 16, 16}));
   Config config;
   config.neighbourhood.eps = 1;  // the step of the lattice, exactly
-  const Detection result = detect(cloud, config);
-  const auto expected = brute_force_neighbours(cloud, result, config.neighbourhood.k);
-  std::size_t differing = 0;
-  for (std::size_t i = 0; i < cloud.size(); ++i) differing += result.points[i].neighbours != expected[i];
-  CHECK(differing == 0);
+  check_neighbours(cloud, config);
 }
 
 TEST_CASE("equal distances are decided by id") {

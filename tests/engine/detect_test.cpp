@@ -160,16 +160,6 @@ void check_seed(std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("a punched plane has its hole and its outer curve, as in the plain method") {
-  const Cloud cloud = plane(40).punched({20, 20}, 5).jittered(0.2, 7);
-  const reference::Detection plain = reference::detect(cloud.positions, {}, Config{});
-  const Detected engine = run_engine(cloud, tiled({}, 300));
-  check_equal(engine, plain);
-  REQUIRE(engine.loops.size() == 2);
-  CHECK(engine.loops[0].measures.kind == LoopKind::kOuter);
-  CHECK(engine.loops[1].measures.kind == LoopKind::kHole);
-}
-
 TEST_CASE("random clouds with random parameters give the results of the plain method under any tiling") {
   for (std::uint64_t seed = 1; seed <= draws(50); ++seed) check_seed(seed);
 }

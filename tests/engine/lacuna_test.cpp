@@ -12,7 +12,6 @@
 #include <stdexcept>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 namespace lacuna {
 namespace {
@@ -53,15 +52,6 @@ TEST_CASE("points in memory, a source of batches and the streams of detect have 
   CHECK(bytes_without_boundary(run_engine(cloud, tiled({}, 300))) == bytes_of(in_memory));
 }
 
-TEST_CASE("given normals count for the library", "[library]") {
-  const Cloud cloud = punched_sheet().with_random_normals(3);
-  Config config = with_points();
-  config.normals.use = NormalsUse::kGiven;
-  const Holes found = find_holes(cloud.positions, cloud.normals, config);
-  CHECK(bytes_of(found) == bytes_without_boundary(run_engine(cloud, config)));
-  CHECK(bytes_of(found) != bytes_of(find_holes(cloud.positions, with_points())));
-}
-
 TEST_CASE("given normals that do not fit the surface are estimated, unless the user says otherwise",
           "[library]") {
   Cloud cloud = punched_sheet();
@@ -82,26 +72,6 @@ TEST_CASE("given normals that do not fit the surface are estimated, unless the u
   CHECK(bytes_of(estimated) == without);
   config.normals.use = NormalsUse::kGiven;
   CHECK(bytes_of(find_holes(cloud.positions, cloud.normals, config)) != without);
-}
-
-TEST_CASE("the library finds the holes that the program writes", "[library]") {
-  const Cloud cloud = punched_sheet();
-  const ScratchFolder scratch;
-  test::detect(scratch.write("sheet.xyz", cloud.text()), scratch / "out", {"--min-diameter", "9"});
-
-  Config config;
-  config.selection.min_diameter = 9;
-  const Holes found = find_holes(cloud.positions, config);
-  const auto report = test::read_json(scratch / "out" / "holes.json");
-  REQUIRE(report["loops"].size() == found.loops.size());
-  REQUIRE(found.loops.size() == 3);
-  for (std::size_t i = 0; i < found.loops.size(); ++i) {
-    std::vector<std::uint64_t> ids;
-    for (const LoopPoint& point : found.loops[i].points) ids.push_back(value(point.id));
-    CHECK(report["loops"][i]["ids"] == ids);
-    CHECK(report["loops"][i]["perimeter"] == Approx(found.loops[i].measures.perimeter));
-    CHECK(report["loops"][i]["kind"] == name_of(found.loops[i].measures.kind));
-  }
 }
 
 TEST_CASE("the library gives results of points only where they are wanted, and no loops of nothing",

@@ -6,6 +6,7 @@
 #include "io/formats.hpp"
 #include "io/rows/scalar.hpp"
 #include "io/rows/scan_reader.hpp"
+#include "tests/support/drawn_files.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <algorithm>
@@ -13,9 +14,12 @@
 #include <bit>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include <catch2/catch.hpp>
 
 namespace lacuna::test {
 
@@ -94,6 +98,46 @@ std::string error_of(Job&& job) {
 
 inline std::string read_error(const std::filesystem::path& file, const io::ReadOptions& options = {}) {
   return error_of([&] { read_table(file, 1000, options); });
+}
+
+// What is wrong, and a part of the reason that the user is given: the place, and what is wrong there.
+struct Wrong {
+  std::string content;
+  std::string part;
+};
+
+// refuse(content): the reason, one line.
+template <class Refuse>
+void check_reasons(const std::vector<Wrong>& cases, const Refuse& refuse) {
+  for (const Wrong& wrong : cases) {
+    INFO(wrong.content.substr(0, 300));
+    const std::string reason = refuse(wrong.content);
+    CHECK_THAT(reason, Catch::Matchers::Contains(wrong.part));
+    CHECK(reason.find('\n') == reason.npos);
+  }
+}
+
+// Files of this name, each with what is behind `before`, that no reader takes.
+inline void check_refused(const std::string& name, const std::vector<Wrong>& cases,
+                          const std::string& before = "") {
+  const ScratchFolder folder;
+  check_reasons(cases, [&](const std::string& content) {
+    const std::string reason = read_error(folder.write(name, before + content));
+    CHECK_THAT(reason, Catch::Matchers::Contains(name + ": "));
+    return reason;
+  });
+}
+
+// Requires that a file has these rows, whatever the batches that it is read in. row_at(i): row i.
+inline void check_rows(const std::filesystem::path& file, std::size_t rows,
+                       const std::function<std::vector<double>(double)>& row_at) {
+  for (const std::size_t max_rows : {1u, 999u, 65'536u, 1'000'000u}) {
+    const Table table = read_table(file, max_rows);
+    REQUIRE(table.rows.size() == rows);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < rows; ++i) wrong += table.rows[i] != row_at(static_cast<double>(i));
+    CHECK(wrong == 0);
+  }
 }
 
 }  // namespace lacuna::test

@@ -3,8 +3,6 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <sstream>
-
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -15,11 +13,10 @@ using nlohmann::json;
 using test::ScratchFolder;
 
 std::string rows_of(const Cloud& cloud, int classification) {
-  std::ostringstream rows;
-  rows.precision(17);
-  for (const Eigen::Vector3d& p : cloud.positions)
-    rows << p.x() << " " << p.y() << " " << p.z() << " " << classification << "\n";
-  return rows.str();
+  std::string rows = cloud.text();
+  for (std::size_t at = 0; (at = rows.find('\n', at)) != rows.npos; at += 3)
+    rows.insert(at, " " + std::to_string(classification));
+  return rows;
 }
 
 TEST_CASE("scans in their own coordinates with poses, and filters, give the loops of the chosen points") {

@@ -15,10 +15,12 @@ namespace {
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
 using nlohmann::json;
+using test::element;
 using test::read_file;
 using test::run_program;
 using test::ScratchFolder;
-using Strings = std::vector<std::string>;
+using test::with;
+using test::Words;
 
 // At UTM. Their coordinates are multiples of 1/1024, so that local floats are exact.
 Cloud exact_sheet() {
@@ -27,17 +29,10 @@ Cloud exact_sheet() {
   return cloud.translated({500'000, 5'400'000, 300});
 }
 
-void succeed(const Strings& words) {
+void succeed(const Words& words) {
   const auto run = run_program(words);
   INFO(run.err);
   REQUIRE(run.exit_code == 0);
-}
-
-std::string element(const std::string& page, const std::string& id) {
-  const std::string begin = "id=\"" + id + "\">";
-  const std::size_t at = page.find(begin);
-  REQUIRE(at != page.npos);
-  return page.substr(at + begin.size(), page.find("</script>", at) - at - begin.size());
 }
 
 // What the page shows, but for the parameters and the times of the run.
@@ -81,10 +76,8 @@ TEST_CASE("pages, pictures and evaluations of local coordinates are those of the
     truth += "\n";
   }
   const std::string truth_file = scratch.write("truth.txt", truth);
-  const auto evaluated = [&](const std::string& result, const Strings& more) {
-    Strings words = {"evaluate", result, truth_file, "--json"};
-    words.insert(words.end(), more.begin(), more.end());
-    const auto run = test::run_bench(words);
+  const auto evaluated = [&](const std::string& result, const Words& more) {
+    const auto run = test::run_bench(with({"evaluate", result, truth_file, "--json"}, more));
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
     json found = json::parse(run.out);

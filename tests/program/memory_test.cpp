@@ -7,7 +7,6 @@
 #include "tests/support/laz_data.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -21,33 +20,8 @@ using namespace io;
 namespace {
 
 namespace fs = std::filesystem;
-
-void check_memory(const std::string& points, const std::string& limit) {
-  const test::ScratchFolder scratch;
-  const std::string scan = (scratch / "surface.ply").string();
-  REQUIRE(test::run_bench({"synth", "surface", scan, "--points", points, "--holes", "100"}).exit_code == 0);
-  const test::ProgramResult limited = test::run_program(
-      {"detect", scan, "--out", (scratch / "limited").string(), "--quiet", "--memory-limit", limit});
-  INFO(limited.err);
-  REQUIRE(limited.exit_code == 0);
-  WARN(points << " points in " << limit << ": peak " << limited.peak_memory / (1 << 20) << " MiB");
-  CHECK(limited.peak_memory < parse_bytes(limit));
-  REQUIRE(test::run_program({"detect", scan, "--out", (scratch / "free").string(), "--quiet"}).exit_code ==
-          0);
-  for (const char* file : {"boundary.ply", "loops.ply"}) {
-    const bool same = test::read_file(scratch / "limited" / file) == test::read_file(scratch / "free" / file);
-    INFO(file);
-    CHECK(same);
-  }
-}
-
-TEST_CASE("sixteen million points stay within 512 MiB, with the same results as without a limit", "[.slow]") {
-  check_memory("16000000", "512MiB");
-}
-
-TEST_CASE("four million points stay within 256 MiB, with the same results as without a limit", "[.slow]") {
-  check_memory("4000000", "256MiB");
-}
+using test::with;
+using test::Words;
 
 // As doubles.
 std::string write_scan(const test::ScratchFolder& scratch, const Cloud& cloud) {
@@ -58,19 +32,24 @@ std::string write_scan(const test::ScratchFolder& scratch, const Cloud& cloud) {
   return scratch.write("scan.ply", ply);
 }
 
-void check_limit(const Cloud& cloud, const std::vector<std::string>& more = {}) {
+// Runs the program with this memory limit, and requires that it succeeds within it.
+test::ProgramResult run_within(const std::string& limit, const Words& words) {
+  const test::ProgramResult result = test::run_program(with(words, {"--memory-limit", limit}));
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  CAPTURE(words, result.peak_memory >> 20);  // MiB
+  CHECK(result.peak_memory <= *parse_bytes(limit));
+  return result;
+}
+
+void check_limit(const Cloud& cloud, const Words& more = {}) {
   const test::ScratchFolder scratch;
   const std::string scan = write_scan(scratch, cloud);
   for (const char* method : {"tangential", "paper"}) {
-    std::vector<std::string> words = {"detect",    scan,       "--out",          (scratch / method).string(),
-                                      "--quiet",   "--points", "--method",       method,
-                                      "--threads", "2",        "--memory-limit", "64MiB"};
-    words.insert(words.end(), more.begin(), more.end());
-    const test::ProgramResult result = test::run_program(words);
-    INFO(method << ": " << result.err);
-    REQUIRE(result.exit_code == 0);
-    CAPTURE(result.peak_memory >> 20);  // MiB
-    CHECK(result.peak_memory <= 64 << 20);
+    const std::string out = (scratch / method).string();
+    run_within("64MiB", with({"detect", scan, "--out", out, "--quiet", "--points", "--method", method,
+                              "--threads", "2"},
+                             more));
   }
 }
 
@@ -87,21 +66,11 @@ TEST_CASE("range images of stations stay within the memory limit, with the same 
   const std::string scan = (scratch / "room.ply").string(),
                     stations = (scratch / "room.stations.txt").string();
   REQUIRE(test::run_bench({"synth", "scan", scan, "--points", "50000", "--stations", "32"}).exit_code == 0);
-  const auto detect = [&](const std::string& out, std::vector<std::string> more) {
-    std::vector<std::string> words = {"detect",  scan,         "--out",  (scratch / out).string(),
-                                      "--quiet", "--stations", stations, "--threads",
-                                      "2"};
-    words.insert(words.end(), more.begin(), more.end());
-    return test::run_program(words);
-  };
-  const test::ProgramResult limited = detect("limited", {"--memory-limit", "64MiB"});
-  REQUIRE(limited.exit_code == 0);
-  CAPTURE(limited.peak_memory >> 20);  // MiB
-  CHECK(limited.peak_memory <= 64 << 20);
-  REQUIRE(detect("free", {}).exit_code == 0);
-  const bool same =
-      test::read_file(scratch / "limited/holes.json") == test::read_file(scratch / "free/holes.json");
-  CHECK(same);
+  const std::string limited = (scratch / "limited").string();
+  run_within("64MiB",
+             {"detect", scan, "--out", limited, "--quiet", "--stations", stations, "--threads", "2"});
+  test::detect(scan, scratch / "free", {"--stations", stations});
+  CHECK((test::read_file(scratch / "limited/holes.json") == test::read_file(scratch / "free/holes.json")));
 }
 
 TEST_CASE("the check of an area stays within the memory limit") {
@@ -161,13 +130,8 @@ Cloud folded_strip(int lanes, int length) {
 TEST_CASE("a loop of two hundred thousand points stays within the memory limit") {
   const test::ScratchFolder scratch;
   const std::string scan = write_scan(scratch, folded_strip(100, 1000)), out = (scratch / "out").string();
-  const test::ProgramResult result =
-      test::run_program({"detect", scan, "--out", out, "--quiet", "--threads", "2", "--memory-limit", "64MiB",
-                         "--obj", "--min-confidence", "0", "--every-point"});
-  INFO(result.err);
-  REQUIRE(result.exit_code == 0);
-  CAPTURE(result.peak_memory >> 20);  // MiB
-  CHECK(result.peak_memory <= 64 << 20);
+  run_within("64MiB", {"detect", scan, "--out", out, "--quiet", "--threads", "2", "--obj", "--min-confidence",
+                       "0", "--every-point"});
   CHECK(fs::file_size(scratch / "out" / "loops.ply") > 5'000'000);
 }
 
@@ -175,13 +139,25 @@ TEST_CASE("ten million points and sixteen threads stay within 64 MiB", "[.slow]"
   const test::ScratchFolder scratch;
   const std::string scan = (scratch / "surface.ply").string();
   REQUIRE(test::run_bench({"synth", "surface", scan, "--points", "10000000"}).exit_code == 0);
-  const test::ProgramResult result =
-      test::run_program({"detect", scan, "--out", (scratch / "out").string(), "--quiet", "--threads", "16",
-                         "--memory-limit", "64MiB"});
-  INFO(result.err);
-  REQUIRE(result.exit_code == 0);
-  CAPTURE(result.peak_memory >> 20);  // MiB
-  CHECK(result.peak_memory <= 64 << 20);
+  run_within("64MiB", {"detect", scan, "--out", (scratch / "out").string(), "--quiet", "--threads", "16"});
+}
+
+void check_memory(const std::string& points, const std::string& limit) {
+  const test::ScratchFolder scratch;
+  const std::string scan = (scratch / "surface.ply").string();
+  REQUIRE(test::run_bench({"synth", "surface", scan, "--points", points, "--holes", "100"}).exit_code == 0);
+  run_within(limit, {"detect", scan, "--out", (scratch / "limited").string(), "--quiet"});
+  test::detect(scan, scratch / "free");
+  for (const char* file : {"boundary.ply", "loops.ply"})
+    CHECK((test::read_file(scratch / "limited" / file) == test::read_file(scratch / "free" / file)));
+}
+
+TEST_CASE("sixteen million points stay within 512 MiB, with the same results as without a limit", "[.slow]") {
+  check_memory("16000000", "512MiB");
+}
+
+TEST_CASE("four million points stay within 256 MiB, with the same results as without a limit", "[.slow]") {
+  check_memory("4000000", "256MiB");
 }
 
 // Large enough that the points alone would fill the limit.
@@ -227,13 +203,9 @@ std::string laz_of_equal_points(std::uint32_t count, bool has_chunks) {
 void check_laz_of_one_chunk(std::uint32_t points) {
   const test::ScratchFolder scratch;
   for (const bool has_chunks : {true, false}) {
+    INFO("chunks: " << has_chunks);
     const std::string scan = scratch.write("a.laz", laz_of_equal_points(points, has_chunks));
-    const test::ProgramResult result =
-        test::run_program({"info", scan, "--memory-limit", "64MiB", "--threads", "2"});
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
-    CAPTURE(has_chunks, result.peak_memory >> 20);  // MiB
-    CHECK(result.peak_memory <= 64 << 20);
+    run_within("64MiB", {"info", scan, "--threads", "2"});
   }
 }
 
@@ -251,8 +223,7 @@ TEST_CASE("text of 500,000 columns is refused within the memory limit") {
   for (int i = 1; i < 500'000; ++i) line += " 1";
   const test::ProgramResult result =
       test::run_program({"info", scratch.write("wide.xyz", line + "\n"), "--memory-limit", "64MiB"});
-  CHECK(result.exit_code == 1);
-  CHECK_THAT(result.err, Catch::Contains("more than the 10,000 columns that are read"));
+  test::check_failure(result, 1, "more than the 10,000 columns that are read");
   CHECK(result.peak_memory <= 64 << 20);
 }
 
@@ -263,10 +234,7 @@ TEST_CASE("an eps ball that cannot fit in memory is refused in one line, before 
     return test::run_program({"detect", scan, "--out", (scratch / "out").string(), "--quiet", "--eps", eps,
                               "--memory-limit", "64MiB"});
   };
-  const test::ProgramResult refused = detect("500");
-  CHECK(refused.exit_code == 1);
-  CHECK(std::count(refused.err.begin(), refused.err.end(), '\n') == 1);
-  CHECK_THAT(refused.err, Catch::Contains("eps of 500") && Catch::Contains("allowed: a smaller eps"));
+  test::check_failure(detect("500"), 1, "eps of 500");
   CHECK(detect("3").exit_code == 0);
 }
 

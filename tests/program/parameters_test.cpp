@@ -280,13 +280,6 @@ TEST_CASE("a kept run with any other parameter gives the results of a fresh run,
   }
 }
 
-TEST_CASE("the two methods do not give the same loops") {
-  Runs runs;
-  io::FilesConfig paper;
-  paper.loops.method = LoopMethod::kPaper;
-  CHECK(runs.results({}) != runs.results(paper));
-}
-
 TEST_CASE("each option without effect has its warning, each other none") {
   Runs runs;
   for (const std::string_view method : {"tangential", "paper"}) {

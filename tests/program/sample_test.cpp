@@ -28,18 +28,19 @@ std::string text_of(const Cloud& cloud) {
   return text.str();
 }
 
-class Runs {
- public:
-  explicit Runs(const Cloud& cloud) : scan_(scratch_.write("scan.txt", text_of(cloud))) {}
+struct Runs {
+  explicit Runs(const Cloud& cloud) : scan(scratch.write("scan.txt", text_of(cloud))) {}
 
-  fs::path detect(std::vector<std::string> options) {
-    options.emplace_back("--every-point");
-    return test::detect(scan_, scratch_ / "out", options);
+  fs::path detect(const test::Words& options) const {
+    return test::detect(scan, scratch / "out", test::with(options, {"--every-point"}));
+  }
+  std::size_t sampled(const std::string& wanted, const test::Words& options = {}) const {
+    const fs::path out = detect(test::with({"--sample-points", wanted}, options));
+    return test::read_table(out / "sample.ply").rows.size();
   }
 
- private:
-  test::ScratchFolder scratch_;
-  std::string scan_;
+  test::ScratchFolder scratch;
+  std::string scan;
 };
 
 double at(const test::Table& table, std::size_t row, const std::string& name) {
@@ -47,13 +48,16 @@ double at(const test::Table& table, std::size_t row, const std::string& name) {
 }
 
 // Keys are counted by bins: any number may be the end of one.
-TEST_CASE("a sample has as many points as are wanted, whatever the number") {
-  Runs runs(plane(20).jittered(0.3, 1));
+TEST_CASE("a sample has as many points as are wanted, whatever the number, and at most all") {
+  const Runs runs(plane(20).jittered(0.3, 1));
   for (int wanted = 1; wanted < 400; wanted += wanted < 12 ? 1 : 29) {
     INFO(wanted);
-    const fs::path out = runs.detect({"--sample-points", std::to_string(wanted), "--tile-points", "100"});
-    CHECK(test::read_table(out / "sample.ply").rows.size() == static_cast<std::size_t>(wanted));
+    CHECK(runs.sampled(std::to_string(wanted), {"--tile-points", "100"}) == static_cast<std::size_t>(wanted));
   }
+  CHECK(runs.sampled("399") == 399);
+  CHECK(runs.sampled("400") == 400);
+  CHECK(runs.sampled("900") == 400);
+  CHECK_FALSE(fs::exists(runs.detect({"--sample-points", "0"}) / "sample.ply"));
 }
 
 TEST_CASE("the sample has points of the scan in ascending id, with their probabilities and colours") {
@@ -74,14 +78,6 @@ TEST_CASE("the sample has points of the scan in ascending id, with their probabi
     }
     CHECK(std::abs(at(sample, i, "nz")) == Approx(1).margin(1e-6));
   }
-}
-
-TEST_CASE("the sample is all of a scan that is no larger, and nothing where none is wanted") {
-  Runs runs(plane(30).jittered(0.3, 1));
-  CHECK(test::read_table(runs.detect({}) / "sample.ply").rows.size() == 900);
-  CHECK(test::read_table(runs.detect({"--sample-points", "900"}) / "sample.ply").rows.size() == 900);
-  CHECK(test::read_table(runs.detect({"--sample-points", "899"}) / "sample.ply").rows.size() == 899);
-  CHECK_FALSE(fs::exists(runs.detect({"--sample-points", "0"}) / "sample.ply"));
 }
 
 TEST_CASE("the sample is spread by area, however dense the scan is, and denser near boundaries") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the system, the terminal and other programs may do to a run.
 #include "engine/store/temporary_folder.hpp"
+#include "tests/support/drawn_files.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/sheet.hpp"
 #include "tests/support/skip.hpp"
@@ -34,14 +35,14 @@ using test::ProgramResult;
 using test::run_program;
 using test::ScratchFolder;
 using test::sheet;
+using test::with;
+using test::Words;
 
 // The program, run by a shell after `before`.
-ProgramResult run_in_shell(const std::string& before, const std::vector<std::string>& arguments,
+ProgramResult run_in_shell(const std::string& before, const Words& arguments,
                            const std::string& redirections = "") {
-  std::vector<std::string> words = {"bash", "-c", before + "exec \"$0\" \"$@\" " + redirections,
-                                    LACUNA_PROGRAM};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  return test::run_command(words);
+  const std::string script = before + "exec \"$0\" \"$@\" " + redirections;
+  return test::run_command(with({"bash", "-c", script, LACUNA_PROGRAM}, arguments));
 }
 
 TEST_CASE("messages never go into a file, whichever standard descriptors are closed") {
@@ -197,17 +198,18 @@ TEST_CASE("threads that cannot be started are an error of one line") {
   ::chmod((scratch / "open").c_str(), 0777);
   const std::string scan = scratch.write("open/scan.xyz", sheet(30));
   ::chmod(scan.c_str(), 0644);
-  std::string user = "0";  // any but root, who has no such limit
-  std::vector<std::string> words = {"bash", "-c", "exec \"$0\" \"$@\"", LACUNA_PROGRAM};
-  if (geteuid() == 0) {
-    user = std::to_string(50'000 + getpid() % 10'000);  // with no process of its own
-    words.insert(words.begin(), {"setpriv", "--reuid=" + user, "--regid=" + user, "--clear-groups"});
-  }
-  const auto run = [&](const std::string& limit, const std::vector<std::string>& arguments) {
-    std::vector<std::string> all = words;
-    all[all.size() - 2] = (limit.empty() ? "" : "ulimit -u " + limit + "; ") + all[all.size() - 2];
-    all.insert(all.end(), arguments.begin(), arguments.end());
-    return test::run_command(all);
+  // Root has no such limit; this user has no process of its own.
+  const std::string user = std::to_string(50'000 + getpid() % 10'000);
+  const auto run = [&](const std::string& limit, const Words& arguments) {
+    const Words words = {"setpriv",
+                         "--reuid=" + user,
+                         "--regid=" + user,
+                         "--clear-groups",
+                         "bash",
+                         "-c",
+                         limit + "exec \"$0\" \"$@\"",
+                         LACUNA_PROGRAM};
+    return test::run_command(with(words, arguments));
   };
   if (geteuid() != 0 || run("", {"--version"}).exit_code != 0) {
     WARN("cannot run the program as another user: skipped");
@@ -217,8 +219,9 @@ TEST_CASE("threads that cannot be started are an error of one line") {
   for (const std::string limit : {"5", "6", "7", "8", "9", "10", "11"}) {
     INFO("ulimit -u " << limit);
     const fs::path out = scratch / "open" / limit;
-    check_failure(run(limit, {"detect", scan, "--out", out.string(), "--quiet", "--threads", "8"}), 1,
-                  "thread");
+    check_failure(run("ulimit -u " + limit + "; ",
+                      {"detect", scan, "--out", out.string(), "--quiet", "--threads", "8"}),
+                  1, "thread");
     CHECK_FALSE(fs::exists(out));
   }
 }
@@ -267,66 +270,38 @@ bool has_control_characters(const std::string& text) {
 
 TEST_CASE("control characters of files and their names never reach the terminal, letters do") {
   const ScratchFolder scratch;
-  const std::string evil =
-      "\033]0;pwned\a\177\xc2\x9b"
-      "2J\x9b"
-      "3J_Gr\xc3\xb6\xc3\x9f"
-      "e";
-  const auto is_clean = [](const ProgramResult& result) {
+  const std::string letters = "Größe",
+                    evil = std::string("\033]0;pwned\a\177\xc2\x9b") + "2J\x9b" + "3J_" + letters;
+  const auto is_clean = [&](const ProgramResult& result) {
     INFO(result.out << result.err);
     CHECK_FALSE(has_control_characters(result.out));
     CHECK_FALSE(has_control_characters(result.err));
-    CHECK_THAT(result.out + result.err, Contains("Gr\xc3\xb6\xc3\x9f"
-                                                 "e"));
+    CHECK_THAT(result.out + result.err, Contains(letters));
   };
   fs::create_directory(scratch / evil);
-  const std::string scan =
-      scratch.write(evil + "/scan\nof.ply",
-                    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
-                    "property float z\nproperty float " +
-                        evil + "\nend_header\n1 2 3 4\n");
+  const std::string scan = scratch.write(
+      evil + "/scan\nof.ply", test::ascii_ply("1 2 3 4\n", test::kXyz + "property float " + evil + "\n"));
   const ProgramResult info = run_program({"info", scan});
   CHECK(info.exit_code == 0);
   is_clean(info);
-  CHECK_THAT(info.out, StartsWith((scratch / "\\u001b]0;pwned\\u0007\\u007f\\u009b2J\\x9b"
-                                             "3J_")
-                                      .string()) &&
-                           Contains("scan\\u000aof.ply\n"));
+  const std::string shown = std::string("\\u001b]0;pwned\\u0007\\u007f\\u009b2J\\x9b") + "3J_";
+  CHECK_THAT(info.out, StartsWith((scratch / shown).string()) && Contains("scan\\u000aof.ply\n"));
   is_clean(run_program({"detect", scan, "--out", (scratch / evil / "out").string(), "--workspace",
                         (scratch / evil / "w").string()}));
   is_clean(run_program({"info", scan + "none"}));
   is_clean(run_program({"info", scan, "--" + evil}));
-  is_clean(run_program({"detect", "--print-config", "--config",
-                        scratch.write("key.toml",
-                                      "[criteria]\n\"\\u001b\\u009b\\u0007 Gr\xc3\xb6\xc3\x9f"
-                                      "e\" = 1\n")}));
+  const std::string key = "[criteria]\n\"\\u001b\\u009b\\u0007 " + letters + "\" = 1\n";
+  is_clean(run_program({"detect", "--print-config", "--config", scratch.write("key.toml", key)}));
   is_clean(
       test::run_bench({"synth", "surface", (scratch / evil / "made.ply").string(), "--points", "20000"}));
 
   // What other programs read keeps the name.
   const std::string header = test::read_file(scratch / evil / "out" / "holes.json");
-  const std::string name =
-      "\033]0;pwned\a\177\xc2\x9b"
-      "2J\xef\xbf\xbd"
-      "3J_Gr\xc3\xb6\xc3\x9f"
-      "e";
+  const std::string name = std::string("\033]0;pwned\a\177\xc2\x9b") + "2J\xef\xbf\xbd" + "3J_" + letters;
   const ProgramResult json = run_program({"info", scan, "--json"});
   is_clean(json);
   CHECK(nlohmann::json::parse(json.out).at("files").at(0).at("properties").at(3).at("name") == name);
   CHECK(nlohmann::json::parse(header).at("inputs").at(0).at("properties").contains(name));
-}
-
-TEST_CASE("a printed config holds what it was given, control characters too") {
-  const ScratchFolder scratch;
-  const std::string folder =
-      "/tmp/\033\177\xc2\x9b Gr\xc3\xb6\xc3\x9f"
-      "e \"\\";
-  const ProgramResult printed = run_program({"detect", "--print-config", "--workspace", folder});
-  CHECK_FALSE(has_control_characters(printed.out));
-  CHECK_THAT(printed.out, Contains("\"/tmp/\\u001B\\u007F\\u009b Gr\xc3\xb6\xc3\x9f"
-                                   "e \\\"\\\\\""));
-  const std::string file = scratch.write("printed.toml", printed.out);
-  CHECK(run_program({"detect", "--print-config", "--config", file}).out == printed.out);
 }
 
 double cpu_seconds_of_children() {
@@ -338,29 +313,21 @@ double cpu_seconds_of_children() {
 TEST_CASE("nine thousand columns take a moment, and forty thousand are refused") {
   const ScratchFolder scratch;
   const auto scans_of = [&](int columns) {
-    std::string ply =
-        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
-    std::string names = "x y z", row = "1 2 3";
+    std::string properties = test::kXyz, names = "x y z", row = "1 2 3";
     for (int i = 0; i < columns; ++i) {
-      ply += "property char p" + std::to_string(i) + "\n";
+      properties += "property char p" + std::to_string(i) + "\n";
       names += " c" + std::to_string(i);
       row += " 4";
     }
-    ply += "end_header\n" + row + "\n" + row + "\n" + row + "\n";
-    return std::vector{scratch.write("wide.ply", ply),
-                       scratch.write("wide.xyz", names + "\n" + row + "\n" + row + "\n")};
+    row += "\n";
+    return std::vector{scratch.write("wide.ply", test::ascii_ply(row + row, properties)),
+                       scratch.write("wide.xyz", names + "\n" + row + row)};
   };
-  for (const std::string& scan : scans_of(40'000)) {
-    const test::ProgramResult refused = run_program({"info", scan});
-    CHECK(refused.exit_code == 1);
-    CHECK(refused.err.find("10,000") != std::string::npos);
-  }
+  for (const std::string& scan : scans_of(40'000)) check_failure(run_program({"info", scan}), 1, "10,000");
   for (const std::string& scan : scans_of(9'000)) {
     const double before = cpu_seconds_of_children();
     CHECK(run_program({"info", scan}).exit_code == 0);
-    CHECK(
-        run_program({"detect", scan, "--points", "--quiet", "--out", (scratch / "out").string()}).exit_code ==
-        0);
+    test::detect(scan, scratch / "out", {"--points"});
     CHECK(cpu_seconds_of_children() - before < 2);
   }
 }

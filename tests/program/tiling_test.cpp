@@ -9,30 +9,27 @@ namespace lacuna {
 namespace {
 
 namespace fs = std::filesystem;
-using Strings = std::vector<std::string>;
+using test::with;
+using test::Words;
 
 // Every kind of result that needs no GDAL, but for the page: it shows the parameters.
-Strings with_all_results(const Strings& more) {
-  Strings options = {"--points",         "--points-format", "ply", "--points-normals", "--lids", "--obj",
-                     "--orient-normals", "--sample-points", "3000"};
-  options.insert(options.end(), more.begin(), more.end());
-  return options;
-}
+const Words kAllResults = {"--points",         "--points-format", "ply",
+                           "--points-normals", "--lids",          "--obj",
+                           "--orient-normals", "--sample-points", "3000"};
 
-void check_every_tiling(const std::string& scan, const fs::path& folder, const Strings& options) {
-  const auto detect = [&](const std::string& out, Strings more) {
-    more.insert(more.begin(), options.begin(), options.end());
-    return test::detect(scan, folder / out, more);
+void check_every_tiling(const std::string& scan, const fs::path& folder, const Words& options) {
+  const auto detect = [&](const std::string& out, const Words& more) {
+    return test::detect(scan, folder / out, with(with(kAllResults, options), more));
   };
   const fs::path one = detect("one", {"--tile-points", "1000000", "--threads", "1"});
   CHECK(test::read_json(one / "holes.json").at("loops").size() > 3);
   for (const char* name : {"points.ply", "lids.obj", "lids.csv", "loops.obj"}) CHECK(fs::exists(one / name));
-  for (const Strings& more : {Strings{"--tile-points", "500", "--threads", "8"},
-                              {"--tile-points", "500", "--threads", "1", "--memory-limit", "64MiB"},
-                              {"--tile-points", "5000", "--threads", "2", "--memory-limit", "64MiB"},
-                              {"--tile-points", "1000000", "--threads", "8"},
-                              {}}) {
-    INFO(Catch::StringMaker<Strings>::convert(more));
+  for (const Words& more : {Words{"--tile-points", "500", "--threads", "8"},
+                            {"--tile-points", "500", "--threads", "1", "--memory-limit", "64MiB"},
+                            {"--tile-points", "5000", "--threads", "2", "--memory-limit", "64MiB"},
+                            {"--tile-points", "1000000", "--threads", "8"},
+                            {}}) {
+    INFO(Catch::StringMaker<Words>::convert(more));
     test::check_same_results(detect("other", more), one);
   }
 }
@@ -45,15 +42,14 @@ TEST_CASE("all results of a surface on Earth, with local coordinates, are the sa
                "--hole-radius", "3",       "6",        "--density-step", "4",        "--noise",   "0.05",
                "--order",       "random",  "--double", "--translate",    "500000.1", "5400000.7", "300.3"})
               .exit_code == 0);
-  check_every_tiling(scan, scratch.path(), with_all_results({"--local-coordinates"}));
+  check_every_tiling(scan, scratch.path(), {"--local-coordinates"});
 }
 
 TEST_CASE("all results of a scan with stations, and their causes, are the same for every tiling") {
   const test::ScratchFolder scratch;
   const std::string scan = (scratch / "room.ply").string();
   REQUIRE(test::run_bench({"synth", "scan", scan, "--points", "15000", "--seed", "5"}).exit_code == 0);
-  check_every_tiling(scan, scratch.path(),
-                     with_all_results({"--stations", (scratch / "room.stations.txt").string()}));
+  check_every_tiling(scan, scratch.path(), {"--stations", (scratch / "room.stations.txt").string()});
 }
 
 }  // namespace

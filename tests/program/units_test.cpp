@@ -19,6 +19,8 @@ using test::check_failure;
 using test::ProgramResult;
 using test::run_program;
 using test::ScratchFolder;
+using test::with;
+using test::Words;
 
 struct Shared {
   ScratchFolder folder;
@@ -31,10 +33,8 @@ struct Shared {
     folder.write("all.list", "c.txt\na.txt\nb.txt pose=1 0 0 5 0 1 0 0 0 0 1 0\n");
   }
   std::string list() const { return std::string("@").append((folder / "all.list").string()); }
-  ProgramResult plan(std::vector<std::string> more = {}) const {
-    std::vector<std::string> all = {"plan", list(), "--workspace", workspace, "--tasks", "3"};
-    all.insert(all.end(), more.begin(), more.end());
-    return run_program(all);
+  ProgramResult plan(const Words& more = {}) const {
+    return run_program(with({"plan", list(), "--workspace", workspace, "--tasks", "3"}, more));
   }
 };
 
@@ -64,10 +64,9 @@ TEST_CASE("plan, work and finish give the files of detect") {
       run_program({"finish", run.workspace, "--out", (run.folder / "out").string(), "--quiet"});
   INFO(finished.err);
   REQUIRE(finished.exit_code == 0);
-  const fs::path alone = run.folder / "alone";
-  REQUIRE(run_program({"detect", run.list(), "--out", alone.string(), "--points", "--points-normals", "--k",
-                       "14", "--bounds", "0,0,290,290", "--quiet"})
-              .exit_code == 0);
+  const fs::path alone =
+      test::detect(run.list(), run.folder / "alone",
+                   {"--points", "--points-normals", "--k", "14", "--bounds", "0,0,290,290"});
   CHECK(fs::exists(alone / "points" / "a.csv"));
   test::check_same_results(run.folder / "out", alone);
 }
@@ -75,9 +74,8 @@ TEST_CASE("plan, work and finish give the files of detect") {
 TEST_CASE("a plan says in a table what its tasks are, and wrong units are refused") {
   const Shared run;
   CHECK_THAT(run.plan().out, Contains("evaluate-0      3") && Contains("memory of a task"));
-  const auto work = [&](std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {"work", run.workspace});
-    return run_program(arguments);
+  const auto work = [&](const Words& arguments) {
+    return run_program(with({"work", run.workspace}, arguments));
   };
   check_failure(work({"--step", "evaluate"}), 2, "--step: allowed: a step of lacuna plan");
   check_failure(work({"--step", "evaluate-0", "--task", "3"}), 2, "--task: allowed: 0 to 2");

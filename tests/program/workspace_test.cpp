@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // detect --workspace: a run that is stopped, however, goes on to the results of an undisturbed one.
-#include "tests/support/clouds.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/sheet.hpp"
@@ -29,6 +28,8 @@ using test::count_entries;
 using test::ProgramResult;
 using test::run_program;
 using test::ScratchFolder;
+using test::with;
+using test::Words;
 
 struct Run {
   ScratchFolder folder;
@@ -37,24 +38,23 @@ struct Run {
   std::string scan = folder.write("scan.txt", test::sheet(side));
   fs::path workspace = folder / "workspace";
 
-  std::vector<std::string> arguments(const fs::path& out, std::vector<std::string> more = {}) const {
-    std::vector<std::string> all = {
-        "detect",   scan,      "--out",     out.string(), "--tile-points", std::to_string(points / 150),
-        "--points", "--quiet", "--threads", "2"};
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
+  Words arguments(const fs::path& out, const Words& more) const {
+    const std::string tile_points = std::to_string(points / 150);
+    return with({"detect", scan, "--out", out.string(), "--tile-points", tile_points, "--points", "--quiet",
+                 "--threads", "2"},
+                more);
   }
-  std::vector<std::string> kept(std::vector<std::string> more = {}) const {
-    more.insert(more.end(), {"--workspace", workspace.string()});
-    return arguments(folder / "out", more);
+  Words kept() const { return arguments(folder / "out", {"--workspace", workspace.string()}); }
+  // Requires that a run without a workspace has the same results.
+  void check_results() const {
+    const fs::path without = folder / "without";
+    if (!fs::exists(without)) REQUIRE(run_program(arguments(without, {})).exit_code == 0);
+    test::check_same_results(folder / "out", without);
   }
-  void is_as_without(const fs::path& without) const { test::check_same_results(folder / "out", without); }
 };
 
 TEST_CASE("a run that is killed at any moment goes on to the same results") {
   const Run run;
-  const fs::path without = run.folder / "without";
-  REQUIRE(run_program(run.arguments(without)).exit_code == 0);
   std::size_t killed = 0;
   for (std::size_t entries = 1; entries < 40; entries += 4) {
     const auto has_entries = [&] {
@@ -66,12 +66,12 @@ TEST_CASE("a run that is killed at any moment goes on to the same results") {
     const ProgramResult done = run_program(run.kept());
     INFO(done.err);
     REQUIRE(done.exit_code == 0);
-    run.is_as_without(without);
+    run.check_results();
     fs::remove_all(run.workspace);
   }
   CHECK(killed > 5);
   REQUIRE(run_program(run.kept()).exit_code == 0);
-  run.is_as_without(without);
+  run.check_results();
 }
 
 TEST_CASE("a signal says how to go on, and what is done stays") {
@@ -88,8 +88,6 @@ TEST_CASE("a signal says how to go on, and what is done stays") {
 
 TEST_CASE("a workspace on a full disk is an error, and its parts are used elsewhere") {
   const Run run;
-  const fs::path without = run.folder / "without";
-  REQUIRE(run_program(run.arguments(without)).exit_code == 0);
   std::size_t failed = 0;
   for (const int bytes_a_point : {1, 12, 35, 70, 105, 140, 175, 233, 291, 350}) {
     const test::SmallDisk disk(run.folder / "disk", std::to_string(bytes_a_point * run.points));
@@ -99,9 +97,8 @@ TEST_CASE("a workspace on a full disk is an error, and its parts are used elsewh
     }
     INFO(bytes_a_point << " bytes a point");
     const fs::path small = disk.path() / "workspace";
-    const std::vector<std::string> arguments = run.arguments(
-        run.folder / "out", {"--workspace", small.string(), "--scratch", run.folder.path().string()});
-    const ProgramResult result = run_program(arguments);
+    const ProgramResult result = run_program(run.arguments(
+        run.folder / "out", {"--workspace", small.string(), "--scratch", run.folder.path().string()}));
     if (result.exit_code == 0) continue;
     ++failed;
     CHECK(result.exit_code == 1);
@@ -110,22 +107,24 @@ TEST_CASE("a workspace on a full disk is an error, and its parts are used elsewh
     if (!fs::exists(small)) continue;
     fs::copy(small, run.workspace);
     REQUIRE(run_program(run.kept()).exit_code == 0);
-    run.is_as_without(without);
+    run.check_results();
     fs::remove_all(run.workspace);
   }
   CHECK(failed >= 4);
 }
 
-TEST_CASE("another input is refused, and after clean the run begins anew") {
+TEST_CASE("another input and another run are refused, and after clean the run begins anew") {
   const Run run;
   REQUIRE(run_program(run.kept()).exit_code == 0);
+  const int other = ::open(run.workspace.c_str(), O_RDONLY | O_DIRECTORY);
+  REQUIRE(::flock(other, LOCK_EX) == 0);
+  check_failure(run_program(run.kept()), 1, "workspace: another run is at work there");
+  ::close(other);
   run.folder.write("scan.txt", test::sheet(run.side - 1));
   check_failure(run_program(run.kept()), 1, "the workspace of another run: \"input: ");
   REQUIRE(run_program({"clean", run.workspace.string()}).exit_code == 0);
   REQUIRE(run_program(run.kept()).exit_code == 0);
-  const fs::path without = run.folder / "without";
-  REQUIRE(run_program(run.arguments(without)).exit_code == 0);
-  run.is_as_without(without);
+  run.check_results();
 }
 
 TEST_CASE("clean removes a workspace, but no file of others") {
@@ -142,15 +141,6 @@ TEST_CASE("clean removes a workspace, but no file of others") {
   REQUIRE(run_program(run.kept()).exit_code == 0);
   CHECK(run_program({"clean", run.workspace.string()}).exit_code == 0);
   CHECK_FALSE(fs::exists(run.workspace));
-}
-
-TEST_CASE("a workspace is a folder of its own, and of one run at a time") {
-  const Run run;
-  fs::create_directory(run.workspace);
-  const int other = ::open(run.workspace.c_str(), O_RDONLY | O_DIRECTORY);
-  REQUIRE(::flock(other, LOCK_EX) == 0);
-  check_failure(run_program(run.kept()), 1, "workspace: another run is at work there");
-  ::close(other);
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <fstream>
 #include <string>
 #include <thread>
-#include <utility>
 
 #include <catch2/catch.hpp>
 #include <fcntl.h>
@@ -65,27 +64,30 @@ ProgramResult run(std::vector<std::string> words, const std::function<void(pid_t
 
 }  // namespace
 
-ProgramResult run_program(const std::vector<std::string>& arguments, Program program) {
+Words with(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+ProgramResult run_program(const Words& arguments, Program program) {
   return run_program_beside(
       arguments, [](pid_t) {}, program);
 }
 
-ProgramResult run_bench(const std::vector<std::string>& arguments) {
+ProgramResult run_bench(const Words& arguments) {
   return run_program(arguments, Program::kBench);
 }
 
 std::filesystem::path detect(const std::string& scan, const std::filesystem::path& out,
-                             const std::vector<std::string>& options) {
-  std::vector<std::string> words = {"detect", scan, "--out", out.string(), "--quiet"};
-  words.insert(words.end(), options.begin(), options.end());
-  const ProgramResult result = run_program(words);
+                             const Words& options) {
+  const ProgramResult result = run_program(with({"detect", scan, "--out", out.string(), "--quiet"}, options));
   INFO(result.err);
   REQUIRE(result.exit_code == 0);
   return out;
 }
 
-ProgramResult run_program_until(const std::vector<std::string>& arguments, int signal,
-                                const std::function<bool()>& moment, Program program) {
+ProgramResult run_program_until(const Words& arguments, int signal, const std::function<bool()>& moment,
+                                Program program) {
   bool sent = false;
   const auto send = [&](pid_t process) {
     if (sent || !moment()) return;
@@ -95,14 +97,13 @@ ProgramResult run_program_until(const std::vector<std::string>& arguments, int s
   return run_program_beside(arguments, send, program);
 }
 
-ProgramResult run_program_beside(const std::vector<std::string>& arguments,
-                                 const std::function<void(pid_t)>& meanwhile, Program program) {
-  std::vector<std::string> words = {program == Program::kBench ? LACUNA_BENCH_PROGRAM : LACUNA_PROGRAM};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  return run(std::move(words), meanwhile);
+ProgramResult run_program_beside(const Words& arguments, const std::function<void(pid_t)>& meanwhile,
+                                 Program program) {
+  return run(with({program == Program::kBench ? LACUNA_BENCH_PROGRAM : LACUNA_PROGRAM}, arguments),
+             meanwhile);
 }
 
-ProgramResult run_command(const std::vector<std::string>& words) {
+ProgramResult run_command(const Words& words) {
   return run(words, [](pid_t) {});
 }
 
@@ -133,6 +134,13 @@ void check_same_results(const std::filesystem::path& folder, const std::filesyst
 
 nlohmann::json read_json(const std::filesystem::path& file) {
   return nlohmann::json::parse(read_file(file));
+}
+
+std::string element(const std::string& page, const std::string& id) {
+  const std::string begin = "id=\"" + id + "\">";
+  const std::size_t at = page.find(begin);
+  REQUIRE(at != page.npos);
+  return page.substr(at + begin.size(), page.find("</script>", at) - at - begin.size());
 }
 
 }  // namespace lacuna::test

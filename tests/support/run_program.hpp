@@ -24,24 +24,28 @@ struct ProgramResult {
 
 enum class Program { kLacuna, kBench };
 
-ProgramResult run_program(const std::vector<std::string>& arguments, Program program = Program::kLacuna);
-ProgramResult run_bench(const std::vector<std::string>& arguments);  // lacuna-bench
+using Words = std::vector<std::string>;
+
+// `more` words behind the others.
+Words with(Words words, const Words& more);
+
+ProgramResult run_program(const Words& arguments, Program program = Program::kLacuna);
+ProgramResult run_bench(const Words& arguments);  // lacuna-bench
 
 // Runs `lacuna detect SCAN --out OUT --quiet` with more options, and requires that it succeeds. Returns
 // `out`.
 std::filesystem::path detect(const std::string& scan, const std::filesystem::path& out,
-                             const std::vector<std::string>& options = {});
+                             const Words& options = {});
 
 // Any command, searched for in PATH; exit code 126 if there is none.
-ProgramResult run_command(const std::vector<std::string>& words);
+ProgramResult run_command(const Words& words);
 
 // Sends `signal` as soon as `moment` returns true; without it, if the program ends first.
-ProgramResult run_program_until(const std::vector<std::string>& arguments, int signal,
-                                const std::function<bool()>& moment, Program program = Program::kLacuna);
+ProgramResult run_program_until(const Words& arguments, int signal, const std::function<bool()>& moment,
+                                Program program = Program::kLacuna);
 
 // Calls meanwhile(process) every millisecond until the program ends.
-ProgramResult run_program_beside(const std::vector<std::string>& arguments,
-                                 const std::function<void(pid_t)>& meanwhile,
+ProgramResult run_program_beside(const Words& arguments, const std::function<void(pid_t)>& meanwhile,
                                  Program program = Program::kLacuna);
 
 std::size_t count_lines(const std::string& text);
@@ -55,5 +59,8 @@ void check_same_results(const std::filesystem::path& folder, const std::filesyst
 
 // The content of a result in JSON.
 nlohmann::json read_json(const std::filesystem::path& file);
+
+// The text of an element of a report's page that is a script.
+std::string element(const std::string& page, const std::string& id);
 
 }  // namespace lacuna::test

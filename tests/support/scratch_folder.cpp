@@ -28,8 +28,12 @@ std::string ScratchFolder::write(const std::string& name, std::string_view conte
 }
 
 std::vector<std::string> ScratchFolder::names() const {
+  return names_of(path_);
+}
+
+std::vector<std::string> names_of(const std::filesystem::path& folder) {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(path_))
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
     names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;

@@ -27,6 +27,8 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
+std::vector<std::string> names_of(const std::filesystem::path& folder);  // of what is in it, sorted
+
 // Without hidden ones, which begin with a dot.
 std::size_t count_entries(const std::filesystem::path& folder);
 

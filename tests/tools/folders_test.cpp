@@ -5,8 +5,6 @@
 #include "io/files/folder_lock.hpp"
 #include "tests/support/scratch_folder.hpp"
 
-#include <optional>
-
 #include <catch2/catch.hpp>
 #include <sys/resource.h>
 
@@ -34,14 +32,6 @@ class NoMoreFiles {
 };
 
 }  // namespace
-
-TEST_CASE("a folder is locked for one at a time, and free again afterwards") {
-  const ScratchFolder folder;
-  std::optional<io::FolderLock> first(folder.path());
-  CHECK_THROWS_WITH(io::FolderLock(folder.path()), folder.path().string() + ": another run is at work there");
-  first.reset();
-  CHECK_NOTHROW(io::FolderLock(folder.path()));
-}
 
 TEST_CASE("a lock that cannot be had is an error that names the folder") {
   const ScratchFolder folder;

@@ -31,14 +31,17 @@ fs::path as_list(const std::string& file) {
   return name;
 }
 
+void check_list_refused(const std::string& lines, const std::string& part) {
+  const test::ScratchFolder scratch;
+  CHECK_THROWS_WITH(expand_inputs({as_list(scratch.write("list.txt", lines))}, {}), Contains(part));
+}
+
 TEST_CASE("a folder stands for its scans by name, a list for the files in it, all else for itself") {
   const test::ScratchFolder scratch;
   fs::create_directories(scratch / "in" / "deeper");
   const fs::path in = scratch / "in";
   const std::string rows = "1 2 3\n4 5 6\n";
-  const std::string ply =
-      "ply\nformat ascii 1.0\nelement vertex 0\nproperty int x\nproperty int y\nproperty int z\nend_header\n";
-  const auto b = scratch.write("in/b.xyz", rows), a = scratch.write("in/a.ply", ply);
+  const auto b = scratch.write("in/b.xyz", rows), a = scratch.write("in/a.ply", test::ascii_ply(""));
   const auto broken = scratch.write("in/c.ply", "ply\nbroken\n");
   scratch.write("in/.hidden.xyz", rows);
   scratch.write("in/README.txt", "These are scans.\n");
@@ -56,8 +59,7 @@ TEST_CASE("a folder stands for its scans by name, a list for the files in it, al
 TEST_CASE("text with binary scans is not read; options read deeper folders and leave out damaged files") {
   const test::ScratchFolder scratch;
   fs::create_directories(scratch / "in" / "deeper");
-  const std::string ply =
-      "ply\nformat ascii 1.0\nelement vertex 0\nproperty int x\nproperty int y\nproperty int z\nend_header\n";
+  const std::string ply = test::ascii_ply("");
   const auto a = scratch.write("in/a.ply", ply), deep = scratch.write("in/deeper/b.ply", ply);
   const auto broken = scratch.write("in/c.ply", "ply\nbroken\n");
   scratch.write("in/control_points.txt", "1 2 3\n4 5 6\n");
@@ -98,11 +100,8 @@ TEST_CASE("a pose follows a name in a list, as numbers or as the file that holds
   CHECK_FALSE(inputs[2].pose);
   CHECK(inputs[3].file == scratch / "pose=e.xyz");
   CHECK_FALSE(inputs[3].pose);
-  const auto wrong = scratch.write("wrong.txt", "d.xyz\na.xyz pose=1 2 3\n");
-  CHECK_THROWS_WITH(expand_inputs({as_list(wrong)}),
-                    Catch::Matchers::Contains("wrong.txt: line 2: a pose of 3 numbers"));
-  const auto missing = scratch.write("missing.txt", "a.xyz pose=none.xf\n");
-  CHECK_THROWS_WITH(expand_inputs({as_list(missing)}), Catch::Matchers::Contains("none.xf"));
+  check_list_refused("d.xyz\na.xyz pose=1 2 3\n", "list.txt: line 2: a pose of 3 numbers");
+  check_list_refused("a.xyz pose=none.xf\n", "none.xf");
 }
 
 TEST_CASE("a folder without a scan, an empty list and one that is missing are errors that name them") {
@@ -110,10 +109,8 @@ TEST_CASE("a folder without a scan, an empty list and one that is missing are er
   fs::create_directory(scratch / "none");
   CHECK_THROWS_WITH(expand_inputs({scratch / "none"}),
                     Catch::Matchers::Contains("none: no scan file in this folder"));
-  const auto list = scratch.write("list.txt", "# nothing\n");
-  CHECK_THROWS_WITH(expand_inputs({as_list(list)}), Catch::Matchers::Contains("names no file"));
-  CHECK_THROWS_WITH(expand_inputs({"@missing.txt"}),
-                    Catch::Matchers::Contains("missing.txt: cannot be opened"));
+  check_list_refused("# nothing\n", "names no file");
+  CHECK_THROWS_WITH(expand_inputs({"@missing.txt"}), Contains("missing.txt: cannot be opened"));
 }
 
 // An EPT folder of tiles of two points, each in its file of the hierarchy.

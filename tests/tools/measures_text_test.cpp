@@ -1,14 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/console/measures_text.hpp"
 
+#include "engine/run/disk_space.hpp"
 #include "tools/commands/summary.hpp"
+#include "tools/console/terminal.hpp"
 
 #include <catch2/catch.hpp>
 
 namespace lacuna::tools {
 namespace {
 
-TEST_CASE("lengths have three digits, and the unit where there is one") {
+TEST_CASE("durations read as a person would say them, counts have separators and sizes units") {
+  CHECK(print_duration(0.004) == "0.00 s");
+  CHECK(print_duration(9.994) == "9.99 s");
+  CHECK(print_duration(12.34) == "12.3 s");
+  CHECK(print_duration(59.96) == "1:00 min");
+  CHECK(print_duration(187) == "3:07 min");
+  CHECK(print_duration(3723) == "1:02:03 h");
+  CHECK(print_count(0) == "0");
+  CHECK(print_count(999) == "999");
+  CHECK(print_count(1'234'567) == "1,234,567");
+  CHECK(print_size(1023) == "1023 bytes");
+  CHECK(print_size(1536) == "1.5 KiB");
+  CHECK(print_size(512ull << 20) == "512 MiB");
+}
+
+TEST_CASE("lengths and shares have three digits, and the unit where there is one") {
   CHECK(print_length(2.2834, "m") == "2.28 m");
   CHECK(print_length(2.2834, "") == "2.28");
   CHECK(print_length(0, "m") == "0.00 m");
@@ -20,10 +37,6 @@ TEST_CASE("lengths have three digits, and the unit where there is one") {
   CHECK(print_length(1.5e-7, "") == "1.5e-07");
   CHECK(print_length(2.5e9, "") == "2.5e+09");
   CHECK(print_area(3.974, "m") == "3.97 m²");
-  CHECK(print_area(3.974, "") == "3.97");
-}
-
-TEST_CASE("a share is a percentage of three digits") {
   CHECK(print_share(0.8734) == "87.3 %");
   CHECK(print_share(1) == "100 %");
   CHECK(print_share(0) == "0.00 %");

@@ -2,6 +2,7 @@
 #include "tools/run/scan_warnings.hpp"
 
 #include "tests/io/las/las_file.hpp"
+#include "tests/support/drawn_files.hpp"
 #include "tests/support/e57_encoder.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -123,11 +124,9 @@ TEST_CASE("z in another unit is brought into the unit of x and y, but for the an
 TEST_CASE("a unit that contradicts the system of its file is a warning, unless the user states it") {
   const ScratchFolder folder;
   const auto scan = folder.write("a.e57", e57(kFeet));  // E57 is in metres
-  const std::string warning =
-      scan +
-      ": Oregon: its unit and its system contradict each other: lengths are in m or in ft; "
-      "m holds, and --unit ft states the other";
-  CHECK(input_warnings(FileScan({scan}, {})) == Strings{warning});
+  const Strings warned = input_warnings(FileScan({scan}, {}));
+  REQUIRE(warned.size() == 1);
+  CHECK_THAT(warned[0], Contains(scan + ": Oregon: ") && Contains("m holds, and --unit ft states the other"));
   InputConfig stated;
   stated.unit = LengthUnit::kM;
   CHECK(input_warnings(FileScan({scan}, stated)).empty());
@@ -158,10 +157,7 @@ TEST_CASE("a scan with neither a hole nor an outer curve is a warning that says 
 TEST_CASE("stations and paths that do not count are warnings that say why and what to check") {
   StationSummary station{.name = "one", .certainty = 0.5};
   const auto warning = [&] { return station_warnings({station}).at(0); };
-  CHECK(
-      warning() ==
-      "station one does not count: at most 50 % of its points can have been seen from there, as rays end at "
-      "the first surface; its coordinates must have the unit and the system of the scan");
+  CHECK_THAT(warning(), Contains("station one does not count: at most 50 % of its points"));
   station.path = 7;
   CHECK_THAT(warning(), Contains("trajectory one") && Contains("and its times their clock"));
   station.certainty = 0;
@@ -174,9 +170,6 @@ TEST_CASE("stations and paths that do not count are warnings that say why and wh
 }
 
 namespace {
-
-constexpr const char* kFaces =
-    "; only their vertices are read; CloudCompare or MeshLab sample points on faces";
 
 // LAS of format 0, with a point of each of these classes.
 std::string las_of_classes(const std::vector<int>& classes) {
@@ -191,9 +184,7 @@ std::string las_of_classes(const std::vector<int>& classes) {
 // Two points, 1.7 apart.
 std::string pcd(double corner, const std::string& viewpoint) {
   const std::string low = std::to_string(corner), high = std::to_string(corner + 1);
-  return "VERSION .7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nVIEWPOINT " +
-         viewpoint + " 1 0 0 0\nPOINTS 2\nDATA ascii\n" + low + " " + low + " 0\n" + high + " " + high +
-         " 1\n";
+  return ascii_pcd(low + " " + low + " 0\n" + high + " " + high + " 1\n", viewpoint);
 }
 
 Strings warnings_of_filters(const std::string& file, const InputConfig& config) {
@@ -212,35 +203,34 @@ Strings warnings_of_filters(const std::string& file, const InputConfig& config) 
 
 TEST_CASE("faces of a mesh are a warning with their number, in every format that has them") {
   const ScratchFolder folder;
-  const std::string vertices =
-      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
-  const std::string places = "0 0 0\n1 0 0\n0 1 0\n", list = " list uchar int vertex_indices\n";
-  const auto ply = folder.write("a.ply", vertices + "element face 2\nproperty" + list + "end_header\n" +
-                                             places + "3 0 1 2\n3 2 1 0\n"),
-             strips = folder.write("b.ply", vertices + "element tristrips 1\nproperty" + list +
-                                                "end_header\n" + places + "3 0 1 2\n"),
-             points = folder.write("c.ply",
-                                   vertices + "element face 0\nproperty" + list + "end_header\n" + places),
-             obj = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string places = "0 0 0\n1 0 0\n0 1 0\n", list = "\nproperty list uchar int vertex_indices\n";
   const std::string facet =
       " FACET normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
-  const auto ascii = folder.write("a.stl", "solid\n" + facet + facet + facet + "endsolid\n");
-  std::string bytes(84 + 4 * 50, '\0');
-  put(bytes, 80, std::uint32_t{4});
-  const auto binary = folder.write("b.stl", bytes);
-  const auto warning = [&](const std::vector<ScanInput>& files) {
-    const Strings warnings = input_warnings(FileScan(files, {}));
-    REQUIRE(warnings.size() == 1);
-    return warnings[0];
+  std::string binary(84 + 4 * 50, '\0');
+  put(binary, 80, std::uint32_t{4});
+  const auto ply = [&](const std::string& element, const std::string& rows) {
+    return ply_header(vertices(3) + "element " + element + list) + places + rows;
   };
-  CHECK_THAT(warning({ply}), Contains("a.ply: 2 faces" + std::string(kFaces)));
-  CHECK_THAT(warning({strips}), Contains("b.ply: 1 triangle strip" + std::string(kFaces)));
-  CHECK_THAT(warning({obj}), Contains("a.obj: 1 face" + std::string(kFaces)));
-  CHECK_THAT(warning({ascii}), Contains("a.stl: 3 faces" + std::string(kFaces)));
-  CHECK_THAT(warning({binary}), Contains("b.stl: 4 faces" + std::string(kFaces)));
-  CHECK_THAT(warning({{points}, {ply, parse_pose("1 2 3 0 0 0 1")}, {obj}, {ascii}}),
-             Contains("a.ply, and 2 more files: 6 faces" + std::string(kFaces)));
-  CHECK(input_warnings(FileScan({points}, {})).empty());
+  const auto warnings = [&](const std::vector<ScanInput>& files) {
+    return input_warnings(FileScan(files, {}));
+  };
+  std::vector<ScanInput> files;
+  for (const auto& [name, content, faces] :
+       {std::tuple{"a.ply", ply("face 2", "3 0 1 2\n3 2 1 0\n"), "2 faces"},
+        {"b.ply", ply("tristrips 1", "3 0 1 2\n"), "1 triangle strip"},
+        {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "1 face"},
+        {"a.stl", "solid\n" + facet + facet + facet + "endsolid\n", "3 faces"},
+        {"b.stl", binary, "4 faces"}}) {
+    files.emplace_back(folder.write(name, content));
+    const Strings found = warnings({files.back()});
+    REQUIRE(found.size() == 1);
+    CHECK_THAT(found[0], Contains(std::string(name) + ": " + faces + "; only their vertices are read"));
+  }
+  const auto points = folder.write("c.ply", ply("face 0", ""));
+  CHECK(warnings({points}).empty());
+  const Strings all = warnings({points, {files[0].file, parse_pose("1 2 3 0 0 0 1")}, files[2], files[3]});
+  REQUIRE(all.size() == 1);
+  CHECK_THAT(all[0], Contains("a.ply, and 2 more files: 6 faces; only their vertices are read"));
 }
 
 TEST_CASE("points of LAS that are left out as noise are a warning where they are many") {
@@ -251,8 +241,9 @@ TEST_CASE("points of LAS that are left out as noise are a warning where they are
   CHECK(warnings_of_filters(few, {}).empty());
   classes.push_back(7);
   const auto many = folder.write("many.las", las_of_classes(classes));
-  CHECK(warnings_of_filters(many, {}) == Strings{"4 points, 4 %, are left out as noise, of the classes 7 and "
-                                                 "18; --keep-noise keeps them"});
+  const Strings warned = warnings_of_filters(many, {});
+  REQUIRE(warned.size() == 1);
+  CHECK_THAT(warned[0], Contains("4 points, 4 %, are left out as noise, of the classes 7 and 18"));
   CHECK(warnings_of_filters(many, {.keep_noise = true}).empty());
 }
 
@@ -268,19 +259,12 @@ TEST_CASE(
   CHECK(warnings(100, "99 99 2", true).empty());
   CHECK(warnings(-0.5, "0 0 0", true).empty());
   const auto ply = [&](const std::string& camera, const std::string& rows) {
-    return warnings_of_filters(
-        folder.write(
-            "a.ply",
-            "ply\nformat ascii 1.0\nelement camera 1\nproperty float view_px\nproperty float view_py\n"
-            "property float view_pz\nelement vertex 2\nproperty double x\nproperty double y\n"
-            "property double z\nend_header\n" +
-                camera + "\n" + rows),
-        {.drop_origin = true});
+    const std::string header = ply_header(kCamera + vertices(2, kWideXyz));
+    return warnings_of_filters(folder.write("a.ply", header + camera + "\n" + rows), {.drop_origin = true});
   };
   const Strings warned = ply("0 0 0", "1000 2000 3\n1010 2010 3\n");
   REQUIRE(warned.size() == 1);
-  CHECK_THAT(warned[0], Contains("a.ply: the place of the scanner is 0 0 0, far from the points") &&
-                            Contains("--leave-out drops a box"));
+  CHECK_THAT(warned[0], Contains("a.ply: the place of the scanner is 0 0 0, far from the points"));
   CHECK(ply("1005 2005 4", "1000 2000 3\n1010 2010 3\n").empty());
   CHECK(ply("0 0 0", "10 -10 3\n-10 10 3\n").empty());
   CHECK(ply("0 0 0", "1000 2000 3\n0 0 0\n").empty());  // it drops a point

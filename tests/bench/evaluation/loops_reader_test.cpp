@@ -14,16 +14,17 @@ namespace {
 
 using Loops = std::vector<LoopIds>;
 
-std::string loops_ply(const std::string& rows, std::size_t count) {
-  return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) +
-         "\nproperty float x\nproperty float y\nproperty float z\nproperty double scalar_id\n"
-         "property int scalar_loop\n"
-         "end_header\n" +
-         rows;
+// An id and a loop a line, each at 0 0 0.
+std::string loops_ply(const std::string& rows) {
+  return ascii_ply(rows, kXyz + "property double scalar_id\nproperty int scalar_loop\n");
 }
 
-std::string loops_error(const std::filesystem::path& file) {
-  return error_of([&] { read_loops(file); });
+// A file of loops of this name and each content is refused.
+void check_loops_refused(const std::string& name, const std::vector<Wrong>& cases) {
+  const ScratchFolder folder;
+  check_reasons(cases, [&](const std::string& content) {
+    return error_of([&] { read_loops(folder.write(name, content)); });
+  });
 }
 
 }  // namespace
@@ -51,7 +52,7 @@ TEST_CASE("the comment before a loop is its name, that of the file is none", "[i
         Names{"", "window", "", "shadow of sofa, door"});
   CHECK(named("# no\n\n# yes\n\n1 2\n#\n3\n# of none\n") == Names{"yes", ""});
   CHECK(named("# " + std::string(300, 'x') + "\n1\n#" + std::string(300, 'x') + "\n2\n") == Names{"", ""});
-  CHECK(read_named_loops(folder.write("a.ply", loops_ply("0 0 0 5 0\n", 1))).at(0).name.empty());
+  CHECK(read_named_loops(folder.write("a.ply", loops_ply("0 0 0 5 0\n"))).at(0).name.empty());
 }
 
 TEST_CASE("a line that begins with #step is a step of density, and neither a loop nor a name", "[io]") {
@@ -68,47 +69,35 @@ TEST_CASE("a line that begins with #step is a step of density, and neither a loo
   CHECK(steps[0] == LoopIds{4, 5, 4});
   CHECK(steps[1].size() == 1000);
   CHECK(read_steps(folder.write("none.txt", "1 2 3\n")).empty());
-  CHECK(read_steps(folder.write("a.ply", loops_ply("0 0 0 5 0\n", 1))).empty());
+  CHECK(read_steps(folder.write("a.ply", loops_ply("0 0 0 5 0\n"))).empty());
   CHECK_THAT(error_of([&] { read_steps(folder.write("b.txt", "1 2\n#step 3 x\n")); }),
              Catch::Matchers::Contains("line 2: 'x' is not a point id"));
 }
 
 TEST_CASE("loops as text that are no ids are reported with their line", "[io]") {
   const ScratchFolder folder;
-  using Catch::Matchers::Contains;
-  CHECK_THAT(loops_error(folder.write("a.txt", "# ids\n1 2 3\n4 5 -6\n")),
-             Contains("a.txt: line 3: '-6' is not a point id"));
-  CHECK_THAT(loops_error(folder.write("a.txt", "1 2 3 # a hole\n")), Contains("line 1: '#'"));
-  CHECK_THAT(loops_error(folder.write("a.txt", std::string("\1\2\0\xff", 4))), Contains("line 1: '???"));
-  CHECK_THAT(loops_error(folder / "missing.txt"), Contains("missing.txt: cannot be opened"));
-  CHECK_THAT(loops_error(folder.path()), Contains("is a folder"));
+  check_loops_refused("a.txt", {{"# ids\n1 2 3\n4 5 -6\n", "a.txt: line 3: '-6' is not a point id"},
+                                {"1 2 3 # a hole\n", "line 1: '#'"},
+                                {std::string("\1\2\0\xff", 4), "line 1: '???"}});
+  CHECK_THAT(error_of([&] { read_loops(folder / "missing.txt"); }), Catch::Contains("cannot be opened"));
+  CHECK_THAT(error_of([&] { read_loops(folder.path()); }), Catch::Contains("is a folder"));
 }
 
 TEST_CASE("loops.ply has its loops one after the other", "[io]") {
   const ScratchFolder folder;
-  CHECK(read_loops(folder.write("a.ply", loops_ply("0 0 0 5 0\n0 0 0 5000000001 0\n0 0 0 2 1\n", 3))) ==
-        Loops{{5, 5'000'000'001}, {2}});
-  CHECK(read_loops(folder.write("a.ply", loops_ply("", 0))).empty());
-  CHECK(read_ids(folder.write("a.ply", loops_ply("0 0 0 5 0\n0 0 0 3 0\n", 2))) ==
-        std::vector<std::uint64_t>{5, 3});
+  const auto file = folder.write("a.ply", loops_ply("0 0 0 5 0\n0 0 0 5000000001 0\n0 0 0 2 1\n"));
+  CHECK(read_loops(file) == Loops{{5, 5'000'000'001}, {2}});
+  CHECK(read_ids(file) == std::vector<std::uint64_t>{5, 5'000'000'001, 2});
+  CHECK(read_loops(folder.write("a.ply", loops_ply(""))).empty());
 }
 
 TEST_CASE("a PLY without loops, or with broken ones, is reported with its place", "[io]") {
-  const ScratchFolder folder;
-  using Catch::Matchers::Contains;
-  const std::string points =
-      "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
-      "property float z\nend_header\n";
-  CHECK_THAT(loops_error(folder.write("a.ply", points)), Contains("no property 'scalar_id'"));
-  CHECK_THAT(loops_error(folder.write("a.ply", loops_ply("0 0 0 1 0\n0 0 0 1 2\n", 2))),
-             Contains("vertex 1 (from 0): loop 2 where 1 would be the next"));
-  CHECK_THAT(loops_error(folder.write("a.ply", loops_ply("0 0 0 1.5 0\n", 1))),
-             Contains("'scalar_id' is 1.5"));
-  CHECK_THAT(loops_error(folder.write("a.ply", loops_ply("0 0 0 nan 0\n", 1))),
-             Contains("'scalar_id' is nan"));
-  CHECK_THAT(loops_error(folder.write("a.ply", loops_ply("0 0 0 1e17 0\n", 1))), Contains("whole number"));
-  CHECK_THAT(loops_error(folder.write("a.ply", loops_ply("0 0 0 1 -1\n", 1))),
-             Contains("'scalar_loop' is -1"));
+  check_loops_refused("a.ply", {{ascii_ply(""), "no property 'scalar_id'"},
+                                {loops_ply("0 0 0 1 0\n0 0 0 1 2\n"), "vertex 1 (from 0): loop 2 where 1"},
+                                {loops_ply("0 0 0 1.5 0\n"), "'scalar_id' is 1.5"},
+                                {loops_ply("0 0 0 nan 0\n"), "'scalar_id' is nan"},
+                                {loops_ply("0 0 0 1e17 0\n"), "whole number"},
+                                {loops_ply("0 0 0 1 -1\n"), "'scalar_loop' is -1"}});
 }
 
 }  // namespace lacuna::test

@@ -2,7 +2,7 @@
 #include "bench/evaluation/polylines.hpp"
 
 #include "bench/evaluation/evaluation.hpp"
-#include "tests/support/scratch_folder.hpp"
+#include "tests/io/io_support.hpp"
 
 #include <array>
 #include <string>
@@ -12,19 +12,19 @@
 namespace lacuna::evaluation {
 namespace {
 
-using Catch::Matchers::Contains;
 using test::ScratchFolder;
 
-std::string ply(const std::string& vertices, int count, const std::string& edges, int edge_count) {
-  return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) +
-         "\nproperty float x\nproperty float y\nproperty float z\nelement edge " +
-         std::to_string(edge_count) + "\nproperty int vertex1\nproperty int vertex2\nend_header\n" +
+// A PLY of so many vertices, with edges.
+std::string ply(const std::string& vertices, std::size_t count, const std::string& edges) {
+  const auto edge_count = std::count(edges.begin(), edges.end(), '\n');
+  return test::ply_header(test::vertices(count) + "element edge " + std::to_string(edge_count) +
+                          "\nproperty int vertex1\nproperty int vertex2\n") +
          vertices + edges;
 }
 
-std::string zeros(int count) {
+std::string zeros(std::size_t count) {
   std::string rows;
-  for (int i = 0; i < count; ++i) rows += "0 0 0\n";
+  for (std::size_t i = 0; i < count; ++i) rows += "0 0 0\n";
   return rows;
 }
 
@@ -32,25 +32,23 @@ std::string zeros(int count) {
 
 TEST_CASE("loops follow the edges of a PLY file, whatever the order of its edges") {
   const ScratchFolder folder;
-  const auto file = folder.write("a.ply", ply(zeros(8), 8, "5 3\n0 7\n3 1\n7 2\n1 5\n2 0\n", 6));
+  const auto file = folder.write("a.ply", ply(zeros(8), 8, "5 3\n0 7\n3 1\n7 2\n1 5\n2 0\n"));
   CHECK(has_polylines(file));
   CHECK(read_polylines(file) == std::vector<matching::LoopIds>{{0, 7, 2}, {1, 3, 5}});
 }
 
 TEST_CASE("lines that are no closed loops are refused in one line that names the vertex or the edge") {
   const ScratchFolder folder;
-  const auto refused = [&](const std::string& edges, int count, const std::string& reason) {
-    CHECK_THROWS_WITH(read_polylines(folder.write("a.ply", ply(zeros(5), 5, edges, count))),
-                      Contains(reason));
-  };
-  refused("0 1\n1 2\n", 2, "vertex 0 (from 0) has one edge; a loop is closed");
-  refused("0 1\n1 2\n2 0\n0 3\n", 4, "vertex 0 (from 0) has more than two edges; a loop does not branch");
-  refused("0 1\n1 5\n", 2, "edge 1 (from 0): vertex 5; the file has 5, counted from 0");
-  refused("0 -1\n", 1, "edge 0 (from 0): vertex -1");
-  const auto points = folder.write("b.ply",
-                                   "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\n"
-                                   "property float y\nproperty float z\nend_header\n");
-  CHECK_THROWS_WITH(has_polylines(points), Contains("has no loops"));
+  test::check_reasons(
+      {{"0 1\n1 2\n", "vertex 0 (from 0) has one edge; a loop is closed"},
+       {"0 1\n1 2\n2 0\n0 3\n", "vertex 0 (from 0) has more than two edges; a loop does not branch"},
+       {"0 1\n1 5\n", "edge 1 (from 0): vertex 5; the file has 5, counted from 0"},
+       {"0 -1\n", "edge 0 (from 0): vertex -1"}},
+      [&](const std::string& edges) {
+        return test::error_of([&] { read_polylines(folder.write("a.ply", ply(zeros(5), 5, edges))); });
+      });
+  CHECK_THROWS_WITH(has_polylines(folder.write("b.ply", test::ascii_ply(""))),
+                    Catch::Contains("has no loops"));
 }
 
 TEST_CASE("a polyline near a true loop finds it, and one elsewhere is false, though no vertex is a point") {
@@ -76,7 +74,7 @@ TEST_CASE("a polyline near a true loop finds it, and one elsewhere is false, tho
     }
   }
   const auto truth_file = folder.write("true.txt", truth_row + "\n");
-  Result result = read_result(folder.write("found.ply", ply(vertices, 32, edges, 32)));
+  Result result = read_result(folder.write("found.ply", ply(vertices, 32, edges)));
   const Truth truth = read_truth(truth_file, {io::ScanInput(scan)}, result);
   CHECK(truth.positions.size() == 900 + 32);
   CHECK(truth.spacing == Approx(1));

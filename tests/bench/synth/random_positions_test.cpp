@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/synth/ring.hpp"
 #include "tests/bench/synth/made.hpp"
 
 #include <algorithm>
@@ -112,19 +111,4 @@ TEST_CASE(
           CHECK(!cross(corners[i], corners[i + 1], corners[j], corners[(j + 1) % corners.size()]));
     }
   }
-}
-
-TEST_CASE("a ring has each nearest point once, and leaves out what lies between two visits") {
-  const auto ring = [](const NumberLoop& around) {
-    const Outline circle{double(around.size()), [&](double t) {
-                           return GridPosition{0, t * double(around.size())};
-                         }};
-    return ring_along(circle,
-                      [&](GridPosition place) { return around[std::size_t(place.column) % around.size()]; });
-  };
-  CHECK(ring({1, 2, 3, 4, 5}) == NumberLoop{2, 3, 4, 5, 1});
-  CHECK(ring({1, 1, 2, 3, 3, 3, 1}) == NumberLoop{2, 3, 1});
-  CHECK(ring({1, 2, 3, 2, 4, 5, 6}) == NumberLoop{2, 4, 5, 6, 1});
-  CHECK(ring({9, 2, 3, 4, 5, 6, 2}) == NumberLoop{2, 3, 4, 5, 6});  // begins in the corner
-  CHECK(ring({1, 2, 3, 4, 3, 2, 5, 6}) == NumberLoop{2, 5, 6, 1});
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "bench/synth/permutation.hpp"
 #include "tests/bench/synth/made.hpp"
 
 #include <algorithm>
@@ -104,5 +105,14 @@ TEST_CASE("random order has the points and the true loops of scanline order, in 
     std::sort(in_scanlines.begin(), in_scanlines.end());
     std::sort(at_random.begin(), at_random.end());
     CHECK(in_scanlines == at_random);
+  }
+}
+
+TEST_CASE("a permutation visits every index once, for every size") {
+  for (std::uint64_t size = 1; size <= 300; ++size) {
+    const Permutation order(size, size);
+    std::vector<int> met(size);
+    for (std::uint64_t index = 0; index < size; ++index) ++met.at(order(index));
+    CHECK(met == std::vector<int>(size, 1));
   }
 }

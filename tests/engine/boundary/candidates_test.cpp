@@ -4,7 +4,6 @@
 #include "tests/support/tiled_scan.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include <catch2/catch.hpp>
 
@@ -15,12 +14,6 @@ std::vector<Row> all_rows(const TiledScan& scan) {
   std::vector<Row> rows;
   for (const auto& [id, row] : scan.rows()) rows.push_back(row);
   return rows;
-}
-
-void shuffle(std::vector<Row>& rows, std::uint64_t seed) {
-  Random random(seed);
-  for (std::size_t i = rows.size(); i > 1; --i)
-    std::swap(rows[i - 1], rows[std::size_t(random.whole(0, std::int64_t(i) - 1))]);
 }
 
 // The candidates that are left, by taking off one at a time.
@@ -63,28 +56,6 @@ std::vector<Row> coherent(std::vector<Candidate> candidates, TiledScan& scan) {
   return left;
 }
 
-// Each leans on the next two, which are in other tiles as a rule.
-std::vector<Candidate> chain(const std::vector<Row>& rows) {
-  std::vector<Candidate> candidates;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    candidates.push_back({rows[i], rows[(i + 1) % rows.size()], rows[(i + 2) % rows.size()]});
-  return candidates;
-}
-
-TEST_CASE("a ring of candidates through all tiles stays, and unravels when one of them is none") {
-  for (const std::int64_t threads : {1, 8}) {
-    TiledScan scan(plane(30).jittered(0.2, 1), tiled({}, 20, threads));
-    REQUIRE(scan.store.tiling().tiles.size() > 20);
-    std::vector<Row> rows = all_rows(scan);
-    const std::size_t all = rows.size();
-    shuffle(rows, 1);
-    std::vector<Candidate> ring = chain(rows);
-    CHECK(coherent(ring, scan).size() == all);
-    ring.erase(ring.begin() + 100);
-    CHECK(coherent(ring, scan).empty());
-  }
-}
-
 TEST_CASE("candidates of many tiles that lean on each other at random settle as in one piece") {
   std::size_t taken = 0, left = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
@@ -108,11 +79,6 @@ TEST_CASE("candidates of many tiles that lean on each other at random settle as 
   }
   CHECK(taken > 1000);
   CHECK(left > 1000);
-}
-
-TEST_CASE("without candidates nothing is coherent") {
-  TiledScan scan(plane(10), tiled({}, 20));
-  CHECK(coherent({}, scan).empty());
 }
 
 }  // namespace

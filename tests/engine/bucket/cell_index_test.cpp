@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <catch2/catch.hpp>
 
@@ -42,56 +41,6 @@ TEST_CASE("the cells of many positions are those of each, rounded down, whatever
     INFO("finest " << grid.finest << ", shift " << grid.shift);
     CHECK(wrong == 0);
   }
-}
-
-TEST_CASE("every counted cell is found by a position in it, and no other") {
-  Random random(2);
-  std::vector<CountedCell> counted;
-  std::map<CellCoord, std::uint32_t> numbers;
-  const auto count = [&](const CellCoord& cell) {
-    if (numbers.emplace(cell, static_cast<std::uint32_t>(numbers.size())).second)
-      counted.push_back({cell, 1});
-  };
-  constexpr std::int32_t kLast = CellGrid::kLast;
-  for (const std::int32_t x : {-kLast, -kLast + 1, -1, 0, 7, 8, kLast - 1, kLast}) {
-    for (const std::int32_t y : {-kLast, 0, kLast}) count({x, y, 5});
-  }
-  for (int i = 0; i < 3000; ++i) {  // mostly alone in their leaves: the table grows
-    const auto at = [&] { return static_cast<std::int32_t>(random.whole(-500, 500)); };
-    count({at(), at(), at()});
-  }
-  std::vector<Eigen::Vector3d> positions;
-  std::vector<std::uint32_t> expected;
-  const auto ask = [&](const CellCoord& cell) {
-    positions.emplace_back(cell[0] + 0.25, cell[1] + 0.5, cell[2]);
-    const auto found = numbers.find(cell);
-    expected.push_back(found == numbers.end() ? CellIndex::kNoCell : found->second);
-  };
-  for (const CountedCell& cell : counted) {
-    ask(cell.coord);
-    ask({cell.coord[0], cell.coord[1], cell.coord[2] + 1});  // mostly the same leaf, without points
-    ask({cell.coord[1], cell.coord[2], cell.coord[0]});      // mostly another leaf
-  }
-  std::vector<std::uint32_t> cells(positions.size());
-  CellIndex(CellGrid{}, std::span(counted).first(1000), std::span(counted).subspan(1000))
-      .find(positions, cells);
-  CHECK(cells == expected);
-  CHECK(std::count(cells.begin(), cells.end(), CellIndex::kNoCell) > 3000);
-}
-
-TEST_CASE("far cells have no number, and the others keep theirs") {
-  const std::vector<CountedCell> counted = {{{1, 2, 3}, 5}, {{70, 0, 0}, 1, true}, {{-9, 0, 4}, 2}};
-  const std::vector<Eigen::Vector3d> positions = {{1.5, 2.5, 3.5}, {70.5, 0.5, 0.5}, {-8.5, 0, 4}};
-  std::vector<std::uint32_t> cells(3);
-  CellIndex(CellGrid{}, counted).find(positions, cells);
-  CHECK(cells == std::vector<std::uint32_t>{0, CellIndex::kNoCell, 2});
-}
-
-TEST_CASE("an index of nothing finds nothing") {
-  const std::vector<Eigen::Vector3d> positions = {{0, 0, 0}, {NAN, 0, 0}, {-INFINITY, 0, 0}};
-  std::vector<std::uint32_t> cells(3);
-  CellIndex(CellGrid{}, {}).find(positions, cells);
-  CHECK(cells == std::vector<std::uint32_t>(3, CellIndex::kNoCell));
 }
 
 }  // namespace

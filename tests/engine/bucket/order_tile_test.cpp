@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <catch2/catch.hpp>
 
@@ -18,23 +17,6 @@ ScanPoint stored(double x, double y, double z, std::uint64_t id) {
   return {x, y, z, PointId{id}};
 }
 
-TEST_CASE("points come by cell, then by coordinates; of coincident ones the lowest id stays") {
-  const std::vector<ScanPoint> points = {stored(5, 0, 0, 7), stored(1, 0, 0, 4), stored(1, 0, 0, 2),
-                                         stored(0, 9, 0, 9), stored(1, 0, 0, 8), stored(0, 3, 0, 1)};
-  const std::vector<std::uint32_t> cells = {2, 0, 0, 0, 0, 0};
-  const OrderedTile tile = order_tile(points, cells, 3, CellGrid{}, kCellPoints);
-  CHECK(tile.order == std::vector<std::uint32_t>{5, 3, 2, 0});
-  REQUIRE(tile.cells.size() == 2);  // the one without points is none
-  CHECK(tile.cells[0].points == 3);
-  CHECK(tile.cells[0].box.min() == Eigen::Vector3d(0, 0, 0));
-  CHECK(tile.cells[0].box.max() == Eigen::Vector3d(1, 9, 0));
-  CHECK(tile.cells[1].points == 1);
-  REQUIRE(tile.duplicates.size() == 2);
-  std::map<std::uint64_t, LocalIndex> of;
-  for (const Duplicate& d : tile.duplicates) of[value(d.id)] = d.of;
-  CHECK(of == std::map<std::uint64_t, LocalIndex>{{4, 2}, {8, 2}});
-}
-
 TEST_CASE("minus zero is at the place of zero") {
   const std::vector<ScanPoint> points = {stored(-0.0, 0, 0.0, 3), stored(0.0, -0.0, -0.0, 1),
                                          stored(0, 0, 0, 2)};
@@ -42,38 +24,6 @@ TEST_CASE("minus zero is at the place of zero") {
   const OrderedTile tile = order_tile(points, cells, 1, CellGrid{}, kCellPoints);
   CHECK(tile.order == std::vector<std::uint32_t>{1});
   CHECK(tile.duplicates.size() == 2);
-}
-
-TEST_CASE(
-    "every point is kept or a duplicate of one kept at its very place, and input order does not matter") {
-  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
-    Random random(seed);
-    std::vector<ScanPoint> points;
-    const std::int64_t n = random.whole(1, 500);
-    for (std::int64_t i = 0; i < n; ++i) {
-      const double x = double(random.whole(-3, 3)), y = random.chance(0.5) ? 0.0 : -0.0;
-      points.push_back(stored(x, y, double(random.whole(0, 4)), std::uint64_t(i)));
-    }
-    const auto ordered = [](std::vector<ScanPoint> in) {
-      std::vector<std::uint32_t> cells;
-      for (const ScanPoint& p : in) cells.push_back(p.x < 0 ? 0 : 1);
-      const OrderedTile tile = order_tile(in, cells, 2, CellGrid{}, kCellPoints);
-      std::vector<PointId> kept, copies;
-      for (const std::uint32_t i : tile.order) kept.push_back(in[i].id);
-      for (const Duplicate& d : tile.duplicates) {
-        const ScanPoint& of = in[tile.order[d.of]];
-        const auto at = std::find_if(in.begin(), in.end(), [&](const ScanPoint& p) { return p.id == d.id; });
-        CHECK((at->x == of.x && at->y == of.y && at->z == of.z && of.id < d.id));
-        copies.push_back(d.id);
-      }
-      std::sort(copies.begin(), copies.end());
-      CHECK(kept.size() + copies.size() == in.size());
-      return std::pair(kept, copies);
-    };
-    const auto expected = ordered(points);
-    std::reverse(points.begin(), points.end());
-    CHECK(ordered(points) == expected);
-  }
 }
 
 TEST_CASE("a crowded cell becomes cells of few points near each other, at any density") {

@@ -110,23 +110,6 @@ TEST_CASE("inside of a plane nothing speaks for a boundary, at its edge everythi
   CHECK(edge.mean_offset.x() > 0.5);
 }
 
-TEST_CASE("a point that sees no other has probability 1, no extent and no gap neighbours") {
-  const Evaluated lone = evaluate_first(line(1));
-  CHECK(lone.criteria == std::array{1.0, 1.0, 1.0});
-  CHECK(lone.probability == 1);
-  CHECK(lone.mean_distance == 0);
-  CHECK(lone.gap_near == kNoIndex);
-  CHECK(std::isnan(lone.normal.x()));
-}
-
-TEST_CASE("points on a line have no normal, no gap neighbours, and are boundary for angle and halfdisc") {
-  const Evaluated e = evaluate_first(line(30).rotated({1, 2, 3}, 33));
-  CHECK(e.criteria[0] == 1);
-  CHECK(e.criteria[1] == 1);
-  CHECK(e.gap_near == kNoIndex);
-  CHECK_FALSE(e.normal.allFinite());
-}
-
 TEST_CASE("a given normal is used, normalised; a zero one is estimated") {
   Cloud cloud = plane(9);
   cloud.normals.assign(cloud.size(), {0, 30, 40});

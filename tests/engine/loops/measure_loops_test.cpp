@@ -71,13 +71,6 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("no loops: nothing is measured") {
-  TiledScan scan(sphere(400), tiled({}, 50));
-  const MeasuredLoops measured = measured_loops(scan);
-  CHECK(measured.measures.empty());
-  CHECK(measured.loops.size() == 0);
-}
-
 TEST_CASE("loops are selected by points, perimeter and kind, limits included") {
   const std::vector<LoopMeasures> loops = {{.kind = LoopKind::kOuter, .points = 100, .perimeter = 50},
                                            {.kind = LoopKind::kHole, .points = 9, .perimeter = 5},

@@ -36,12 +36,5 @@ TEST_CASE("tasks share things in runs of about equal weights, each thing once") 
   }
 }
 
-TEST_CASE("things without weight belong to the first task, and nothing is shared as nothing") {
-  const std::vector<std::uint64_t> weights(3, 0);
-  CHECK(share_of(weights, {0, 4}).last == 3);
-  CHECK(share_of(weights, {3, 4}).first == 3);
-  CHECK(share_of({}, {1, 2}).last == 0);
-}
-
 }  // namespace
 }  // namespace lacuna

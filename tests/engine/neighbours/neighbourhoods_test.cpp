@@ -60,25 +60,5 @@ TEST_CASE("a tile that owns a part of the points gives them the neighbourhoods o
   }
 }
 
-TEST_CASE("a point is never its own neighbour, and sees all others where there are no more than k") {
-  const TilePoints points = whole_tile(line(5).with_duplicates(20, 1));
-  const Neighbourhoods rows = find_neighbourhoods(points, 15, 0);
-  REQUIRE(rows.size() == 5);
-  CHECK(ids_of(rows, points)[2] == std::vector{PointId{1}, PointId{3}, PointId{0}, PointId{4}});
-}
-
-TEST_CASE("one point and no point have no neighbours") {
-  CHECK(find_neighbourhoods(whole_tile(line(1)), 15, 3.0)[0].empty());
-  CHECK(find_neighbourhoods(whole_tile(Cloud{}), 15, 3.0).size() == 0);
-}
-
-TEST_CASE("a point exactly at eps is a neighbour, one just beyond is not") {
-  Cloud cloud;
-  cloud.positions = {{0, 0, 0}, {1, 0, 0}, {-2, 0, 0}, {std::nextafter(2.0, 3.0), 0, 0}};
-  const TilePoints points = whole_tile(cloud);
-  CHECK(ids_of(find_neighbourhoods(points, 1, 2.0), points)[row_of(points, PointId{0})] ==
-        std::vector{PointId{1}, PointId{2}});
-}
-
 }  // namespace
 }  // namespace lacuna

@@ -145,22 +145,5 @@ TEST_CASE("components of random graphs are those of a plain union-find, in any m
   }
 }
 
-TEST_CASE("a chain through all tiles and back is one component") {
-  std::vector<Edge> edges;
-  for (std::uint64_t t = 0; t + 1 < 20; ++t) {
-    edges.push_back({Row{t * kTilePoints}, Row{(t + 1) * kTilePoints}});
-    edges.push_back({Row{t * kTilePoints + 7}, Row{(t + 1) * kTilePoints + 7}});
-  }
-  edges.push_back(
-      {Row{19 * kTilePoints}, Row{19 * kTilePoints + 7}});  // joins the two far from where they begin
-  CHECK(stitch(edges, 20, 1 << 20, 4).components.size() == 1);
-  CHECK(stitch(edges, 20, 1 << 20, 4).count == 1);
-}
-
-TEST_CASE("no edges: no components") {
-  CHECK(stitch({}, 5, 1 << 20, 2).components.empty());
-  CHECK(stitch({}, 5, 1 << 20, 2).count == 0);
-}
-
 }  // namespace
 }  // namespace lacuna

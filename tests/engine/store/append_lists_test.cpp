@@ -2,14 +2,13 @@
 // Lists that are appended to, beyond the memory that they have.
 #include "engine/store/append_lists.hpp"
 
+#include "engine/store/outbox.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/open_files.hpp"
 #include "tests/support/record.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <algorithm>
-#include <numeric>
-#include <thread>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -67,27 +66,6 @@ TEST_CASE("one thread's appends to a list stay in order") {
   }
 }
 
-TEST_CASE("appends from many threads lose nothing") {
-  const ScratchFolder folder;
-  AppendLists<std::uint64_t> lists(folder / "lists", 5, std::make_shared<BufferPool>(0));
-  std::vector<std::thread> threads;
-  for (std::uint64_t t = 0; t < 8; ++t) {
-    threads.emplace_back([&lists, t] {
-      for (std::uint64_t i = 0; i < 20'000; ++i) lists.append((t + i) % 5, t * 20'000 + i);
-    });
-  }
-  for (std::thread& thread : threads) thread.join();
-  std::vector<std::uint64_t> all;
-  for (std::size_t list = 0; list < 5; ++list) {
-    const std::vector<std::uint64_t> read = lists.read(list);
-    all.insert(all.end(), read.begin(), read.end());
-  }
-  std::sort(all.begin(), all.end());
-  std::vector<std::uint64_t> expected(160'000);
-  std::iota(expected.begin(), expected.end(), 0);
-  CHECK(all == expected);
-}
-
 TEST_CASE("many lists on disk in many small pieces take no more memory than their budget and a table") {
   const ScratchFolder folder;
   const std::size_t before = heap_in_use();
@@ -116,6 +94,23 @@ TEST_CASE("lists whose file was cut short are an error to read and to append to,
     for (std::uint64_t i = 0; i < 100'000; ++i) lists.append(i % 3, i);
   };
   CHECK_THROWS_WITH(go_on(), names_file);
+}
+
+TEST_CASE("every record arrives at its tile in the order in which it was added, and few are held back") {
+  const ScratchFolder folder;
+  AppendLists<std::uint32_t> lists(folder / "lists", 3, std::make_shared<BufferPool>(1 << 20));
+  std::vector<std::vector<std::uint32_t>> wanted(3);
+  Outbox<std::uint32_t> outbox(lists);
+  Random random(1);
+  for (std::uint32_t record = 0; record < 50'000; ++record) {
+    const auto to = static_cast<TileIndex>(random.uniform(0, 2));  // none for the last tile
+    wanted[to].push_back(record);
+    outbox.add(to, record);
+  }
+  CHECK(lists.count(0) + lists.count(1) == 3 * 16'384);
+  outbox.send();
+  outbox.send();  // there is nothing left
+  for (TileIndex to = 0; to < 3; ++to) CHECK(lists.read(to) == wanted[to]);
 }
 
 }  // namespace

@@ -4,10 +4,12 @@
 
 #include "engine/run/error.hpp"
 #include "engine/run/parallel.hpp"
+#include "engine/store/row_numbers.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/open_files.hpp"
 #include "tests/support/scratch_folder.hpp"
 
+#include <set>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -111,6 +113,25 @@ TEST_CASE("a column whose file was cut short is an error to read behind the cut,
   CHECK_THROWS_WITH(column.write(0, numbers(0, 1)), names_file);
   ColumnReader<std::uint64_t> reader(column);
   CHECK_THROWS_AS(reader[600], Error);
+}
+
+TEST_CASE("rows are numbered in ascending order, near together or far apart") {
+  Random random(1);
+  for (const std::int64_t range : {std::int64_t{0}, std::int64_t{40}, std::int64_t{1'000'000'000'000}}) {
+    std::vector<Row> rows;
+    for (int i = 0; i < 300; ++i)
+      rows.push_back(Row{std::uint64_t(random.whole(1'000'000, 1'000'000 + range))});
+    RowNumbers numbers;
+    numbers.collect(rows.size(), [&](auto&& add) {
+      for (const Row row : rows) add(row);
+    });
+    LocalIndex expected = 0;
+    for (const Row row : std::set<Row>(rows.begin(), rows.end())) {
+      CHECK(numbers.number(row) == expected);
+      CHECK(numbers.row(expected++) == row);
+    }
+    CHECK(numbers.size() == expected);
+  }
 }
 
 }  // namespace

@@ -135,6 +135,7 @@ TEST_CASE("later steps take other parameters, and the parts before them are used
   threshold.coherence.threshold = 0.4;
   threshold.results.points = true;
   CHECK(bytes_of(scan(), threshold, folder.path()) == run_engine(scan(), threshold).bytes());
+  CHECK_FALSE(outputs_of(folder, 0).empty());  // the only ones
   CHECK(fs::last_write_time(folder / "level-0-0") == written);
   Config run = small_tiles();
   run.run.threads = 1;

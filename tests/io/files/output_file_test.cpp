@@ -65,30 +65,4 @@ TEST_CASE("a file is created anew: nothing that exists is opened, and no link fo
   CHECK(folder.names() == std::vector<std::string>{"broken link", "link", "other"});
 }
 
-TEST_CASE("what the PLY writer writes, the PLY reader reads", "[io]") {
-  const ScratchFolder folder;
-  OutputFile out("a.ply", folder / "a.ply");
-  const PlyElement vertex{.name = "vertex",
-                          .count = 2,
-                          .properties = {{"x", Scalar::kFloat32, {}},
-                                         {"y", Scalar::kFloat64, {}},
-                                         {"z", Scalar::kInt16, {}},
-                                         {"id", Scalar::kUint32, {}}}};
-  const PlyElement edge{.name = "edge", .count = 1, .properties = {{"vertex1", Scalar::kInt32, {}}}};
-  PlyWriter writer(out, {vertex, edge});
-  for (const int sign : {1, -1}) {
-    writer.put(0.5f * static_cast<float>(sign));
-    writer.put(1e300 * sign);
-    writer.put(static_cast<std::int16_t>(-7 * sign));
-    writer.put_as(Scalar::kUint32, 4294967295.0);
-  }
-  writer.put(std::int32_t{1});
-  writer.finish();
-  out.close();
-  const Table table = read_table(folder / "a.ply");
-  CHECK(table.names == std::vector<std::string>{"x", "y", "z", "id"});
-  CHECK(table.rows ==
-        std::vector<std::vector<double>>{{0.5, 1e300, -7, 4294967295.0}, {-0.5, -1e300, 7, 4294967295.0}});
-}
-
 }  // namespace lacuna::test

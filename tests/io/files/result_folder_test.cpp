@@ -6,7 +6,6 @@
 #include "tests/support/skip.hpp"
 #include "tests/support/small_disk.hpp"
 
-#include <algorithm>
 #include <fstream>
 #include <functional>
 
@@ -21,13 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
 using Names = std::vector<std::string>;
-
-Names names_of(const fs::path& folder) {
-  Names names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename());
-  std::sort(names.begin(), names.end());
-  return names;
-}
 
 void put(const ResultFolder& results, const std::string& name, const std::string& content) {
   const auto file = results.open(name);

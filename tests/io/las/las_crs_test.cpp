@@ -34,18 +34,20 @@ std::string crs_of_keys(const std::vector<Key>& keys) {
 }  // namespace
 
 TEST_CASE("GeoTIFF keys give codes of EPSG, the projected before the geographic, with the vertical") {
-  CHECK(crs_of_keys({}).empty());
-  CHECK(crs_of_keys({{2048, 0, 1, 4258}}) == "EPSG:4258");
-  CHECK(crs_of_keys({{2048, 0, 1, 4258}, {3072, 0, 1, 25832}}) == "EPSG:25832");
-  CHECK(crs_of_keys({{1024, 0, 1, 1}, {3072, 0, 1, 25832}, {4096, 0, 1, 7837}}) == "EPSG:25832+7837");
-  CHECK(crs_of_keys({{3072, 34736, 1, 5}}).empty());  // its value is elsewhere
-  CHECK(crs_of_keys({{4096, 0, 1, 7837}}).empty());
-}
-
-TEST_CASE("a projected system without a code is not the geographic one that it rests on") {
-  CHECK(crs_of_keys({{2048, 0, 1, 4258}, {3072, 0, 1, 32767}}).empty());
-  CHECK(crs_of_keys({{1024, 0, 1, 1}, {2048, 0, 1, 4258}}).empty());
-  CHECK(crs_of_keys({{1024, 0, 1, 2}, {2048, 0, 1, 4258}, {3072, 0, 1, 32767}}) == "EPSG:4258");
+  const std::vector<std::pair<std::vector<Key>, std::string>> cases = {
+      {{}, ""},
+      {{{2048, 0, 1, 4258}}, "EPSG:4258"},
+      {{{2048, 0, 1, 4258}, {3072, 0, 1, 25832}}, "EPSG:25832"},
+      {{{1024, 0, 1, 1}, {3072, 0, 1, 25832}, {4096, 0, 1, 7837}}, "EPSG:25832+7837"},
+      {{{3072, 34736, 1, 5}}, ""},  // its value is elsewhere
+      {{{4096, 0, 1, 7837}}, ""},
+      // A vertical code that is no system of EPSG leaves the horizontal system.
+      {{{1024, 0, 1, 1}, {3072, 0, 1, 26913}, {4096, 0, 1, 5103}}, "EPSG:26913"},
+      // A projected system without a code is not the geographic one that it rests on.
+      {{{2048, 0, 1, 4258}, {3072, 0, 1, 32767}}, ""},
+      {{{1024, 0, 1, 1}, {2048, 0, 1, 4258}}, ""},
+      {{{1024, 0, 1, 2}, {2048, 0, 1, 4258}, {3072, 0, 1, 32767}}, "EPSG:4258"}};
+  for (const auto& [keys, system] : cases) CHECK(crs_of_keys(keys) == system);
 }
 
 TEST_CASE("GeoTIFF keys and well-known text say whether positions are longitude and latitude") {
@@ -65,11 +67,6 @@ TEST_CASE("GeoTIFF keys and well-known text say whether positions are longitude 
   CHECK_FALSE(is_geographic({{1024, 0, 1, 3}, {2048, 0, 1, 4978}}));  // geocentric
   CHECK(is_geographic({{1024, 0, 1, 1}, {3072, 0, 1, 25832}}, "GEOGCS[\"WGS 84\"]"));
   CHECK_FALSE(is_geographic({{1024, 0, 1, 2}, {2048, 0, 1, 4326}}, "PROJCS[\"a\",GEOGCS[\"b\"]]"));
-}
-
-TEST_CASE("a vertical code that is no system of EPSG leaves the horizontal system") {
-  CHECK(crs_of_keys({{1024, 0, 1, 1}, {3072, 0, 1, 26913}, {4096, 0, 1, 5103}}) == "EPSG:26913");
-  CHECK(crs_of_keys({{1024, 0, 1, 1}, {3072, 0, 1, 26913}, {4096, 0, 1, 5703}}) == "EPSG:26913+5703");
 }
 
 TEST_CASE("a geocentric system is in metres, and is not the geographic one that names its datum") {

@@ -178,10 +178,10 @@ TEST_CASE("extra bytes of LAS are columns by their descriptors, others by their 
 
 TEST_CASE("extra bytes of LAS without a name, or with the name of others, have names of their own", "[io]") {
   const ScratchFolder folder;
+  std::string descriptors;
+  for (const char* name : {"", "x_2", "x", ""}) descriptors += las_extra_descriptor(name, 1);
   const LasFile las{.points = {las_point(20 + 5, 1, 2, 3)},
-                    .records = {las_record("LASF_Spec", 4,
-                                           las_extra_descriptor("", 1) + las_extra_descriptor("x_2", 1) +
-                                               las_extra_descriptor("x", 1) + las_extra_descriptor("", 1))}};
+                    .records = {las_record("LASF_Spec", 4, descriptors)}};
   const std::vector<std::string> names = read_table(folder.write("a.las", las.bytes())).names;
   CHECK(std::vector<std::string>(names.end() - 5, names.end()) ==
         std::vector<std::string>{"extra", "x_2", "x_3", "extra_2", "extra_0"});
@@ -220,44 +220,41 @@ TEST_CASE("what follows the points of LAS is passed over, where it is shorter th
 TEST_CASE("a LAS header that counts others than the points that follow is an error, unless one is trusted",
           "[io]") {
   const ScratchFolder folder;
-  const auto file = [&](std::uint64_t counted, std::size_t cut) {
+  const auto bytes = [](std::uint64_t counted, std::size_t cut) {
     std::string bytes = small_file().bytes();
     put(bytes, 247, counted);
     put(bytes, 107, static_cast<std::uint32_t>(counted));
-    return folder.write("a.las", bytes.substr(0, bytes.size() - cut));
+    return bytes.substr(0, bytes.size() - cut);
   };
   const auto rows = [&](std::uint64_t counted, std::size_t cut, Trust trust) {
-    return read_table(file(counted, cut), 1000, {.trust = trust}).rows.size();
+    return read_table(folder.write("a.las", bytes(counted, cut)), 1000, {.trust = trust}).rows.size();
   };
-  CHECK_THAT(read_error(file(2, 0)), Contains("the header counts 2 points, but 3 whole ones of 40 bytes "
-                                              "follow; --trust file reads these, --trust header the others"));
-  CHECK_THAT(read_error(file(0, 0)), Contains("the header counts 0 points, but 3 whole ones"));
-  CHECK_THAT(read_error(file(3, 1)), Contains("the header counts 3 points, but 2 whole ones"));
+  check_refused("a.las", {{bytes(2, 0), "the header counts 2 points, but 3 whole ones of 40 bytes follow"},
+                          {bytes(2, 0), "--trust file reads these, --trust header the others"},
+                          {bytes(0, 0), "the header counts 0 points, but 3 whole ones"},
+                          {bytes(3, 1), "the header counts 3 points, but 2 whole ones"}});
   CHECK(rows(2, 0, Trust::kHeader) == 2);
   CHECK(rows(2, 0, Trust::kFile) == 3);
   CHECK(rows(0, 0, Trust::kFile) == 3);
   CHECK(rows(3, 1, Trust::kFile) == 2);
-  CHECK_THAT(read_error(file(3, 1), {.trust = Trust::kHeader}), Contains("the header declares 3 points"));
+  CHECK_THAT(error_of([&] { rows(3, 1, Trust::kHeader); }), Contains("the header declares 3 points"));
 }
 
 TEST_CASE("what is wrong with a LAS file is said with its place", "[io]") {
-  const ScratchFolder folder;
-  const std::string whole = small_file().bytes();
-  const auto error = [&](std::size_t offset, auto value) {
+  const auto with = [whole = small_file().bytes()](std::size_t offset, auto value) {
     std::string changed = whole;
     put(changed, offset, value);
-    return read_error(folder.write("a.las", changed));
+    return changed;
   };
-  CHECK_THAT(error(25, std::uint8_t{6}), Contains("byte 24: LAS 1.6; versions 1.0 to 1.5 are read"));
-  CHECK_THAT(error(104, std::uint8_t{11}), Contains("byte 104: point format 11; formats 0 to 10 are read"));
-  CHECK_THAT(error(105, std::uint16_t{35}),
-             Contains("points of 35 bytes; those of format 7 have 36 or more"));
-  CHECK_THAT(error(247, std::uint64_t{1} << 60),
-             Contains("the header counts 1152921504606846976 points, but 3 whole ones of 40 bytes follow") &&
-                 Contains("--trust file"));
-  CHECK_THAT(error(131, 0.0), Contains("byte 131: a scale that is 0"));
-  CHECK_THAT(error(96, std::uint32_t{100}), Contains("the points begin within the header"));
-  CHECK_THAT(error(100, std::uint32_t{7}), Contains("7 variable length records do not fit"));
+  const std::string many = with(247, std::uint64_t{1} << 60);
+  check_refused("a.las", {{with(25, std::uint8_t{6}), "byte 24: LAS 1.6; versions 1.0 to 1.5 are read"},
+                          {with(104, std::uint8_t{11}), "byte 104: point format 11; formats 0 to 10"},
+                          {with(105, std::uint16_t{35}), "points of 35 bytes; those of format 7 have 36"},
+                          {many, "the header counts 1152921504606846976 points, but 3 whole ones of 40"},
+                          {many, "--trust file"},
+                          {with(131, 0.0), "byte 131: a scale that is 0"},
+                          {with(96, std::uint32_t{100}), "the points begin within the header"},
+                          {with(100, std::uint32_t{7}), "7 variable length records do not fit"}});
 }
 
 }  // namespace

@@ -70,12 +70,6 @@ Lid made(const Loop& loop) {
 
 }  // namespace
 
-TEST_CASE("a square of four points has a lid of two triangles") {
-  const Lid lid = made(hole_in_plane({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
-  CHECK(lid.mesh.triangles.size() == 2);
-  CHECK(lid.area == 1);
-}
-
 TEST_CASE("the lid of a plane polygon lies in its plane and has exactly its area, convex or not") {
   Line star;
   for (int i = 0; i < 120; ++i) {

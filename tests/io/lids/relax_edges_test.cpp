@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/lids/relax_edges.hpp"
 
+#include "io/lids/refine.hpp"
 #include "io/lids/triangulate_polygon.hpp"
 #include "tests/io/lids/drawn_loops.hpp"
 #include "tests/io/lids/watertight.hpp"
@@ -69,6 +70,25 @@ TEST_CASE("in a plane, the result is Delaunay and as large as before, without a 
     CHECK(largest_sum_of_opposite_angles(mesh) < M_PI + 1e-6);
     for (const LidTriangle& triangle : mesh.triangles) CHECK(area_vector(mesh, triangle).z() > 1e-6);
   }
+}
+
+TEST_CASE("triangles of a refined lid are as large as the spacing of the loop demands") {
+  LidMesh mesh = triangulate_polygon(test::with_points({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, 20));
+  relax_edges(mesh);
+  refine(mesh);
+  CHECK(test::is_disc_on_loop(mesh));
+  CHECK(area(mesh) == Approx(1).epsilon(1e-13));
+  double sum = 0, longest = 0;
+  for (const LidTriangle& triangle : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double length = (mesh.vertices[triangle[i]] - mesh.vertices[triangle[(i + 1) % 3]]).norm();
+      sum += length / static_cast<double>(3 * mesh.triangles.size());
+      longest = std::max(longest, length);
+    }
+  }
+  constexpr double kSpacing = 0.05;
+  CHECK(sum == Approx(kSpacing).epsilon(0.15));
+  CHECK(longest < 2 * kSpacing);
 }
 
 }  // namespace lacuna

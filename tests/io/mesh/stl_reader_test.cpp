@@ -80,32 +80,21 @@ TEST_CASE("STL: points as text are not taken for it", "[io]") {
   CHECK(open_scan(folder.write("a", "solidity x y z\n1 2 3 4\n"), {})->format() == "text");
 }
 
-TEST_CASE("STL: what stands at a wrong place is an error that names its line", "[io]") {
-  const ScratchFolder folder;
+TEST_CASE("STL: what stands at a wrong place is an error that names it, and so is a wrong size", "[io]") {
   const std::string facet = "solid\nfacet normal 0 0 1\nouter loop\nvertex 1 2 3\n";
-  const std::pair<std::string, std::string> cases[] = {
-      {"solid", "a.stl: line 1: the file ends here within a solid"},
-      {"solid\nfacet normal 0 0 1\nvertex 1 2 3\n", "line 3: a vertex outside of a loop"},
-      {"solid\nfacet\nfacet\n", "line 3: 'facet' is not expected here; allowed are 'outer loop'"},
-      {facet + "vertex 1 2\n", "line 5: fewer values than needed; 'vertex x y z'"},
-      {facet + "vertex 1 2 3 4\n", "line 5: more values"},
-      {facet + "vertex 1 2 three\n", "line 5: 'three' is not a number"},
-      {facet + "endloop\n", "line 5: 1 vertices of a facet; three are needed"},
-      {facet + "vertex 1 2 3\nvertex 1 2 3\nvertex 1 2 3\n", "line 7: a vertex outside of a loop of three"},
-      {facet + "triangle\n", "line 5: 'triangle' is not expected here; allowed are 'vertex' and 'endloop'"},
-      {"solid\nendsolid\n1 2 3\n", "line 3: '1' is not expected here; allowed are 'solid' and the end"},
-  };
-  for (const auto& [content, expected] : cases) {
-    INFO(content);
-    CHECK_THAT(read_error(folder.write("a.stl", content)), Catch::Contains(expected));
-  }
-}
-
-TEST_CASE("STL: a binary file whose size does not fit is an error that names both", "[io]") {
-  const ScratchFolder folder;
-  CHECK_THAT(
-      read_error(folder.write("a.stl", binary("solid") + "1")),
-      Catch::Contains("a.stl: byte 185: neither ASCII nor a binary STL of 2 triangles, which has 184 bytes"));
+  check_refused(
+      "a.stl",
+      {{"solid", "line 1: the file ends here within a solid"},
+       {"solid\nfacet normal 0 0 1\nvertex 1 2 3\n", "line 3: a vertex outside of a loop"},
+       {"solid\nfacet\nfacet\n", "line 3: 'facet' is not expected here; allowed are 'outer loop'"},
+       {facet + "vertex 1 2\n", "line 5: fewer values than needed; 'vertex x y z'"},
+       {facet + "vertex 1 2 3 4\n", "line 5: more values"},
+       {facet + "vertex 1 2 three\n", "line 5: 'three' is not a number"},
+       {facet + "endloop\n", "line 5: 1 vertices of a facet; three are needed"},
+       {facet + "vertex 1 2 3\nvertex 1 2 3\nvertex 1 2 3\n", "line 7: a vertex outside of a loop"},
+       {facet + "triangle\n", "line 5: 'triangle' is not expected here; allowed are 'vertex'"},
+       {"solid\nendsolid\n1 2 3\n", "line 3: '1' is not expected here; allowed are 'solid'"},
+       {binary("solid") + "1", "byte 185: neither ASCII nor a binary STL of 2 triangles, which has 184"}});
 }
 
 TEST_CASE("STL: rows stay whole across buffers and batches", "[io]") {
@@ -119,14 +108,7 @@ TEST_CASE("STL: rows stay whole across buffers and batches", "[io]") {
     bytes << std::uint16_t{0};
   }
   const auto file = folder.write("a.stl", std::string(80, '\0') + bytes.str());
-  for (const std::size_t max_rows : {1000u, 1'000'000u}) {
-    const Rows rows = read_table(file, max_rows).rows;
-    REQUIRE(rows.size() == 3 * kTriangles);
-    bool all = true;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      all = all && rows[i] == std::vector<double>{1.0 * i, 0.5, -1};
-    CHECK(all);
-  }
+  check_rows(file, 3 * kTriangles, [](double i) { return std::vector<double>{i, 0.5, -1}; });
 }
 
 TEST_CASE("STL: a broken file gives one error or all its rows", "[io]") {

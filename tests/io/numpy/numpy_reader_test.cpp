@@ -51,14 +51,11 @@ TEST_CASE("arrays of NumPy have the rows that they were made of", "[io]") {
 }
 
 TEST_CASE("an array of NumPy that has no points is an error that says so", "[io]") {
-  const ScratchFolder folder;
-  const auto error = [&](const std::string& bytes) { return read_error(folder.write("a.npy", bytes)); };
-  CHECK_THAT(error(npy("'<f4'", "(2, 2)", false, Bytes() << 1.f << 2.f << 3.f << 4.f)),
-             Catch::Contains("an array of 2 x 2; N x 3 or more are needed"));
-  CHECK_THAT(error(npy("'|O'", "(1, 3)", false, Bytes() << 1.f << 2.f << 3.f)),
-             Catch::Contains("values of the type '|O'"));
-  CHECK_THAT(error(npy("'<f4'", "(2, 3)", false, Bytes() << 1.f << 2.f << 3.f)),
-             Catch::Contains("too early for the 2 rows"));
+  const Bytes three = Bytes() << 1.f << 2.f << 3.f;
+  check_refused("a.npy",
+                {{npy("'<f4'", "(2, 2)", false, Bytes() << 1.f << 2.f << 3.f << 4.f), "an array of 2 x 2"},
+                 {npy("'|O'", "(1, 3)", false, three), "values of the type '|O'"},
+                 {npy("'<f4'", "(2, 3)", false, three), "too early for the 2 rows"}});
 }
 
 TEST_CASE("broken arrays of NumPy give one error or whole rows", "[io]") {

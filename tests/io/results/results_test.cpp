@@ -21,14 +21,6 @@ using Catch::Matchers::Contains;
 using Rows = std::vector<std::vector<double>>;
 using Names = std::vector<std::string>;
 
-std::string ply(const std::string& properties, std::size_t count, const std::string& rows) {
-  return std::string("ply\nformat ascii 1.0\nelement vertex ") + std::to_string(count) + "\n" + properties +
-         "end_header\n" + rows;
-}
-
-const std::string kXyz = "property float x\nproperty float y\nproperty float z\n";
-const std::string kWide = "property double x\nproperty double y\nproperty double z\n";
-
 nlohmann::json report(const std::filesystem::path& folder) {
   return nlohmann::json::parse(read_file(folder / "holes.json"));
 }
@@ -36,11 +28,18 @@ nlohmann::json run_of(const std::filesystem::path& folder) {
   return nlohmann::json::parse(read_file(folder / "run.json"));
 }
 
+FilesConfig with_points_ply(bool has_normals = false) {
+  FilesConfig config;
+  config.results.points = true;
+  config.output = {.points_format = PointsFormat::kPly, .points_normals = has_normals};
+  return config;
+}
+
 }  // namespace
 
 TEST_CASE("a run without holes leaves an empty loops.ply and a report without loops", "[io]") {
   const ScratchFolder folder;
-  FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
+  FileScan scan({folder.write("a.ply", ascii_ply("1 2 3\n"))}, {});
   const auto out = folder / "new" / "out";
   write_results(FakeDetection().with_results(1), scan, FilesConfig{}, out);
   CHECK(read_table(out / "loops.ply").rows.empty());
@@ -93,17 +92,16 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
   CHECK(json.at("loops")[0].at("ids") == nlohmann::json{1, 5, 3});
   CHECK(json.at("loops")[1].at("kind") == "outer");
   CHECK(json.at("loops")[1].at("area").is_null());
-  CHECK_THAT(read_file(folder / "out/holes.json"),
-             Contains("\n    "
-                      "{\"id\":0,\"kind\":\"hole\",\"parent\":null,\"confidence\":1.0,\"emptiness\":1.0,"
-                      "\"evidence\":{\"clearness\":1.0,\"surface\":1.0,\"sampling_gap\":0.0,\"width\":0.0,"
-                      "\"roundness\":0.0,\"persistence\":0.0},"
-                      "\"first_scale\":0."
-                      "0,\"last_scale\":0.0,"
-                      "\"perimeter\":0.1,\"area\":0.0,\"diameter\":0.0,\"planarity\":0.0,\"mean_"
-                      "probability\":0.0,\"centroid\":[1.0,2.0,3.0],"
-                      "\"normal\":[0.0,0.0,1.0],\"cause\":null,\"tiles\":0,\"points\":3,\"ids\":[1,5,3],"
-                      "\"coordinates\":[[0.1,2.0,3.0],[0.5,2.0,3.0],[0.30000000000000004,2.0,3.0]]},\n"));
+  const nlohmann::json hole = nlohmann::json::parse(R"({
+      "id": 0, "kind": "hole", "parent": null, "confidence": 1.0, "emptiness": 1.0,
+      "evidence": {"clearness": 1.0, "surface": 1.0, "sampling_gap": 0.0, "width": 0.0, "roundness": 0.0,
+                   "persistence": 0.0},
+      "first_scale": 0.0, "last_scale": 0.0, "perimeter": 0.1, "area": 0.0, "diameter": 0.0,
+      "planarity": 0.0, "mean_probability": 0.0, "centroid": [1, 2, 3], "normal": [0, 0, 1], "cause": null,
+      "tiles": 0, "points": 3, "ids": [1, 5, 3],
+      "coordinates": [[0.1, 2, 3], [0.5, 2, 3], [0.30000000000000004, 2, 3]]})");
+  CHECK(json.at("loops")[0] == hole);
+  CHECK_THAT(read_file(folder / "out/holes.json"), Contains("]},\n    {\"id\":1,\"kind\":\"outer\","));
   CHECK_THAT(
       read_file(folder / "out/holes.csv"),
       Contains("\n0,hole,,3,1,1,0,0,0.1,0,0,0,0,,,,,,1,2,3,0,0,1,,,,\n1,outer,,4,1,1,0,0,0.1,,0,0,0,,,,,"
@@ -115,7 +113,7 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
 
 TEST_CASE("loops.ply has the points of every loop and closes each with edges", "[io]") {
   const ScratchFolder folder;
-  FileScan scan({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
+  FileScan scan({folder.write("a.ply", ascii_ply("1 2 3\n"))}, {});
   FakeDetection detection;
   detection.with_loop({1, 5, 3}, LoopKind::kHole).with_loop({2, 4, 8, 6}, LoopKind::kOuter);
   write_results(detection, scan, FilesConfig{}, folder / "out");
@@ -132,7 +130,7 @@ TEST_CASE("loops.ply has the points of every loop and closes each with edges", "
 
 TEST_CASE("ids beyond 32 bits are written as double, and coordinates in the scan's precision", "[io]") {
   const ScratchFolder folder;
-  FileScan scan({folder.write("a.ply", ply(kWide, 1, "1 2 3\n"))}, {});
+  FileScan scan({folder.write("a.ply", ascii_ply("1 2 3\n", kWideXyz))}, {});
   FakeDetection detection;
   detection.with_loop({1, 2, 5'000'000'001}, LoopKind::kHole);
   detection.numbers.counts.points = 5'000'000'002;
@@ -148,13 +146,10 @@ TEST_CASE("ids beyond 32 bits are written as double, and coordinates in the scan
 TEST_CASE("points.ply keeps every property of the input and adds the results", "[io]") {
   const ScratchFolder folder;
   const auto file =
-      folder.write("a.ply", ply(std::string("property uchar red\n") + kXyz + "property int scalar_loop\n", 3,
-                                "9 0.1 nan 3 77\n8 4 5 6 77\n7 7 8 9 77\n"));
+      folder.write("a.ply", ascii_ply("9 0.1 nan 3 77\n8 4 5 6 77\n7 7 8 9 77\n",
+                                      "property uchar red\n" + kXyz + "property int scalar_loop\n"));
   FileScan scan({file}, {});
-  FilesConfig config;
-  config.results.points = true;
-  config.output = {.points_format = PointsFormat::kPly, .points_normals = true};
-  write_results(FakeDetection().with_results(3), scan, config, folder / "out");
+  write_results(FakeDetection().with_results(3), scan, with_points_ply(true), folder / "out");
   const Table table = read_table(folder / "out/points.ply");
   CHECK(table.names == Names{"red", "x", "y", "z", "scalar_probability", "scalar_angle", "scalar_halfdisc",
                              "scalar_shape", "scalar_boundary", "scalar_coherent", "scalar_loop", "quality",
@@ -171,20 +166,17 @@ TEST_CASE("points.ply keeps every property of the input and adds the results", "
 
 TEST_CASE("points.ply joins files by property name, whatever the blocks of results", "[io]") {
   const ScratchFolder folder;
-  const auto a = folder.write("a.ply", ply(kXyz + "property uchar red\nproperty float depth\n", 3,
-                                           "1 2 3 9 0.5\n4 5 6 8 0.5\n7 8 9 7 0.5\n"));
-  const auto b = folder.write("b.ply", ply(kXyz, 0, ""));
+  const auto a = folder.write("a.ply", ascii_ply("1 2 3 9 0.5\n4 5 6 8 0.5\n7 8 9 7 0.5\n",
+                                                 kXyz + "property uchar red\nproperty float depth\n"));
+  const auto b = folder.write("b.ply", ascii_ply(""));
   const auto c =
-      folder.write("c.ply", ply(std::string("property short tag\n") + kWide + "property ushort red\n", 2,
-                                "-5 0.1 2 3 300\n-6 0 0 0 301\n"));
+      folder.write("c.ply", ascii_ply("-5 0.1 2 3 300\n-6 0 0 0 301\n",
+                                      "property short tag\n" + kWideXyz + "property ushort red\n"));
   for (const std::size_t block : {1u, 2u, 4u, 100u}) {
     FileScan scan({a, b, c}, {});
     FakeDetection detection;
     detection.with_results(5).block = block;
-    FilesConfig config;
-    config.results.points = true;
-    config.output.points_format = PointsFormat::kPly;
-    write_results(detection, scan, config, folder / "out");
+    write_results(detection, scan, with_points_ply(), folder / "out");
     const Table table = read_table(folder / "out" / "points.ply");
     REQUIRE(table.rows.size() == 5);
     CHECK(Names(table.names.begin(), table.names.begin() + 7) ==
@@ -202,63 +194,57 @@ TEST_CASE("points.ply joins files by property name, whatever the blocks of resul
 TEST_CASE("normals of the input stay, and are not written a second time", "[io]") {
   const ScratchFolder folder;
   const auto file = folder.write(
-      "a.ply", ply(kXyz + "property float nx\nproperty float ny\nproperty float nz\n", 1, "1 2 3 1 0 0\n"));
+      "a.ply",
+      ascii_ply("1 2 3 1 0 0\n", kXyz + "property float nx\nproperty float ny\nproperty float nz\n"));
   FileScan scan({file}, {});
-  FilesConfig config;
-  config.results.points = true;
-  config.output = {.points_format = PointsFormat::kPly, .points_normals = true};
-  write_results(FakeDetection().with_results(1), scan, config, folder / "out");
+  write_results(FakeDetection().with_results(1), scan, with_points_ply(true), folder / "out");
   const Table table = read_table(folder / "out/points.ply");
   CHECK(table.names.size() == 6 + 8);
   CHECK(table.rows.at(0)[3] == 1);
 }
 
 TEST_CASE("an earlier result that is an input is never replaced", "[io]") {
-  FilesConfig with_points;
-  with_points.results.points = true;
-  with_points.output.points_format = PointsFormat::kPly;
+  FilesConfig of_each_file = with_points_ply();
+  of_each_file.output.points_format = PointsFormat::kInput;
   const ScratchFolder folder;
-  FileScan first({folder.write("a.ply", ply(kXyz, 1, "1 2 3\n"))}, {});
   const auto detection = FakeDetection().with_results(1);
-  write_results(detection, first, with_points, folder / "out");
-  const std::string content = read_file(folder / "out/points.ply");
-  std::filesystem::create_hard_link(folder / "out/points.ply", folder / "linked.ply");
-  for (const char* name : {"out/points.ply", "linked.ply"}) {
-    FileScan scan({folder / name}, {});
-    for (const FilesConfig& config : {with_points, FilesConfig{}})
-      CHECK_THAT(error_of([&] { write_results(detection, scan, config, folder / "out"); }),
-                 Contains(std::string(name) + ": is an input in the place of a result"));
+  for (const auto& [config, result] :
+       {std::pair{with_points_ply(), "out/points.ply"}, {of_each_file, "out/points/a.ply"}}) {
+    FileScan first({folder.write("a.ply", ascii_ply("1 2 3\n"))}, {});
+    write_results(detection, first, config, folder / "out");
+    const std::string content = read_file(folder / result);
+    std::filesystem::create_hard_link(folder / result, folder / "linked.ply");
+    for (const char* name : {result, "linked.ply"}) {
+      FileScan scan({folder / name}, {});
+      for (const FilesConfig& next : {with_points_ply(), of_each_file, FilesConfig{}})
+        CHECK_THAT(error_of([&] { write_results(detection, scan, next, folder / "out"); }),
+                   Contains(std::string(name) + ": is an input in the place of a result"));
+    }
+    CHECK(read_file(folder / result) == content);
+    std::filesystem::remove(folder / "linked.ply");
+    CHECK(folder.names() == Names{"a.ply", "out"});
   }
-  CHECK(read_file(folder / "out/points.ply") == content);
-  CHECK(folder.names() == Names{"a.ply", "linked.ply", "out"});
 }
 
 TEST_CASE("an input that changed during the run is an error that leaves no result", "[io]") {
   const ScratchFolder folder;
-  FileScan scan({folder.write("a.ply", ply(kXyz, 2, "1 2 3\n4 5 6\n"))}, {});
-  FilesConfig config;
-  config.results.points = true;
-  config.output.points_format = PointsFormat::kPly;
+  FileScan scan({folder.write("a.ply", ascii_ply("1 2 3\n4 5 6\n"))}, {});
   for (const std::size_t results : {1u, 3u}) {
-    CHECK(error_of([&] {
-            write_results(FakeDetection().with_results(results), scan, config, folder / "out");
-          }).find("the input has changed") != std::string::npos);
+    CHECK_THAT(error_of([&] {
+                 write_results(FakeDetection().with_results(results), scan, with_points_ply(),
+                               folder / "out");
+               }),
+               Contains("the input has changed"));
     CHECK(folder.names() == Names{"a.ply"});
   }
 }
 
 TEST_CASE("a disk that takes no more of any result leaves none", "[io]") {
   const ScratchFolder folder;
-  FileScan scan({folder.write("a.ply", ply(kXyz, 1000,
-                                           [] {
-                                             std::string rows;
-                                             for (int i = 0; i < 1000; ++i) rows += "1 2 3\n";
-                                             return rows;
-                                           }()))},
-                {});
-  FilesConfig config;
-  config.results.points = true;
-  config.output.points_format = PointsFormat::kPly;
+  std::string rows;
+  for (int i = 0; i < 1000; ++i) rows += "1 2 3\n";
+  FileScan scan({folder.write("a.ply", ascii_ply(rows))}, {});
+  const FilesConfig config = with_points_ply();
   const auto few = FakeDetection().with_results(1000);
   FakeDetection long_loop = few, many_loops = few, much_boundary = few;
   long_loop.with_loop(std::vector<std::uint64_t>(10'000, 1), LoopKind::kHole);
@@ -282,10 +268,11 @@ TEST_CASE("a disk that takes no more of any result leaves none", "[io]") {
       return most;
     }();
     std::filesystem::remove_all(folder / "out");
-    CHECK(error_of([&, &detection = *detection] {
-            const FileSizeLimit full(bytes - 1);
-            write_results(detection, scan, config, folder / "out");
-          }).find(name + ": cannot be written: File too large") != std::string::npos);
+    CHECK_THAT(error_of([&, &detection = *detection] {
+                 const FileSizeLimit full(bytes - 1);
+                 write_results(detection, scan, config, folder / "out");
+               }),
+               Contains(name + ": cannot be written: File too large"));
     CHECK(folder.names() == Names{"a.ply"});
   }
 }

@@ -2,6 +2,7 @@
 #include "io/scan/file_scan.hpp"
 
 #include "tests/io/io_support.hpp"
+#include "tests/support/clouds.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -18,22 +19,13 @@ using namespace io;
 namespace {
 
 const std::string kIntegers =
-    "ply\nformat ascii 1.0\nelement vertex 2\nproperty uchar x\nproperty short y\nproperty int "
-    "z\nend_header\n"
-    "255 -300 70000\n1 2 3\n";
+    ascii_ply("255 -300 70000\n1 2 3\n", "property uchar x\nproperty short y\nproperty int z\n");
 const std::string kNormals =
-    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float nz\nproperty float x\nproperty float y\n"
-    "property float z\nproperty float nx\nproperty float ny\nend_header\n1 0.1 5 6 0 0.5\n";
-const std::string kEmpty =
-    "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float "
-    "z\nend_header\n";
+    ascii_ply("1 0.1 5 6 0 0.5\n", "property float nz\n" + kXyz + "property float nx\nproperty float ny\n");
+const std::string kEmpty = ascii_ply("");
 
-struct Points {
-  std::vector<Eigen::Vector3d> positions, normals;
-};
-
-Points read_all(PointSource& source) {
-  Points all;
+Cloud read_all(PointSource& source) {
+  Cloud all;
   PointBatch batch;
   while (source.next(batch)) {
     REQUIRE(value(batch.first) == all.positions.size());
@@ -55,8 +47,8 @@ TEST_CASE("several files are one scan, in double, with ids over all rows", "[io]
   CHECK(scan.has_normals());
   CHECK_FALSE(scan.single_precision());
   for (int pass = 0; pass < 2; ++pass) {
-    const Points all = read_all(scan);
-    REQUIRE(all.positions.size() == 3);
+    const Cloud all = read_all(scan);
+    REQUIRE(all.size() == 3);
     CHECK(all.positions[0] == Eigen::Vector3d(255, -300, 70000));
     CHECK(all.positions[1] == Eigen::Vector3d(1, 2, 3));
     CHECK(all.positions[2] == Eigen::Vector3d(0.1f, 5, 6));
@@ -83,8 +75,8 @@ TEST_CASE("a scan without normals has none, and a text file does not say its siz
   FileScan scan({folder.write("a.ply", kEmpty), folder.write("b.xyz", "1 2 3\n")}, {});
   CHECK_FALSE(scan.has_normals());
   CHECK_FALSE(scan.expected_points());
-  const Points all = read_all(scan);
-  CHECK(all.positions.size() == 1);
+  const Cloud all = read_all(scan);
+  CHECK(all.size() == 1);
   CHECK(all.normals.empty());
 }
 

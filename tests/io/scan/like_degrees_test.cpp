@@ -3,6 +3,7 @@
 
 #include "io/scan/file_scan.hpp"
 #include "tests/io/las/las_file.hpp"
+#include "tests/support/drawn_files.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <cmath>
@@ -57,8 +58,7 @@ std::string text(const Positions& positions) {
 }
 
 std::string ply(const Positions& positions, const std::string& type) {
-  return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(positions.size()) + "\nproperty " + type +
-         " x\nproperty " + type + " y\nproperty " + type + " z\nend_header\n" + text(positions);
+  return ascii_ply(text(positions), type == "float" ? kXyz : kWideXyz);
 }
 
 std::string las(const Positions& positions) {

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/stations/place_list.hpp"
 
-#include "engine/run/error.hpp"
-#include "tests/support/scratch_folder.hpp"
+#include "tests/io/io_support.hpp"
 
 #include <catch2/catch.hpp>
 
 namespace lacuna::io {
-namespace {
-
-using Catch::Matchers::Contains;
-
-}  // namespace
 
 TEST_CASE("a list of places has x y z on each line, and maybe a name before them") {
   const test::ScratchFolder folder;
@@ -33,21 +27,22 @@ TEST_CASE("a list of places has x y z on each line, and maybe a name before them
 
 TEST_CASE("an error in a list of places names the file, the line and what is needed") {
   const test::ScratchFolder folder;
-  const auto fails = [&](const std::string& text, const std::string& reason) {
-    INFO(text);
-    CHECK_THROWS_WITH(read_places(folder.write("places.txt", text)),
-                      Contains("places.txt: " + reason) && Contains("x y z are needed, or a name and x y z"));
-  };
-  fails("", "names no place");
-  fails("# 1 2 3\nx y z\n", "names no place");
-  fails("1 2\n", "line 1: ");
-  fails("1 2 3\na 4 5 6 7\n", "line 2: ");
-  fails("1 2 3\n\n4 5 six\n", "line 3: 'six' is not a number");
-  fails("1 2 3\nx y z\n", "line 2: 'x' is not a number");
-  fails("door 1 inf 3\n", "line 1: 'inf' is not a number");
-  fails("1 2 3\n1 1e30 3\n", "line 2: '1e30' is not from -1e+12 to 1e+12");
-  fails("1 2 nan\n", "line 1: 'nan' is not a number");
-  CHECK_THROWS_WITH(read_places(folder / "none.txt"), Contains("none.txt: cannot be opened"));
+  const std::string needed = "x y z are needed, or a name and x y z";
+  test::check_reasons({{"", "places.txt: names no place"},
+                       {"", needed},
+                       {"# 1 2 3\nx y z\n", "names no place"},
+                       {"1 2\n", "line 1: "},
+                       {"1 2 3\na 4 5 6 7\n", "line 2: "},
+                       {"1 2 3\n\n4 5 six\n", "line 3: 'six' is not a number"},
+                       {"1 2 3\n\n4 5 six\n", needed},
+                       {"1 2 3\nx y z\n", "line 2: 'x' is not a number"},
+                       {"door 1 inf 3\n", "line 1: 'inf' is not a number"},
+                       {"1 2 3\n1 1e30 3\n", "line 2: '1e30' is not from -1e+12 to 1e+12"},
+                       {"1 2 nan\n", "line 1: 'nan' is not a number"}},
+                      [&](const std::string& text) {
+                        return test::error_of([&] { read_places(folder.write("places.txt", text)); });
+                      });
+  CHECK_THROWS_WITH(read_places(folder / "none.txt"), Catch::Contains("none.txt: cannot be opened"));
 }
 
 }  // namespace lacuna::io

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/stations/station.hpp"
 
-#include "engine/run/error.hpp"
 #include "io/stations/range_image.hpp"
-#include "tests/support/scratch_folder.hpp"
+#include "tests/io/io_support.hpp"
 
 #include <catch2/catch.hpp>
 
 namespace lacuna::io {
 namespace {
-
-using Catch::Matchers::Contains;
 
 const std::vector<std::filesystem::path> kFiles = {"survey/a.laz", "survey/b.laz", "old/a.laz"};
 
@@ -47,21 +44,19 @@ TEST_CASE("a file of stations has names, places and what each has measured") {
 
 TEST_CASE("an error in a file of stations names the line and what is needed") {
   const test::ScratchFolder folder;
-  const auto fails = [&](const std::string& text, const std::string& reason) {
-    CHECK_THROWS_WITH(read(folder, text), Contains(reason));
-  };
-  fails("", "names no station");
-  fails("a 1 2\n", "line 1");
-  fails("a 1 2 x\n", "is not a number");
-  fails("a 1 2 nan\n", "is not a number");
-  fails("a 1 2 1e200\n", "line 1: '1e200' is not from -1e+12 to 1e+12");
-  fails("1.5 1 2 3 0 0 0 1\n", "a trajectory needs a first line that names its columns, such as time x y z");
-  fails("a 1 2 3 c.laz\n", "c.laz is not the name of a scan");
-  fails("a 1 2 3 a.laz\n", "a.laz is the name of several scans");
-  fails("a 1 2 3 4\nb 5 6 7 4\n", "line 2: b has the points of an earlier station");
-  fails("a 1 2 3 4 5\n", "4 is not the name of a scan");
-  fails("a 1 2 3 b.laz 5 6\n", "are needed");
-  fails("a 1 2 3 b.laz a.laz\n", "is no number of a source");
+  test::check_reasons({{"", "names no station"},
+                       {"a 1 2\n", "line 1"},
+                       {"a 1 2 x\n", "is not a number"},
+                       {"a 1 2 nan\n", "is not a number"},
+                       {"a 1 2 1e200\n", "line 1: '1e200' is not from -1e+12 to 1e+12"},
+                       {"1.5 1 2 3 0 0 0 1\n", "a trajectory needs a first line that names its columns"},
+                       {"a 1 2 3 c.laz\n", "c.laz is not the name of a scan"},
+                       {"a 1 2 3 a.laz\n", "a.laz is the name of several scans"},
+                       {"a 1 2 3 4\nb 5 6 7 4\n", "line 2: b has the points of an earlier station"},
+                       {"a 1 2 3 4 5\n", "4 is not the name of a scan"},
+                       {"a 1 2 3 b.laz 5 6\n", "are needed"},
+                       {"a 1 2 3 b.laz a.laz\n", "is no number of a source"}},
+                      [&](const std::string& text) { return test::error_of([&] { read(folder, text); }); });
 }
 
 TEST_CASE("a range image keeps the nearest range of each direction, and fills gaps as far as wanted") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/stations/station_views.hpp"
 
+#include "tests/support/drawn_files.hpp"
 #include "tests/support/e57_encoder.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -50,16 +51,10 @@ TEST_CASE("scans of an E57 file with a pose are stations, with the rows of each"
 
 TEST_CASE("a PCD file with a viewpoint, a PLY file with a camera, and a scan with a pose, are stations") {
   const ScratchFolder folder;
-  const std::string pcd =
-      folder.write("a.pcd",
-                   "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\n"
-                   "VIEWPOINT 5 6 7 1 0 0 0\nPOINTS 2\nDATA ascii\n1 2 3\n4 5 6\n");
+  const std::string pcd = folder.write("a.pcd", test::ascii_pcd("1 2 3\n4 5 6\n", "5 6 7"));
   const std::string text = folder.write("b.xyz", "1 2 3\n");
-  const std::string ply = folder.write(
-      "c.ply",
-      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
-      "element camera 1\nproperty float view_px\nproperty float view_py\nproperty float view_pz\n"
-      "end_header\n1 2 3\n4 5 6\n7 8 9\n");
+  const std::string ply =
+      folder.write("c.ply", test::ply_header(test::vertices(2) + test::kCamera) + "1 2 3\n4 5 6\n7 8 9\n");
   const auto stations =
       stations_of({pcd, ScanInput(text, parse_pose("10 20 30 0 0 0 1")), ply,
                    ScanInput(folder.write("d.ply", test::read_file(ply)), parse_pose("10 20 30 0 0 0 1"))});
@@ -102,10 +97,7 @@ TEST_CASE("a station far off its points is not certain, however far it is") {
   }
   config.stations = folder.write("stations.txt", "near 4.5 4.5 30\n");
   CHECK(stations_of({scan}, config).at(0).certainty > 0);
-  const std::string pcd = folder.write("far.pcd",
-                                       "VERSION 0.7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\n"
-                                       "WIDTH 1\nHEIGHT 1\nVIEWPOINT 1e200 0 0 1 0 0 0\nPOINTS 1\n"
-                                       "DATA ascii\n1 2 3\n");
+  const std::string pcd = folder.write("far.pcd", test::ascii_pcd("1 2 3\n", "1e200 0 0"));
   CHECK(stations_of({pcd}).at(0).certainty == 0);
 }
 
@@ -113,11 +105,7 @@ TEST_CASE("a narrow view counts where the scan itself states its station", "[io]
   const ScratchFolder folder;
   std::string rows;
   for (int i = 0; i < 400; ++i) rows += std::to_string(i % 20) + " " + std::to_string(i / 20) + " 0\n";
-  const std::string pcd =
-      folder.write("range.pcd",
-                   "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 400\n"
-                   "HEIGHT 1\nVIEWPOINT 10 10 300 1 0 0 0\nPOINTS 400\nDATA ascii\n" +
-                       rows);
+  const std::string pcd = folder.write("range.pcd", test::ascii_pcd(rows, "10 10 300"));
   CHECK(stations_of({pcd}).at(0).certainty == 1);
   OutputConfig config;
   config.stations = folder.write("stations.txt", "listed 10 10 300\n");

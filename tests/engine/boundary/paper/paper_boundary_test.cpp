@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/paper/paper_boundary.hpp"
 
+#include "engine/boundary/paper/eligible_edges.hpp"
 #include "tests/support/reference.hpp"
 #include "tests/support/tiled_scan.hpp"
 
@@ -82,6 +83,16 @@ Config everything_eligible() {
   config.spanning.max_total_weight = 4;
   config.spanning.e = 12;
   return config;
+}
+
+TEST_CASE("an edge is eligible only strictly below both thresholds") {
+  const SpanningConfig config{.max_prob_weight = 1.0, .max_total_weight = 3.0};
+  const float step = 0x1p-24f;
+  CHECK(eligible_weight({1.0, 0.5f}, {1.0, 0.5f}, 1.0, config) < 0);
+  CHECK(eligible_weight({1.0, 0.5f + step}, {1.0, 0.5f}, 1.0, config) == 2.0 - 0x1p-24);
+  CHECK(eligible_weight({1.0, 1.0f}, {1.0, 1.0f}, 3.0, config) < 0);
+  CHECK(eligible_weight({1.0, 1.0f}, {1.0, 1.0f}, 2.9375, config) == 2.9375);
+  CHECK(eligible_weight({2.0, 1.0f}, {4.0, 1.0f}, 3.0, config) == 1.0);
 }
 
 TEST_CASE("a component larger than the memory of the global stage has the loops that it has in memory") {

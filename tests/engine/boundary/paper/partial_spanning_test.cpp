@@ -122,14 +122,5 @@ TEST_CASE("the loops found part by part are those of the whole, for random graph
   CHECK(passed_on < all);
 }
 
-TEST_CASE("a part without vertices passes nothing on") {
-  const test::ScratchFolder folder;
-  Scratch scratch(folder / "", 1 << 20);
-  const PartialSpanning part = span_partially({{}, 0}, {}, 14, scratch);
-  CHECK(part.complete.size() == 0);
-  CHECK(part.taken.empty());
-  CHECK(part.undecided.empty());
-}
-
 }  // namespace
 }  // namespace lacuna::paper

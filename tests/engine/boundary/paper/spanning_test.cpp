@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/paper/spanning.hpp"
 
-#include "engine/stitch/union_find.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/run_program.hpp"
 
@@ -78,28 +77,6 @@ Edges span_plainly(LocalIndex vertices, const Edges& edges, std::int64_t e) {
   return taken;
 }
 
-const Edges kSquare = {{0, 1}, {1, 2}, {2, 3}, {0, 3}};
-
-TEST_CASE("the fourth side of a square closes a loop of four edges: taken with e = 3, not with e = 4") {
-  CHECK(span(4, kSquare, 3) == Edges{{0, 1}, {0, 3}, {1, 2}, {2, 3}});
-  CHECK(span(4, kSquare, 4) == Edges{{0, 1}, {1, 2}, {2, 3}});
-}
-
-TEST_CASE("a ring of n is closed exactly when n > e") {
-  for (const LocalIndex n : {3u, 14u, 15u, 16u, 101u}) {
-    Edges ring;
-    for (LocalIndex v = 0; v + 1 < n; ++v) ring.emplace_back(v, v + 1);
-    ring.emplace_back(0, n - 1);
-    CHECK(span(n, ring, n - 1).size() == n);
-    CHECK(span(n, ring, n).size() == n - 1);
-  }
-}
-
-TEST_CASE("vertices without edges have empty rows, and no vertices give an empty graph") {
-  CHECK(span(5, {{1, 3}}, 14) == Edges{{1, 3}});
-  CHECK(span(0, {}, 14).empty());
-}
-
 TEST_CASE("random graphs are spanned as by the plain rule, in memory and in mapped files") {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     Random random(seed);
@@ -119,72 +96,6 @@ TEST_CASE("random graphs are spanned as by the plain rule, in memory and in mapp
     const Edges expected = span_plainly(vertices, edges, e);
     CHECK(span(vertices, edges, e) == expected);
     if (seed % 10 == 0) CHECK(span(vertices, edges, e, kMapped) == expected);
-  }
-}
-
-// The decisions on the edges that are known here, those of which one end is below `owned`.
-std::vector<EdgeDecision> judge(LocalIndex vertices, LocalIndex owned, const Edges& edges, std::int64_t e) {
-  const test::ScratchFolder folder;
-  Scratch scratch(folder / "", kInMemory);
-  std::vector<PointId> ids;
-  std::vector<LocalIndex> open;
-  for (LocalIndex v = 0; v < vertices; ++v) {
-    ids.push_back(PointId{v});
-    if (v >= owned) open.push_back(v);
-  }
-  Spanning spanning(ids, e, scratch, open);
-  std::vector<EdgeDecision> verdicts;
-  for (const auto& [a, b] : edges) {
-    if (std::min(a, b) < owned) verdicts.push_back(spanning.add({a, b}));
-  }
-  return verdicts;
-}
-
-TEST_CASE("verdicts on a part of a random graph are those on the whole, whatever the rest is") {
-  std::size_t decided = 0, all = 0;
-  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
-    Random random(seed);
-    const auto vertices = static_cast<LocalIndex>(random.whole(2, 120));
-    const auto owned = static_cast<LocalIndex>(random.whole(1, vertices));
-    const std::int64_t reach = random.whole(1, 6);
-    std::set<std::pair<LocalIndex, LocalIndex>> drawn;
-    for (int i = 0; i < 300; ++i) {
-      const std::int64_t a = random.whole(0, vertices - 1);
-      const std::int64_t b = std::min<std::int64_t>(a + random.whole(1, reach), vertices - 1);
-      if (a != b) drawn.insert({static_cast<LocalIndex>(a), static_cast<LocalIndex>(b)});
-    }
-    const Edges edges = shuffled({drawn.begin(), drawn.end()}, random);
-    const std::int64_t e = random.whole(1, 12);
-    INFO("seed " << seed << ", e = " << e);
-    const Edges taken = span_plainly(vertices, edges, e);
-    const std::vector<EdgeDecision> verdicts = judge(vertices, owned, edges, e);
-    auto verdict = verdicts.begin();
-    for (const auto& edge : edges) {
-      if (edge.first >= owned) continue;
-      const bool is_taken = std::binary_search(taken.begin(), taken.end(), edge);
-      if (*verdict != EdgeDecision::undecided) CHECK((*verdict == EdgeDecision::taken) == is_taken);
-      decided += *verdict++ != EdgeDecision::undecided;
-      ++all;
-    }
-  }
-  CHECK(decided > all / 2);
-  CHECK(decided < all);
-}
-
-TEST_CASE("the root of a set is its smallest element, whatever the order of unions") {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    Random random(seed);
-    std::vector<LocalIndex> links(100), smallest(100);
-    for (LocalIndex v = 0; v < 100; ++v) smallest[v] = v;
-    UnionFind sets(links);
-    for (int i = 0; i < 80; ++i) {
-      const auto a = static_cast<LocalIndex>(random.whole(0, 99)),
-                 b = static_cast<LocalIndex>(random.whole(0, 99));
-      const LocalIndex low = std::min(smallest[a], smallest[b]), high = std::max(smallest[a], smallest[b]);
-      CHECK(sets.unite(a, b) == (low != high));
-      std::replace(smallest.begin(), smallest.end(), high, low);
-    }
-    for (LocalIndex v = 0; v < 100; ++v) CHECK(sets.find(v) == smallest[v]);
   }
 }
 

@@ -5,7 +5,6 @@
 #include "tests/support/scratch_folder.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include <catch2/catch.hpp>
@@ -79,13 +78,6 @@ std::vector<std::vector<CurvePoint>> split(const std::vector<CurvePoint>& curve,
   return curves;
 }
 
-LoopEvidence evidence(const std::vector<CurvePoint>& curve, const TangentialConfig& config,
-                      Scale scale = Scale::kFine) {
-  const test::ScratchFolder folder;
-  Scratch scratch(folder.path(), 1 << 20);
-  return evidence_of(curve, scale, config, scratch);
-}
-
 std::vector<std::uint64_t> ids(const std::vector<CurvePoint>& curve) {
   std::vector<std::uint64_t> ids;
   for (const CurvePoint& p : curve) ids.push_back(value(p.id));
@@ -93,22 +85,6 @@ std::vector<std::uint64_t> ids(const std::vector<CurvePoint>& curve) {
 }
 
 }  // namespace
-
-TEST_CASE("wedges chain to one closed curve, through a point that it passes twice too") {
-  const std::vector<std::vector<CurvePoint>> one = follow(ring({3, 9, 4, 8, 1, 7}));
-  REQUIRE(one.size() == 1);
-  std::vector<std::uint64_t> found;
-  for (const CurvePoint& p : one[0]) {
-    found.push_back(row_of(p));
-    CHECK(p.evidence.length == double(row_of(p)));
-  }
-  std::rotate(found.begin(), std::find(found.begin(), found.end(), 3), found.end());
-  if (found[1] == 7) std::reverse(found.begin() + 1, found.end());
-  CHECK(found == std::vector<std::uint64_t>{3, 9, 4, 8, 1, 7});
-
-  REQUIRE(follow(ring({3, 9, 4, 8, 9, 7})).size() == 1);
-  CHECK(follow(ring({3, 9, 4, 8, 9, 7}))[0].size() == 6);
-}
 
 TEST_CASE("curves that touch in a point stay apart") {
   std::vector<Wedge> wedges = ring({3, 9, 4, 8, 1, 7});
@@ -151,16 +127,6 @@ TEST_CASE(
   std::sort(open.begin(), open.end());
   CHECK(open == std::vector<std::vector<Row>>{{Row{3}, Row{2}, Row{1}, Row{5}, Row{4}, Row{3}},
                                               {Row{41}, Row{40}, Row{42}}});
-}
-
-TEST_CASE("a curve starts at its smallest id and goes on to the smaller neighbour") {
-  for (const std::vector<std::uint64_t>& way :
-       {std::vector<std::uint64_t>{5, 2, 9, 7}, {7, 9, 2, 5}, {2, 5, 7, 9}, {9, 7, 5, 2}}) {
-    CHECK(ids(normalised(curve_of(way))) == std::vector<std::uint64_t>{2, 5, 7, 9});
-  }
-  const std::vector<CurvePoint> twice =
-      normalised(curve_of({2, 8, 4, 2, 6, 5}));  // passes the smallest id twice
-  CHECK(ids(twice) == std::vector<std::uint64_t>{2, 4, 8, 2, 5, 6});
 }
 
 TEST_CASE("a curve is split where it passes a point again, into curves that pass each point once") {
@@ -211,46 +177,6 @@ void check_random_curves(std::uint64_t seed, int rounds, int longest) {
 TEST_CASE("random curves are split into simple ones, in memory and in mapped files") {
   check_random_curves(11, 56, 200);
   check_random_curves(12, 1, 30'000);
-}
-
-TEST_CASE("the clearness of a curve is the mean one along it, with some length more that is not clear") {
-  const TangentialConfig config{.added_length = 5};
-  const std::vector<std::uint64_t> twenty(20, 1);
-  CHECK(evidence(curve_of(twenty, std::vector<float>(20, 1)), config).clearness == Approx(20. / 25));
-  CHECK(evidence(curve_of(twenty, std::vector<float>(20, 0.625)), config).clearness == Approx(0.5));
-  CHECK(evidence(curve_of(twenty), config).clearness == 0);
-  // Half of the points are clear, and three times as long as the others; circumradii are twice as large.
-  std::vector<CurvePoint> curve = curve_of(twenty);
-  for (std::size_t i = 0; i < 20; ++i) {
-    const bool is_clear = i % 2 == 0;
-    curve[i].evidence = {is_clear ? 3. : 1., 2, is_clear ? 3. : 5., is_clear ? 1.f : 0.f,
-                         is_clear ? 1.f : 0.5f};
-  }
-  const LoopEvidence half = evidence(curve, config, Scale::kCoarse);
-  CHECK(half.clearness == Approx(30. / (40 + 5 * 2)));
-  CHECK(half.surface == Approx(0.75));
-  CHECK(half.spacing == Approx(4 / 1.7));
-  CHECK(half.sampling_gap == Approx(2. / 4));
-  CHECK(half.is_coarse);
-  CHECK_FALSE(evidence(curve, config).is_coarse);
-}
-
-TEST_CASE("a curve of little clearness, or without a surface around it, is no hole") {
-  const auto may_be_hole = [](double clearness, double surface) {
-    return LoopEvidence{.clearness = clearness, .surface = surface}.may_be_hole();
-  };
-  CHECK(may_be_hole(0.5, 0.3));
-  CHECK_FALSE(may_be_hole(0.49, 1));
-  CHECK_FALSE(may_be_hole(1, 0.29));
-}
-
-TEST_CASE("a circumradius is clear in proportion to what it has beyond the sampling radius") {
-  const TangentialConfig config{.clear_radius = 2.5};
-  CHECK(clearness(3, 4, config) == 0);
-  CHECK(clearness(4, 4, config) == 0);
-  CHECK(clearness(7, 4, config) == 0.5);
-  CHECK(clearness(10, 4, config) == 1);
-  CHECK(clearness(1e300, 4, config) == 1);
 }
 
 TEST_CASE("wedges of both scales at the same points chain apart") {

@@ -15,13 +15,6 @@ namespace {
 constexpr TangentialConfig kConfig{
     .max_radius = 1.75, .hole_radius = 0.8125, .most_radius = 0.375, .coarse_bound = 3};
 
-Sampling sampling_among(std::vector<float> radii, double distance) {
-  std::vector<LinkVertex<LocalIndex>> link;
-  for (const float radius : radii) link.push_back({0, radius});
-  const FoundStar star(link.data(), 1, link.size(), distance);
-  return samplings_of({&star, 1}, kConfig)[0];
-}
-
 double median(std::vector<double> numbers) {
   std::sort(numbers.begin(), numbers.end());
   return numbers[numbers.size() / 2];
@@ -46,23 +39,6 @@ RadiusBound bound_by_hand(const std::vector<Sampling>& samplings, const PointAnd
 
 }  // namespace
 
-TEST_CASE("a sampling is the median circumradius of a star and how far the least is below") {
-  const Sampling even = sampling_among({0.5f, 0.25f, 0.8f, 0.75f}, 10);
-  CHECK(even.distance == 10);
-  CHECK(even.median_radius == 7.5);
-  CHECK(even.spread == 5);
-  CHECK(sampling_among({0.5f, 0.25f, 0.75f}, 2).median_radius == 1);
-  CHECK(sampling_among({}, 2).distance == 0);
-  CHECK(sampling_among(std::vector<float>(40, 0.5f), 2).median_radius == 1);
-}
-
-TEST_CASE("triangles that lie in a hole do not count") {
-  CHECK(sampling_among({0.5f, 0.25f, 0.82f, 0.75f, 8}, 2).median_radius == 1);  // of the three small ones
-  const Sampling none = sampling_among({2, 3, 4}, 2);
-  CHECK(none.distance == 2);
-  CHECK(none.median_radius == 0);
-}
-
 TEST_CASE("samplings of stars side by side are those of each alone") {
   Random random(3);
   std::size_t wrong = 0;
@@ -83,14 +59,6 @@ TEST_CASE("samplings of stars side by side are those of each alone") {
     }
   }
   CHECK(wrong == 0);
-}
-
-TEST_CASE("a triangle is of the finest scale whose bound it keeps to") {
-  const RadiusBound bound{.fine = 1.5f, .coarse = 3};
-  CHECK(bound.scale_of(1.5f) == Scale::kFine);
-  CHECK(bound.scale_of(2) == Scale::kCoarse);
-  CHECK(bound.scale_of(3) == Scale::kCoarse);
-  CHECK(bound.scale_of(3.5f) == Scale::kNone);
 }
 
 TEST_CASE("bounds are those by hand, bit for bit, whatever points share the batch") {

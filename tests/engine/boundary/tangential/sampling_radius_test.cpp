@@ -3,11 +3,8 @@
 #include "engine/boundary/tangential/sampling_radius.hpp"
 
 #include "tests/support/clouds.hpp"
-#include "tests/support/draws.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -23,44 +20,7 @@ StarRadii radii_among(const std::vector<float>& radii) {
   return smallest_radii(link, kConfig);
 }
 
-// In ascending order, without those that are left free.
-std::vector<float> sorted(const StarRadii& star) {
-  std::vector<float> radii(star.radii.begin(), star.radii.end());
-  std::erase(radii, std::numeric_limits<float>::infinity());
-  std::sort(radii.begin(), radii.end());
-  return radii;
-}
-
-// The circumradii 1, 2, ..., in stars of five.
-SamplingRadius counting_to(int last, double distance) {
-  SamplingRadius around;
-  for (int first = 1; first <= last; first += 5) {
-    std::vector<float> radii;
-    for (int i = first; i < first + 5 && i <= last; ++i) radii.push_back(static_cast<float>(i) / 256);
-    around.add(radii_among(radii), 256 * distance);
-  }
-  return around;
-}
-
 }  // namespace
-
-TEST_CASE("radii of a star are those that do not lie in a hole, the eight smallest if there are more") {
-  CHECK(sorted(radii_among({0.5f, 8, 0.25f, 0.9f, 0.75f})) == std::vector{0.25f, 0.5f, 0.75f});
-  CHECK(sorted(radii_among({})).empty());
-  CHECK(sorted(radii_among({0.7f, 0.6f, 0.5f, 0.1f, 0.2f, 0.3f, 0.4f, 0.72f, 0.05f, 9, 0.15f})) ==
-        std::vector{0.05f, 0.1f, 0.15f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f});
-}
-
-TEST_CASE(
-    "nine in ten circumradii within a bound are no larger than the sampling radius, to a 64th of the bound") {
-  // From 1 to 100, it is the one after the first 90, which is 91.
-  for (const double scale : {1., 1e-9, 1e9}) {
-    SamplingRadius around = counting_to(100, scale);
-    CHECK(around.within(128 * scale) / scale == Approx(92).epsilon(1e-12));            // steps of 2
-    CHECK(around.within(65 * scale) / scale == Approx(65. * 58 / 64).epsilon(1e-12));  // of 1 to 64: 58
-    CHECK(around.within(0.5 * scale) == 0.5 * scale);                                  // none: the bound
-  }
-}
 
 TEST_CASE("the sampling radius depends on the circumradii alone, not on their order or their stars") {
   Random random(4);

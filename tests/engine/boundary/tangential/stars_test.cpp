@@ -108,43 +108,7 @@ StarBatch batch_of(const Queries& queries) {
   return batch;
 }
 
-// A point with neighbours at these places of its tangent plane, all on the unit length.
-Link star_among(const std::vector<Eigen::Vector2d>& places) {
-  Neighbourhood drawn{{{0, 0, 0}, {0, 0, 0}, 1, 0}, {0, 0, 1}, {}};
-  for (const Eigen::Vector2d& q : places) drawn.around.push_back({{q.x(), q.y(), 0}, {0, 0, 0}, 1, 0});
-  return found_side_by_side(Queries({drawn}))[0];
-}
-
-std::vector<LocalIndex> names(const Link& star) {
-  std::vector<LocalIndex> names;
-  for (const auto& vertex : star) names.push_back(vertex.point);
-  return names;
-}
-
 }  // namespace
-
-TEST_CASE(
-    "the vertices of a star's link are the neighbours that a ball can rest on, counterclockwise from the "
-    "nearest") {
-  const Link star = star_among({{0, 1.2}, {-1.2, 0}, {0, -1.2}, {1, 0}, {2, 0.1}, {-2, -2}});
-  CHECK(names(star) == std::vector<LocalIndex>{3, 0, 1, 2});
-  // The circle through (0, 0), (-1.2, 0) and (0, 1.2).
-  CHECK(star[1].radius == Approx(0.6 * std::sqrt(2.0)));
-}
-
-TEST_CASE(
-    "where all neighbours are on one side, the star is closed by an edge with the largest circumradius") {
-  const Link star = star_among({{1, 0}, {0.1, 1}, {0.1, -1}});
-  CHECK(names(star).size() == 3);
-  CHECK(std::count_if(star.begin(), star.end(), [](const auto& v) { return v.radius == kLargestRadius; }) ==
-        1);
-}
-
-TEST_CASE("two neighbours, or neighbours in one line of sight, make no star") {
-  CHECK(star_among({}).empty());
-  CHECK(star_among({{1, 0}, {0, 1}}).empty());
-  CHECK(star_among({{1, 0}, {2, 0}, {-1, 0}, {3, 0}}).empty());
-}
 
 TEST_CASE("stars found side by side are those of the exact fallback, bit for bit") {
   Random random(21);

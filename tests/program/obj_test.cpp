@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// Loops and lids as OBJ, and lids as PLY and CSV: read back here, and compared with holes.json of the same
+// run.
+#include "bench/evaluation/mesh_reader.hpp"
+#include "tests/io/io_support.hpp"
+#include "tests/support/run_program.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::read_file;
+using test::Words;
+
+// Writes a sheet with four holes at coordinates as of UTM, with all digits of a double.
+std::string write_earth_sheet(const test::ScratchFolder& scratch) {
+  const std::string surface = (scratch / "surface.ply").string();
+  REQUIRE(test::run_bench({"synth", "surface", surface, "--points", "12000", "--holes", "4", "--hole-radius",
+                           "3", "6", "--order", "random"})
+              .exit_code == 0);
+  std::ostringstream text;
+  text.precision(17);
+  for (const auto& row : test::read_table(surface).rows)
+    text << row[0] + 500'000.1 << ' ' << row[1] + 5'400'000.1 << ' ' << row[2] << '\n';
+  return scratch.write("earth.txt", text.str());
+}
+
+// An object of OBJ, the comments before it, and what it has of the vertices of the file.
+struct Object {
+  std::string name;
+  std::map<std::string, double> comments;
+  std::vector<std::array<std::uint64_t, 2>> edges;  // count vertices from 0
+  std::vector<std::array<std::uint64_t, 3>> triangles;
+};
+
+struct Obj {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Object> objects;
+};
+
+Obj read_obj(const fs::path& file) {
+  Obj obj;
+  std::map<std::string, double> comments;
+  std::istringstream lines(read_file(file));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string key, name;
+    words >> key;
+    if (key == "#") {
+      double value = 0;
+      if (words >> name >> value) comments[name] = value;
+    } else if (key == "v") {
+      Eigen::Vector3d& vertex = obj.vertices.emplace_back();
+      words >> vertex.x() >> vertex.y() >> vertex.z();
+    } else if (key == "o") {
+      words >> name;
+      obj.objects.push_back({.name = name, .comments = std::exchange(comments, {})});
+    } else if (key == "l") {
+      // One edge a line: some programs read only the first edge of a longer one.
+      std::uint64_t a = 0, b = 0;
+      words >> a >> b;
+      CHECK_FALSE(words >> name);
+      obj.objects.back().edges.push_back({a - 1, b - 1});
+    } else if (key == "f") {
+      std::uint64_t a = 0, b = 0, c = 0;
+      words >> a >> b >> c;
+      obj.objects.back().triangles.push_back({a - 1, b - 1, c - 1});
+    }
+  }
+  return obj;
+}
+
+double area(const Obj& obj, const Object& object) {
+  double area = 0;
+  for (const auto& [a, b, c] : object.triangles) {
+    const Eigen::Vector3d& at = obj.vertices.at(a);
+    area += (obj.vertices.at(b) - at).cross(obj.vertices.at(c) - at).norm() / 2;
+  }
+  return area;
+}
+
+// The fields of each line but the first one, which is `head`.
+std::vector<Words> read_csv(const fs::path& file, const std::string& head) {
+  std::istringstream lines(read_file(file));
+  std::string line;
+  std::getline(lines, line);
+  CHECK(line == head);
+  std::vector<Words> rows;
+  while (std::getline(lines, line)) {
+    std::istringstream text(line + ",");
+    rows.emplace_back();
+    for (std::string field; std::getline(text, field, ',');) rows.back().push_back(field);
+  }
+  return rows;
+}
+
+std::vector<Eigen::Vector3d> coordinates(const json& loop) {
+  std::vector<Eigen::Vector3d> places;
+  for (const json& place : loop.at("coordinates")) places.emplace_back(place[0], place[1], place[2]);
+  return places;
+}
+
+}  // namespace
+
+TEST_CASE("OBJ has the loops and measures of holes.json, with all digits on Earth", "[results]") {
+  const test::ScratchFolder scratch;
+  const fs::path out = test::detect(write_earth_sheet(scratch), scratch / "out", {"--obj"});
+  const json loops = test::read_json(out / "holes.json").at("loops");
+  const Obj obj = read_obj(out / "loops.obj");
+  REQUIRE(loops.size() == 5);
+  REQUIRE(obj.objects.size() == 5);
+  std::uint64_t first = 0;
+  for (std::size_t i = 0; i < 5; ++i) {
+    const json& loop = loops[i];
+    const Object& object = obj.objects[i];
+    CHECK(object.name == loop.at("kind").get<std::string>() + "_" + std::to_string(i));
+    for (const auto& [name, value] : object.comments) CHECK(loop.at(name) == value);
+    for (const char* measure : {"points", "confidence", "emptiness", "first_scale", "last_scale", "perimeter",
+                                "area", "diameter", "planarity", "mean_probability"})
+      CHECK(object.comments.contains(measure));
+    CHECK(object.comments.contains("parent") == !loop.at("parent").is_null());
+    const std::vector<Eigen::Vector3d> places = coordinates(loop);
+    REQUIRE(object.edges.size() == places.size());
+    REQUIRE(places[0].y() > 5e6);
+    for (std::uint64_t k = 0; k < places.size(); ++k) {
+      CHECK(object.edges[k] == std::array{first + k, first + (k + 1) % places.size()});
+      CHECK(obj.vertices.at(first + k) == places[k]);
+    }
+    first += places.size();
+  }
+  CHECK(first == obj.vertices.size());
+}
+
+TEST_CASE("each hole has its lid in OBJ, PLY and CSV, with all digits on Earth, and outer curves have none",
+          "[results]") {
+  const test::ScratchFolder scratch;
+  const std::string scan = write_earth_sheet(scratch);
+  const fs::path out = test::detect(scan, scratch / "out", {"--lids"});
+  const json loops = test::read_json(out / "holes.json").at("loops");
+  const Obj obj = read_obj(out / "lids.obj");
+  const std::vector<Words> rows = read_csv(out / "lids.csv", "loop,triangles,lid_area,reason");
+  const test::Table ply = test::read_table(out / "lids.ply");
+  CHECK(ply.names == Words{"x", "y", "z", "scalar_loop"});
+
+  std::size_t at = 0, first = 0;
+  std::vector<std::array<std::uint64_t, 3>> triangles;
+  for (std::size_t id = 0; id < loops.size(); ++id) {
+    if (loops[id].at("kind") != "hole") continue;
+    REQUIRE(at < std::min(rows.size(), obj.objects.size()));
+    const Object& lid = obj.objects[at];
+    const Words& row = rows[at++];
+    CHECK(lid.name == "hole_" + std::to_string(id));
+    CHECK(row[0] == std::to_string(id));
+    CHECK(row[1] == std::to_string(lid.triangles.size()));
+    CHECK(std::stod(row[2]) == Approx(area(obj, lid)).epsilon(1e-6));
+    CHECK(std::stod(row[2]) == Approx(loops[id].at("area").get<double>()).epsilon(0.1));  // it is flat
+    CHECK(row[3].empty());
+    const std::vector<Eigen::Vector3d> places = coordinates(loops[id]);
+    for (std::size_t i = 0; i < places.size(); ++i) CHECK(obj.vertices.at(first + i) == places[i]);
+    first += (lid.triangles.size() + 2 + places.size()) / 2;  // by Euler's formula
+    for (const auto& triangle : lid.triangles) {
+      triangles.push_back(triangle);
+      for (const std::uint64_t corner : triangle) CHECK(ply.rows.at(corner)[3] == static_cast<double>(id));
+    }
+  }
+  CHECK(at == 4);
+  CHECK(at == rows.size());
+  CHECK(at == obj.objects.size());
+  CHECK(first == obj.vertices.size());
+  REQUIRE(ply.rows.size() == obj.vertices.size());
+  for (std::size_t i = 0; i < ply.rows.size(); ++i)
+    CHECK(Eigen::Map<const Eigen::Vector3d>(ply.rows[i].data()) == obj.vertices[i]);
+  CHECK(evaluation::read_triangles(out / "lids.ply") == triangles);
+  // meshio 5 reads no faces with more than their list.
+  CHECK_THAT(read_file(out / "lids.ply"),
+             Catch::Contains("property list uchar int vertex_indices\nend_header"));
+
+  // Relative to the offset that the header states, which the reader adds.
+  test::detect(scan, out, {"--lids", "--local-coordinates"});
+  CHECK_THAT(read_file(out / "lids.ply").substr(0, 200), Catch::Contains("\ncomment lacuna offset "));
+  const test::Table local = test::read_table(out / "lids.ply");
+  REQUIRE(local.rows.size() == obj.vertices.size());
+  for (std::size_t i = 0; i < local.rows.size(); ++i)
+    CHECK((Eigen::Map<const Eigen::Vector3d>(local.rows[i].data()) - obj.vertices[i]).norm() < 1e-4);
+}
+
+TEST_CASE("a scan without holes has empty lids and an empty OBJ", "[results]") {
+  const test::ScratchFolder scratch;
+  const std::string scan = scratch.write("few.xyz", "0 0 0\n1 0 0\n0 1 0\n");
+  const fs::path out = test::detect(scan, scratch / "out", {"--lids", "--obj"});
+  CHECK(read_obj(out / "lids.obj").objects.empty());
+  CHECK(read_obj(out / "loops.obj").objects.empty());
+  CHECK(evaluation::read_triangles(out / "lids.ply").empty());
+  CHECK(read_csv(out / "lids.csv", "loop,triangles,lid_area,reason").empty());
+}
+
+}  // namespace lacuna
