@@ -15,21 +15,10 @@ struct Vertex {
   friend bool operator==(const Vertex& a, const Vertex& b) { return a.row == b.row; }
 };
 
-// An edge of the boundary graph of the paper, as tiles pass it on.
+// An eligible edge of the paper.
 struct BoundaryEdge {
   double weight;
   Vertex a, b;
-  std::uint64_t is_taken;  // 1: it is in the spanning graph for certain; 0: not known
-};
-
-// An edge between numbered vertices.
-struct LocalEdge {
-  LocalIndex a, b;
-};
-
-struct WeightedEdge {
-  LocalIndex a, b;
-  double weight;
 };
 
 }  // namespace lacuna
