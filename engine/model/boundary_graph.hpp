@@ -15,10 +15,21 @@ struct Vertex {
   friend bool operator==(const Vertex& a, const Vertex& b) { return a.row == b.row; }
 };
 
-// An eligible edge of the paper.
+// An edge of the boundary graph of the paper, as tiles pass it on.
 struct BoundaryEdge {
   double weight;
   Vertex a, b;
+  std::uint64_t is_taken;  // 1: it is in the spanning graph for certain; 0: not known
+};
+
+// An edge between numbered vertices.
+struct LocalEdge {
+  LocalIndex a, b;
+};
+
+struct WeightedEdge {
+  LocalIndex a, b;
+  double weight;
 };
 
 }  // namespace lacuna

@@ -33,7 +33,7 @@ fs::path as_list(const std::string& file) {
 
 void check_list_refused(const std::string& lines, const std::string& part) {
   const test::ScratchFolder scratch;
-  CHECK_THROWS_WITH(expand_inputs({as_list(scratch.write("list.txt", lines))}), Contains(part));
+  CHECK_THROWS_WITH(expand_inputs({as_list(scratch.write("list.txt", lines))}, {}), Contains(part));
 }
 
 TEST_CASE("a folder stands for its scans by name, a list for the files in it, all else for itself") {

@@ -2,29 +2,12 @@
 #include "engine/boundary/paper/component_loops.hpp"
 
 #include "engine/boundary/paper/cycles.hpp"
-#include "engine/boundary/paper/loops.hpp"
-#include "engine/boundary/paper/spanning.hpp"
+#include "engine/boundary/paper/span_whole.hpp"
 #include "engine/store/row_numbers.hpp"
-#include "engine/store/sorted_runs.hpp"
 
-#include <algorithm>
-#include <tuple>
+#include <functional>
 
 namespace lacuna::paper {
-namespace {
-
-// An edge between numbered vertices, in the order in which the spanning graph takes edges.
-struct OrderedEdge {
-  double weight;
-  PointId low, high;  // ids of its ends
-  LocalIndex a, b;
-
-  friend bool operator<(const OrderedEdge& x, const OrderedEdge& y) {
-    return std::tie(x.weight, x.low, x.high) < std::tie(y.weight, y.low, y.high);
-  }
-};
-
-}  // namespace
 
 // Vertices are numbered by row: near in space, near in memory.
 void find_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_edge, std::uint64_t edge_count,
@@ -38,37 +21,26 @@ void find_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_ed
     });
   });
   if (rows.size() <= static_cast<std::uint64_t>(e)) return;
-
-  // Sort the edges.
   Scratch scratch(job.workspace, memory / 3);
   const std::span<PointId> ids = scratch.array<PointId>(rows.size());
-  SortedRuns<OrderedEdge> edges(job.workspace / "ordered-edges", memory / 6);
   for_each_edge([&](const BoundaryEdge& edge) {
     scratch.trim();
-    const LocalIndex a = rows.number(edge.a.row), b = rows.number(edge.b.row);
-    ids[a] = edge.a.id;
-    ids[b] = edge.b.id;
-    const auto [low, high] = std::minmax(edge.a.id, edge.b.id);
-    edges.add({edge.weight, low, high, a, b});
+    ids[rows.number(edge.a.row)] = edge.a.id;
+    ids[rows.number(edge.b.row)] = edge.b.id;
   });
-
-  // Span them. No loop needs the trees.
-  SpanningGraph graph;
+  const auto for_each_passed = [&](const std::function<void(const PassedEdge&)>& visit) {
+    for_each_edge([&](const BoundaryEdge& edge) {
+      visit({rows.number(edge.a.row), rows.number(edge.b.row), edge.weight, edge.is_taken != 0});
+    });
+  };
+  SpanningGraph cycles;
   {
     Scratch work(job.workspace, memory / 2);
-    Spanning spanning(ids, e, work);
-    edges.for_each([&](const OrderedEdge& edge) { spanning.add(edge.a, edge.b); });
-    graph = keep_cycles(spanning.finish(), scratch);
+    cycles = keep_cycles(span_whole(ids, for_each_passed, e, memory / 6, work), scratch);
   }
-
-  // Search them for loops.
   Scratch search(job.workspace, memory / 3 * 2);
-  std::vector<Vertex> loop;
-  find_loops(graph, search, [&](std::span<const LocalIndex> found) {
-    loop.clear();
-    for (const LocalIndex v : found) loop.push_back({graph.ids[v], rows.row(v)});
-    loops.add(loop);
-  });
+  find_loops_of(
+      cycles, [&](LocalIndex v) { return rows.row(v); }, search, loops);
 }
 
 }  // namespace lacuna::paper

@@ -2,8 +2,8 @@
 #include "engine/boundary/paper/cycles.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <span>
+#include <array>
+#include <vector>
 
 namespace lacuna::paper {
 namespace {
@@ -65,6 +65,51 @@ class Cycles {
   LocalIndex clock_ = 0;
 };
 
+// Returns the graph with two more vertices, last in number and in every list. They have an edge to each of
+// `open` and one to each other. There are two, since an open vertex may have many edges outside: no way out
+// is a bridge.
+SpanningGraph add_outside(const SpanningGraph& graph, std::span<const LocalIndex> open, Scratch& scratch) {
+  const std::size_t known = graph.size();
+  const std::array<LocalIndex, 2> outside{graph.size(), graph.size() + 1};
+  const auto ids = scratch.array<PointId>(known + 2);
+  const auto offsets = scratch.array<std::uint64_t>(known + 3);
+  const auto indices = scratch.array<LocalIndex>(graph.indices.size() + 4 * open.size() + 2);
+  std::copy(graph.ids.begin(), graph.ids.end(), ids.begin());
+  std::fill(ids.begin() + static_cast<std::ptrdiff_t>(known), ids.end(), PointId{UINT64_MAX});
+  auto to = indices.begin();
+  const auto end_row = [&](std::size_t v) {
+    offsets[v + 1] = static_cast<std::uint64_t>(to - indices.begin());
+  };
+  auto next_open = open.begin();
+  for (LocalIndex v = 0; v < known; ++v) {
+    to = std::copy(graph[v].begin(), graph[v].end(), to);
+    if (next_open != open.end() && *next_open == v) {
+      to = std::copy(outside.begin(), outside.end(), to);
+      ++next_open;
+    }
+    end_row(v);
+  }
+  for (const std::size_t i : {0, 1}) {
+    to = std::copy(open.begin(), open.end(), to);
+    *to++ = outside[1 - i];
+    end_row(known + i);
+  }
+  return {ids, offsets, indices};
+}
+
+void mark_reached(const SpanningGraph& graph, LocalIndex from, std::span<std::uint8_t> reached) {
+  std::vector<LocalIndex> stack{from};
+  reached[from] = 1;
+  while (!stack.empty()) {
+    const LocalIndex v = stack.back();
+    stack.pop_back();
+    for (const LocalIndex w : graph[v]) {
+      if (!reached[w]) stack.push_back(w);
+      reached[w] = 1;
+    }
+  }
+}
+
 }  // namespace
 
 SpanningGraph keep_cycles(const SpanningGraph& graph, Scratch& scratch) {
@@ -81,6 +126,22 @@ SpanningGraph keep_cycles(const SpanningGraph& graph, Scratch& scratch) {
     offsets[v + 1] = end;
   }
   return {graph.ids, offsets, indices.first(end)};
+}
+
+PartCycles split_cycles(const SpanningGraph& graph, std::span<const LocalIndex> open, Scratch& scratch) {
+  const SpanningGraph cycles = keep_cycles(add_outside(graph, open, scratch), scratch);
+  const auto reached = scratch.array<std::uint8_t>(cycles.size());
+  mark_reached(cycles, graph.size(), reached);
+  const auto offsets = scratch.array<std::uint64_t>(std::size_t{graph.size()} + 1);
+  const auto indices = scratch.array<LocalIndex>(cycles.indices.size());
+  std::uint64_t end = 0;
+  for (LocalIndex v = 0; v < graph.size(); ++v) {
+    if (!reached[v]) {
+      for (const LocalIndex w : cycles[v]) indices[end++] = w;
+    }
+    offsets[v + 1] = end;
+  }
+  return {{graph.ids, offsets, indices.first(end)}, reached.first(graph.size())};
 }
 
 }  // namespace lacuna::paper

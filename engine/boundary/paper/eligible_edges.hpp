@@ -23,11 +23,7 @@ struct Strength {
 // negative number if the edge is not eligible. Exact in double precision.
 double eligible_weight(const Strength& a, const Strength& b, double distance, const SpanningConfig& config);
 
-// An eligible edge between owned points.
-struct TileEdge {
-  LocalIndex a, b;
-  double weight;
-};
+using TileEdge = WeightedEdge;  // between owned points
 
 // An edge from an owned point to a foreign one whose Pi is not known yet.
 struct Crossing {

@@ -2,6 +2,7 @@
 #include "engine/boundary/paper/paper_boundary.hpp"
 
 #include "engine/boundary/paper/component_loops.hpp"
+#include "engine/boundary/paper/partial_spanning.hpp"
 #include "engine/store/row_runs.hpp"
 
 #include <algorithm>
@@ -49,10 +50,7 @@ class TileVertices {
     for (const EligibleCrossing& crossing : crossings) ids_[foreign(crossing)] = crossing.foreign.id;
   }
 
-  LocalIndex size() const { return static_cast<LocalIndex>(ids_.size()); }
-  LocalIndex first_foreign() const { return own_; }
-  // Two tiles have a crossing edge. The tile of the lower id passes it on. a: own.
-  bool passes_on(LocalIndex a, LocalIndex b) const { return b < own_ || ids_[a] < ids_[b]; }
+  PartVertices part() const { return {ids_, own_}; }
   LocalIndex own(LocalIndex point) const { return numbers_[point]; }
   LocalIndex foreign(const EligibleCrossing& crossing) const {
     const auto at = std::lower_bound(foreign_.begin(), foreign_.end(), crossing.foreign.row);
@@ -139,54 +137,37 @@ void PaperBoundary::decide_crossings(const TileOutputs& outputs, TileIndex t) {
   crossings_.append(t, here);
 }
 
-// Finds the loops of the components within the tile. The edges of other components go to the stitch.
-void PaperBoundary::stitch_tile(const TileOutputs& outputs, TileIndex t) {
-  const std::vector<TileEdge> inside = outputs.read(kInside, t);
+// Finds the loops that do not depend on anything outside of the tile. Edges that may matter elsewhere are
+// passed on.
+void PaperBoundary::span_tile(const TileOutputs& outputs, TileIndex t) {
+  const Tile& tile = tiling_.tiles[t];
+  std::vector<WeightedEdge> edges = outputs.read(kInside, t);
   const std::vector<EligibleCrossing> crossings = crossings_.read(t);
   crossings_.drop(t);
-  if (inside.empty() && crossings.empty()) return;
-  const TileVertices vertices(tiling_.tiles[t], outputs.read(kVertices, t), crossings);
+  if (edges.empty() && crossings.empty()) return;
+  const TileVertices vertices(tile, outputs.read(kVertices, t), crossings);
+  for (WeightedEdge& edge : edges) edge = {vertices.own(edge.a), vertices.own(edge.b), edge.weight};
+  for (const EligibleCrossing& crossing : crossings)
+    edges.push_back({vertices.own(crossing.owned), vertices.foreign(crossing), crossing.weight});
+  std::atomic_ref(edges_) += static_cast<std::uint64_t>(std::count_if(
+      edges.begin(), edges.end(), [&](const WeightedEdge& edge) { return vertices.part().reports(edge); }));
 
-  std::vector<LocalIndex> links(vertices.size());
-  UnionFind connected(links);
-  GraphPart<BoundaryEdge> part{.vertices = vertices.size(), .links = links};
-  const auto add = [&](LocalIndex a, LocalIndex b, double weight) {
-    connected.unite(a, b);
-    if (!vertices.passes_on(a, b)) return;
-    part.records.push_back({weight, vertices[a], vertices[b]});
-    part.vertex_of.push_back(a);
-  };
-  for (const TileEdge& edge : inside) add(vertices.own(edge.a), vertices.own(edge.b), edge.weight);
-  for (const EligibleCrossing& c : crossings) {
-    add(vertices.own(c.owned), vertices.foreign(c), c.weight);
+  Scratch scratch(job_.workspace, job_.memory.limit);
+  const PartialSpanning spanned = span_partially(vertices.part(), std::move(edges), minimum_loop_, scratch);
+  find_loops_of(
+      spanned.complete, [&](LocalIndex v) { return vertices[v].row; }, scratch, loops_);
+  GraphPart<BoundaryEdge> part{.vertices = vertices.part().size(), .links = spanned.links};
+  for (const EligibleCrossing& c : crossings)
     part.crossings.push_back({vertices.own(c.owned), c.own.row, c.foreign.row});
-  }
-  std::atomic_ref(edges_) += part.records.size();
-
-  // Take the edges of components that do not leave the tile.
-  std::vector<std::uint8_t> leaves(vertices.size());  // by the root of a component
-  for (LocalIndex v = vertices.first_foreign(); v < vertices.size(); ++v) leaves[connected.find(v)] = 1;
-  std::vector<BoundaryEdge> whole;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < part.records.size(); ++i) {
-    if (leaves[connected.find(part.vertex_of[i])] == 0) {
-      whole.push_back(part.records[i]);
-    } else {
-      part.records[kept] = part.records[i];
-      part.vertex_of[kept++] = part.vertex_of[i];
+  const auto pass_on = [&](std::span<const WeightedEdge> some, std::uint64_t is_taken) {
+    for (const WeightedEdge& edge : some) {
+      part.records.push_back({edge.weight, vertices[edge.a], vertices[edge.b], is_taken});
+      part.vertex_of.push_back(edge.a);
     }
-  }
-  part.records.resize(kept);
-  part.vertex_of.resize(kept);
-  find_loops_of(whole);
+  };
+  pass_on(spanned.taken, 1);
+  pass_on(spanned.undecided, 0);
   stitch_->add(t, part);
-}
-
-// Finds the loops of components in memory.
-void PaperBoundary::find_loops_of(std::span<const BoundaryEdge> edges) {
-  constexpr std::uint64_t kAsMuchAsItTakes = UINT64_MAX;
-  const auto for_each_edge = [&](const auto& visit) { std::for_each(edges.begin(), edges.end(), visit); };
-  find_component_loops(for_each_edge, edges.size(), minimum_loop_, kAsMuchAsItTakes, job_, loops_);
 }
 
 void PaperBoundary::stitch(const TileOutputs& outputs, const Totals& totals) {
@@ -198,16 +179,22 @@ void PaperBoundary::stitch(const TileOutputs& outputs, const Totals& totals) {
                outputs.count(kVertices, t) * kBytesPerVertex + tiling_.tiles[t].points * sizeof(LocalIndex);
   }
   job_.for_each_within(job_.memory.work, needs,
-                       [&](std::size_t t) { stitch_tile(outputs, static_cast<TileIndex>(t)); });
+                       [&](std::size_t t) { span_tile(outputs, static_cast<TileIndex>(t)); });
 }
 
 FoundLoops PaperBoundary::find_loops(const TileOutputs& outputs) {
-  stitch_->for_each_component([&](std::span<const BoundaryEdge> edges) { find_loops_of(edges); },
-                              [&](const auto& for_each_edge, std::uint64_t count) {
-                                const MemoryLedger::Lease lease = job_.ledger.take(job_.memory.work / 4 * 3);
-                                find_component_loops(for_each_edge, count, minimum_loop_, lease.bytes(), job_,
-                                                     loops_);
-                              });
+  stitch_->for_each_component(
+      [&](std::span<const BoundaryEdge> edges) {
+        constexpr std::uint64_t kAsMuchAsItTakes = UINT64_MAX;
+        const auto for_each_edge = [&](const auto& visit) {
+          std::for_each(edges.begin(), edges.end(), visit);
+        };
+        find_component_loops(for_each_edge, edges.size(), minimum_loop_, kAsMuchAsItTakes, job_, loops_);
+      },
+      [&](const auto& for_each_edge, std::uint64_t count) {
+        const MemoryLedger::Lease lease = job_.ledger.take(job_.memory.work / 4 * 3);
+        find_component_loops(for_each_edge, count, minimum_loop_, lease.bytes(), job_, loops_);
+      });
   return {.loops = loops_.with_points(outputs, tiling_, job_),
           .edges = edges_,
           .components = stitch_->components(),

@@ -29,9 +29,9 @@ struct EligibleCrossing {
   double weight;
 };
 
-// Each tile spans the components that lie within it, and finds their loops. The edges of the other components
-// are stitched, and spanned component by component. A component larger than memory is sorted on disk and
-// spanned in mapped arrays.
+// Each tile decides what it can: most edges, and the loops that lead to no other tile. It passes on the other
+// edges. They are stitched by component, spanned again and searched. A component larger than memory is sorted
+// on disk and spanned in mapped arrays.
 class PaperBoundary final : public BoundaryMethod {
  public:
   PaperBoundary(const Tiling& tiling, Job& job);
@@ -47,8 +47,7 @@ class PaperBoundary final : public BoundaryMethod {
 
  private:
   void decide_crossings(const TileOutputs& outputs, TileIndex tile);
-  void stitch_tile(const TileOutputs& outputs, TileIndex tile);
-  void find_loops_of(std::span<const BoundaryEdge> edges);
+  void span_tile(const TileOutputs& outputs, TileIndex tile);
 
   const Tiling& tiling_;
   Job& job_;

@@ -32,7 +32,7 @@ Edges span(LocalIndex vertices, const Edges& edges, std::int64_t e, std::uint64_
   std::vector<PointId> ids;
   for (LocalIndex v = 0; v < vertices; ++v) ids.push_back(PointId{v});
   Spanning spanning(ids, e, scratch);
-  for (const auto& [a, b] : edges) spanning.add(a, b);
+  for (const auto& [a, b] : edges) spanning.add({a, b});
   const SpanningGraph graph = spanning.finish();
   REQUIRE(graph.size() == vertices);
   Edges found;
