@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who puts out what of the evaluated tiles of a level.
+// The consumers of evaluated tiles: each adds its records to the output of the tile.
 #pragma once
 
 #include "engine/boundary/boundary_method.hpp"

@@ -27,7 +27,7 @@ class BoundaryMethod {
  public:
   virtual ~BoundaryMethod() = default;
 
-  // Puts out the boundary edges of a tile, as far as the tile alone can find them. From any thread.
+  // Emits the boundary edges of a tile, as far as the tile alone can find them. From any thread.
   virtual void emit(const EvaluatedTile& tile, TileOutput& output) const = 0;
   // Completes the boundary edges with the data that tiles need of each other.
   virtual void complete_edges(const TileOutputs& outputs) = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points of cells that hold more points than a tile may, and of cells without end. They are far denser, or
+// Points of cells that hold more points than a tile may, and of unbounded cells. They are far denser, or
 // far farther away, than the survey's cells allow.
 #pragma once
 

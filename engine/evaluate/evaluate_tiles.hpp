@@ -13,7 +13,7 @@
 
 namespace lacuna {
 
-// Evaluates `tiles`, and adds what their consumers put out to `outputs`. Consumes the halo.
+// Evaluates `tiles`, and adds what their consumers emit to `outputs`. Consumes the halo.
 void evaluate_tiles(const Level& level, std::span<const TileIndex> tiles, AppendLists<HaloEdge> halo,
                     std::span<const TileConsumer> consumers, TileOutputs& outputs, Job& job);
 

@@ -20,8 +20,8 @@ struct EvaluatedTile {
   const Tile& tile;
   const TilePoints& points;
   const Neighbourhoods& neighbourhoods;     // of owned points
-  std::span<const Evaluation> evaluations;  // likewise
-  std::span<const double> criteria;  // likewise, side by side in the order of the table; empty: not wanted
+  std::span<const Evaluation> evaluations;  // of owned points
+  std::span<const double> criteria;         // of owned points, in the order of the table; empty: not wanted
   std::span<const LocalIndex> candidates;   // owned points with Pi above the threshold, ascending
   std::span<const std::uint8_t> is_border;  // of owned points: has foreign neighbours
 

@@ -64,7 +64,7 @@ void CellGrid::cells_of(std::span<const Eigen::Vector3d> positions, std::span<Ce
              cells.front().data());
 }
 
-bool CellGrid::is_endless(const CellCoord& cell) const {
+bool CellGrid::is_unbounded(const CellCoord& cell) const {
   const std::int32_t last = kLast >> shift;
   return std::any_of(cell.begin(), cell.end(), [&](std::int32_t c) { return c == -last || c == last; });
 }

@@ -42,7 +42,7 @@ struct CellGrid {
   // Finds the cells of many points, several at a time; some cell where a coordinate is not a number.
   void cells_of(std::span<const Eigen::Vector3d> positions, std::span<CellCoord> cells) const;
   // Whether the cell is the last along an axis.
-  bool is_endless(const CellCoord& cell) const;
+  bool is_unbounded(const CellCoord& cell) const;
   // Smallest box that holds all points of the cells from `low` to `high`.
   Eigen::AlignedBox3d box(const CellCoord& low, const CellCoord& high) const;
 };

@@ -90,7 +90,7 @@ inline constexpr std::size_t kMostCriteria = 8;
 // was thinned out has the result of its representative.
 struct PointResult {
   float probability;                          // from 0 to 1; NaN for a dropped point
-  std::array<float, kMostCriteria> criteria;  // likewise, as many as there are, in the order of the table
+  std::array<float, kMostCriteria> criteria;  // [0, 1]; as many as there are, in the order of the table
   // The point is on a loop, or it is a candidate that the method adds. The method `paper` adds coherent
   // candidates; `tangential` adds candidates between two neighbours on a loop.
   std::uint8_t boundary = 0;

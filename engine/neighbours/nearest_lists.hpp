@@ -22,7 +22,7 @@ struct NearestLists {
   std::uint16_t* mutual;  // by line: bit i, its i-th neighbour has the point among its own
 };
 
-// Sets `mutual` among points [first, last) and the points before them, whose `mutual` has been set likewise.
+// Sets `mutual` among points [first, last) and the points before them. Among those points `mutual` is set.
 // The lists of points after them need not exist yet.
 void find_mutual(const NearestLists& lists, std::uint32_t first, std::uint32_t last);
 

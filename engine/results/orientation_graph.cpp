@@ -58,7 +58,7 @@ class SignedUnionFind {
 
 using EdgeSort = SortedRuns<OrientationEdge>;
 
-// The data that a tile puts out.
+// The data that a tile emits.
 constexpr RecordStream<PlainNormal> kNormals{"normals"};
 constexpr RecordStream<OrientationEdge> kForest{"orientation"};
 constexpr RecordStream<OrientationCrossing> kCrossings{"orientation crossings"};

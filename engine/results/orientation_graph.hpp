@@ -17,7 +17,7 @@ struct OrientationCrossing {
   PointId foreign_id;
 };
 
-// An edge that is the heaviest on a cycle inside one tile is in no minimum spanning tree. So a tile puts out
+// An edge that is the heaviest on a cycle inside one tile is in no minimum spanning tree. So a tile emits
 // only its own spanning forest of its inner edges, with the normals and the edges between tiles.
 void emit_orientation(const EvaluatedTile& tile, TileOutput& output);
 

@@ -28,7 +28,7 @@ struct ResultHead {
 // Ids per block of results.
 inline constexpr std::uint64_t kResultBlock = 1 << 17;
 
-// Puts out the results of all points of a tile.
+// Emits the results of all points of a tile.
 void emit_point_results(const EvaluatedTile& tile, TileOutput& output);
 
 // The results by block of ids. Duplicates have the results of the point that they copy.

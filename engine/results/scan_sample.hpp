@@ -24,7 +24,7 @@ class ScanSample {
  public:
   explicit ScanSample(std::uint64_t most_points) : most_points_(most_points) {}
 
-  // Puts out the points of a tile that may be in the sample. Those behind a sample of the tiles so far cannot
+  // Emits the points of a tile that may be in the sample. Those behind a sample of the tiles so far cannot
   // be. From any thread.
   void emit(const EvaluatedTile& tile, TileOutput& output);
   // Returns the sample in ascending id, once all tiles are evaluated.

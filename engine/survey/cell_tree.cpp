@@ -120,7 +120,7 @@ std::uint64_t CellTree::bytes() const {
          tops * (sizeof(Top) + kRootEntryBytes);
 }
 
-std::uint64_t CellTree::cells_in_company() const {
+std::uint64_t CellTree::cells_with_neighbours() const {
   std::uint64_t alone = 0;
   for (auto leaf = nodes_->tree.cbeginLeaf(); leaf; ++leaf) alone += leaf->onVoxelCount() == 1;
   return cells_ - alone;

@@ -38,7 +38,7 @@ class CellTree {
   std::uint64_t leaves() const { return leaves_; }
   std::uint64_t bytes() const;  // of all nodes
   // Returns the number of cells that share their leaf with others. Cells of outliers are alone in their leaf.
-  std::uint64_t cells_in_company() const;
+  std::uint64_t cells_with_neighbours() const;
 
   // Returns every cell, with its count, in an order that depends on the cells alone. A cell is far where its
   // region of 128^3 cells holds fewer than `few` points.

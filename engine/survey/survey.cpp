@@ -73,7 +73,7 @@ void for_each_part(std::span<const CellRun> runs, Visit&& visit) {
 
 // Returns whether most cells, or leaves, did not merge when the size doubled. A surface keeps a quarter of
 // them, a line keeps half. Below `kEnough` cells nothing follows.
-bool lie_apart(std::uint64_t before, std::uint64_t after) {
+bool are_sparse(std::uint64_t before, std::uint64_t after) {
   constexpr std::uint64_t kEnough = 64;
   return before >= kEnough && 4 * after > 3 * before;
 }
@@ -166,24 +166,24 @@ void Survey::choose_cell_size(const PointBatch& batch) {
   };
   while (!count() && doublings < CellGrid::kMaxShift) ++doublings;
   const double most = 2 * points / kPointsPerCell;
-  for (double cells = std::ldexp(static_cast<double>(sample.cells_in_company()), 2 * doublings); cells > most;
-       cells /= 4)
+  for (double cells = std::ldexp(static_cast<double>(sample.cells_with_neighbours()), 2 * doublings);
+       cells > most; cells /= 4)
     ++finest;
   scan_.grid = CellGrid::around(place.middle, finest);
   sized_ = true;
 }
 
-void Survey::take(CellTree merged) {
+void Survey::double_cell_size(CellTree merged) {
   counts_ = std::move(merged);
   ++scan_.grid.shift;
 }
 
 // Merges cells of the tree, unless most of the things that `count(tree)` counts would not merge.
 template <class Count>
-bool Survey::merge_unless_apart(Count&& count) {
+bool Survey::merge_if_dense(Count&& count) {
   CellTree merged = counts_.merged();
-  if (lie_apart(count(counts_), count(merged))) return false;
-  take(std::move(merged));
+  if (are_sparse(count(counts_), count(merged))) return false;
+  double_cell_size(std::move(merged));
   return true;
 }
 
@@ -209,10 +209,10 @@ void Survey::add(const CellCounts& counts) {
 void Survey::add_runs(std::span<const CellRun> all, int shift) {
   for_each_part(all, [&](std::span<const CellRun> runs) {
     counts_.add(runs, scan_.grid.shift - shift);
-    while (needs_too_much() && can_merge()) take(counts_.merged());
+    while (needs_too_much() && can_merge()) double_cell_size(counts_.merged());
     while (is_too_fine() && can_merge()) {
       // It counts leaves: in random order cells have few points at first, and hardly merge.
-      if (merge_unless_apart([](const CellTree& counts) { return counts.leaves(); })) continue;
+      if (merge_if_dense([](const CellTree& counts) { return counts.leaves(); })) continue;
       apart_ = counts_.leaves();
       break;
     }
@@ -251,7 +251,7 @@ void Survey::add(const SurveyedScan& counts) {
     scan_.grid = counts.grid;
     sized_ = true;
   }
-  while (scan_.grid.shift < counts.grid.shift) take(counts_.merged());
+  while (scan_.grid.shift < counts.grid.shift) double_cell_size(counts_.merged());
   std::vector<CellRun> runs;
   runs.reserve(counts.cells.size());
   for (const CountedCell& cell : counts.cells)
@@ -262,13 +262,13 @@ void Survey::add(const SurveyedScan& counts) {
 SurveyedScan Survey::finish() {
   const std::uint64_t finite_points = scan_.points - scan_.dropped;
   while (finite_points < kPointsPerCell * counts_.cells() && counts_.cells() > 1 && can_merge() &&
-         merge_unless_apart([](const CellTree& counts) { return counts.cells(); })) {
+         merge_if_dense([](const CellTree& counts) { return counts.cells(); })) {
   }
   const std::uint64_t few = few_points(finite_points);
   while (counts_.standard_bytes(few) + counts_.cells() * kBytesPerCell > memory_ && can_merge())
-    take(counts_.merged());
+    double_cell_size(counts_.merged());
   scan_.cells = counts_.counted_cells(few);
-  for (CountedCell& cell : scan_.cells) cell.is_far |= scan_.grid.is_endless(cell.coord);
+  for (CountedCell& cell : scan_.cells) cell.is_far |= scan_.grid.is_unbounded(cell.coord);
   return std::move(scan_);
 }
 

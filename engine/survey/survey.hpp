@@ -81,9 +81,9 @@ class Survey {
   bool needs_too_much() const;
   bool is_too_fine() const;
   bool can_merge() const { return scan_.grid.shift < CellGrid::kMaxShift; }
-  void take(CellTree merged);  // in cells of twice the size
+  void double_cell_size(CellTree merged);  // in cells of twice the size
   template <class Count>
-  bool merge_unless_apart(Count&& count);
+  bool merge_if_dense(Count&& count);
 
   std::uint64_t memory_;
   bool is_expected_;  // whether the number of points is known

@@ -35,8 +35,8 @@ struct Scene {
   struct Points {
     std::vector<Eigen::Vector3f> positions;
     std::vector<float> probabilities;      // one for each position, from 0 to 1
-    std::vector<Eigen::Vector3f> normals;  // likewise, unit, unoriented; 0 where undefined
-    std::vector<Colour> colours;           // likewise; empty where the scan has none
+    std::vector<Eigen::Vector3f> normals;  // of the same points; unit, unoriented; 0 where undefined
+    std::vector<Colour> colours;           // of the same points; empty where the scan has none
     float spacing = 0;                     // typical distance of neighbours
   } points;
 

@@ -69,6 +69,7 @@ void send_triangles(Row point, const Star<LocalIndex>& star, std::span<const Row
 
 void sample_border(StarExchange& exchange, TileIndex t, const TangentialConfig& config) {
   const Belt belt(exchange.outputs, t);
+  // The tile left out the stars of its border points, since their neighbours' sites are in other tiles.
   std::vector<StarQuery> queries;
   std::vector<Row> rows;
   for (std::size_t i = 0; i < belt.points().size(); ++i) {
@@ -76,6 +77,7 @@ void sample_border(StarExchange& exchange, TileIndex t, const TangentialConfig& 
     queries.push_back(belt.queries()[i]);
     rows.push_back(belt.rows()[queries.back().point]);
   }
+  // All tiles have published their sites: find the stars, and replace the samples of their points.
   const std::vector<Row> places = exchange.places_of(rows);
   const std::vector<Site> sites = read_rows(exchange.sites, exchange.places_of(belt.rows()));
   std::vector<StarSample> samples = read_rows(exchange.samples, places);
@@ -96,6 +98,7 @@ void measure_belt(StarExchange& exchange, TileIndex t, const TangentialConfig& c
   const std::vector<Row> places = exchange.places_of(belt.rows());
   const std::vector<Site> sites = read_rows(exchange.sites, places);
   const std::vector<StarSample> samples = read_rows(exchange.samples, places);
+  // The bounds need the samplings of a point and its neighbours, which are complete after `sample_border`.
   std::vector<Sampling> samplings;
   samplings.reserve(samples.size());
   for (const StarSample& sample : samples) samplings.push_back(sample.sampling);
@@ -105,6 +108,8 @@ void measure_belt(StarExchange& exchange, TileIndex t, const TangentialConfig& c
   RadiusBounder bounder(samplings, config);
   SamplingRadius sampling_radius;
   std::vector<LinkVertex<LocalIndex>> link;
+  // Find the stars a batch at a time, and the bound of each. Each star becomes an open star of this tile. Its
+  // triangles go to the tiles of its foreign link vertices.
   StarFinder(sites).for_each_batch(
       queries.size(), [&](std::size_t i) { return queries[i]; },
       [&](std::size_t first, std::span<const FoundStar> stars) {
@@ -118,6 +123,7 @@ void measure_belt(StarExchange& exchange, TileIndex t, const TangentialConfig& c
           for (std::size_t v = 0; v < stars[i].size(); ++v)
             link.push_back({query.neighbours[stars[i][v].point], stars[i][v].radius});
           const Star<LocalIndex> star{link, bound};
+          // The sampling radius and the surface share are of the point and its neighbours.
           sampling_radius.clear();
           const auto add_radii = [&](LocalIndex q) {
             sampling_radius.add(samples[q].radii, samplings[q].distance);
@@ -128,6 +134,7 @@ void measure_belt(StarExchange& exchange, TileIndex t, const TangentialConfig& c
           for (const LocalIndex q : query.neighbours) surface += samples[q].surface;
           open.add(point.point, point.owned, bound, samplings[query.point].distance, sampling_radius,
                    surface / static_cast<float>(query.neighbours.size()));
+          // A triangle within the bound is undecided until the stars of its other vertices are known.
           for (std::size_t v = 0; v < star.size(); ++v) {
             const Scale scale = star.scale_of(v);
             const LinkEnd end{belt.rows()[link[v].point], distance(sites[query.point], sites[link[v].point])};

@@ -83,7 +83,7 @@ std::vector<std::uint8_t> with_neighbours(const EvaluatedTile& tile, Wanted&& is
   return marks;
 }
 
-// Puts out wedges where all triangles are decided; else the star stays open.
+// Emits wedges where all triangles are decided; else the star stays open.
 void emit_wedges(const EvaluatedTile& tile, const TileStars& found, TileRadii& radii,
                  const TangentialConfig& config, TileOutput& output) {
   const std::vector<Row>& rows = tile.points.rows;
@@ -121,7 +121,7 @@ void emit_wedges(const EvaluatedTile& tile, const TileStars& found, TileRadii& r
   output.add(kWedges, std::move(wedges));
 }
 
-// Puts out the belt, and the sites and samplings that its stars need, here and in other tiles.
+// Emits the belt, and the sites and samplings that its stars need, here and in other tiles.
 void emit_belt(const EvaluatedTile& tile, const TileStars& found, TileRadii& radii, TileOutput& output) {
   const auto is_around = with_neighbours(tile, [&](LocalIndex p) { return is_in_belt(found.states[p]); });
   std::vector<LocalIndex> around;

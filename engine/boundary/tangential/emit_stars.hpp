@@ -8,7 +8,7 @@
 
 namespace lacuna::tangential {
 
-// Finds the stars of the tile's active points, and of points that other tiles may make active. Puts out
+// Finds the stars of the tile's active points, and of points that other tiles may make active. Emits
 // certain wedges, open stars and the belt.
 void emit_stars(const EvaluatedTile& tile, const TangentialConfig& config, TileOutput& output);
 

@@ -10,6 +10,7 @@
 namespace lacuna::tangential {
 namespace {
 
+// Pads the lanes that have fewer numbers than others: it sorts behind all of them.
 constexpr Batch<double> kBeyondAll = [] {
   Batch<double> batch{};
   for (double& number : batch.at) number = std::numeric_limits<double>::infinity();
@@ -22,6 +23,7 @@ using Counts = std::array<std::size_t, kBatchSize>;
 
 std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars,
                                               const TangentialConfig& config) {
+  // One lane for each star, one element for each of its triangles. Few stars have more than 16.
   std::size_t most = 0;
   for (const FoundStar& star : stars) most = std::max(most, star.size());
   std::vector<Batch<double>> many;
@@ -29,6 +31,7 @@ std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars,
   if (most > few.size()) many.resize(most);
   const std::span<Batch<double>> radii(many.empty() ? few.data() : many.data(), most);
   std::fill(radii.begin(), radii.end(), kBeyondAll);
+  // Take the circumradii that are not of holes.
   Counts counts{};
   for (std::size_t i = 0; i < stars.size(); ++i) {
     for (std::size_t vertex = 0; vertex < stars[i].size(); ++vertex) {
@@ -38,6 +41,7 @@ std::array<Sampling, kBatchSize> samplings_of(std::span<const FoundStar> stars,
     }
   }
   sort_batches(radii.data(), *std::max_element(counts.begin(), counts.end()));
+  // Radii are in mean distances, samplings are lengths.
   std::array<Sampling, kBatchSize> samplings{};
   for (std::size_t i = 0; i < stars.size(); ++i) {
     if (stars[i].size() == 0) continue;
@@ -59,6 +63,7 @@ void RadiusBounder::find() {
   }
   std::fill_n(medians_.begin(), most, kBeyondAll);
   std::fill_n(spreads_.begin(), most, kBeyondAll);
+  // One lane for each point: the numbers of the point and of its neighbours that have any.
   Counts counts{};
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const auto add = [&](LocalIndex q) {
@@ -73,6 +78,7 @@ void RadiusBounder::find() {
   most = *std::max_element(counts.begin(), counts.end());
   sort_batches(medians_.data(), most);
   sort_batches(spreads_.data(), most);
+  // M and S are the medians, limited to a share of the mean distance (method.md, C.2).
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const double distance = samplings_[points_[i].point].distance;
     bounds_[i] = {};

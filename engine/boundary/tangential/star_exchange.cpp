@@ -23,11 +23,13 @@ StarExchange::StarExchange(const TileOutputs& outputs, const Tiling& tiling, con
       numbers_(tiling.tiles.size()),
       belt_stars_(job.file("belt-stars"), tiling.tiles.size(), job.lists),
       belt_vertices_(job.file("belt-vertices"), tiling.tiles.size(), job.lists) {
+  // The sampled points of one tile after the other have places in the columns of sites and samples.
   std::uint64_t place = 0;
   for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
     first_places_.push_back(place);
     place += outputs.count(kSampled, t);
   }
+  // Tiles begin with the points that they know to be active, and with the tiles that their belts touch.
   job.arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
     const auto t = static_cast<TileIndex>(i);
     for (const LocalIndex p : outputs.read(kActive, t)) active.insert(tiling.tiles[t].row(p));
@@ -62,6 +64,7 @@ void StarExchange::add_belt_stars(TileIndex tile, const OpenStars& stars) {
 
 OpenStars StarExchange::open_stars(TileIndex tile) const {
   OpenStars open{outputs.read(kOpenStars, tile), outputs.read(kOpenVertices, tile)};
+  // The links of the belt's stars come last.
   const auto before = static_cast<std::uint32_t>(open.vertices.size());
   for (OpenStar star : belt_stars_.read(tile)) {
     star.place.begin += before;

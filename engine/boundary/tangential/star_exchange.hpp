@@ -47,7 +47,7 @@ struct StarExchange {
   RowSet active;
   std::vector<std::vector<TileIndex>> around;    // tiles that own any of the belt's rows, ascending
   Column<Site> sites;                            // of the belts' rows, by place
-  Column<StarSample> samples;                    // likewise
+  Column<StarSample> samples;                    // of the same rows
   AppendLists<RemoteTriangle> remote_triangles;  // of the tile's border points
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The data of its stars that a tile puts out for the exchange between tiles.
+// The data of its stars that a tile emits for the exchange between tiles.
 #pragma once
 
 #include "engine/boundary/tangential/sampling_radius.hpp"

@@ -179,7 +179,7 @@ TEST_CASE("a scan has the same cells anywhere on Earth, down to a spacing of a m
   }
 }
 
-TEST_CASE("cells without end and cells in regions with few points are far") {
+TEST_CASE("unbounded cells and cells in regions with few points are far") {
   Cloud cloud = plane(200).joined(scattered(100, 2).scaled(1e7));
   cloud.positions.push_back({1e30, 0, 0});
   const SurveyedScan scan = survey(cloud);
@@ -187,7 +187,7 @@ TEST_CASE("cells without end and cells in regions with few points are far") {
   std::size_t wrong = 0;
   for (const CountedCell& cell : scan.cells) {
     if (cell.is_far) far_points += cell.points;
-    wrong += scan.grid.is_endless(cell.coord) && !cell.is_far;
+    wrong += scan.grid.is_unbounded(cell.coord) && !cell.is_far;
   }
   CHECK(wrong == 0);
   CHECK(far_points >= 90);
