@@ -35,7 +35,7 @@ check() {
 "$bench" synth surface torus.ply --kind torus --points 12000 --holes 3 --hole-radius 3 6 >/dev/null
 for format in 0 1 2 3 6 7 8; do
   python3 "$here/make_las.py" torus.ply "$format.las" "$format"
-  "$program" detect "$format.las" --out "$format.out" --points --quiet
+  "$program" detect "$format.las" --out "$format.out" --points --keep-withheld --keep-noise --quiet
   check "$format.out" las "$format.las"
 done
 
