@@ -171,8 +171,10 @@ TEST_CASE("a scan from the first next station of each scene sees what was promis
 TEST_CASE("causes of holes are those of the scenes, of moving scanners too", "[.slow]") {
   for (const auto scene : {synth::SceneKind::kRoom, synth::SceneKind::kCourt, synth::SceneKind::kHall,
                            synth::SceneKind::kVault, synth::SceneKind::kStreet, synth::SceneKind::kPlant}) {
-    for (const std::uint32_t stations : {1, 2, 3, 4})
+    for (const std::uint32_t stations : {1, 2, 3, 4}) {
+      INFO("scene " << static_cast<int>(scene) << " from " << stations << " stations");
       CHECK(Found(scene, stations, 500'000).agreement() > 0.7);
+    }
     for (const std::uint32_t lanes : {1, 2}) CHECK(Found(scene, lanes, 500'000, {}, true).agreement() > 0.5);
   }
 }
