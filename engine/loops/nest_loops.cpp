@@ -185,7 +185,7 @@ std::vector<std::int64_t> find_around(const MeasuredLoops& loops, Job& job) {
 
 void nest_loops(MeasuredLoops& loops, Job& job) {
   std::vector<LoopMeasures>& measures = loops.measures;
-  Phase phase(job, "nest", measures.size());
+  Phase phase(job, "nest", 0);
   const std::vector<std::int64_t> around = find_around(loops, job);
   std::vector<double> islands(measures.size(), 0.0);
   for (std::size_t i = 0; i < measures.size(); ++i) {
@@ -198,7 +198,6 @@ void nest_loops(MeasuredLoops& loops, Job& job) {
   }
   for (std::size_t i = 0; i < measures.size(); ++i)
     measures[i].area = std::max(0.0, measures[i].area - islands[i]);
-  phase.advance(measures.size());
 }
 
 NestedReport report_nested(const std::vector<LoopMeasures>& found, std::vector<std::size_t> selected) {

@@ -13,7 +13,7 @@ namespace lacuna {
 class LACUNA_API Progress {
  public:
   virtual ~Progress() = default;
-  // A new phase begins: `total` points (or edges) will pass through it; 0: not known.
+  // A new phase begins: `total` points will pass through it; 0: not known.
   virtual void begin(std::string_view phase, std::uint64_t total) = 0;
   // `count` more have passed. Any thread may call this, and several may do so at a time.
   virtual void advance(std::uint64_t count) = 0;
