@@ -16,8 +16,6 @@ set(TEST_SOURCES ${kept})
 
 # A sanitized program takes long to start: one test of ctest for each file.
 function(add_tests_by_file)
-  set_property(SOURCE io/options/options_test.cpp support/golden.cpp support/made_golden.cpp APPEND PROPERTY COMPILE_DEFINITIONS
-               LACUNA_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   set(names)
   foreach(source ${TEST_SOURCES})
     cmake_path(GET source STEM name)

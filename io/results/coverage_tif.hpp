@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// coverage.tif: a raster for GIS, through GDAL, in lacuna_gis.so (io/results/loops_gis.hpp says why).
+// coverage.tif: a raster for GIS, through GDAL, in lacuna_gis.so (io/results/gis_output.hpp says why).
 #pragma once
 
 #include "engine/export.hpp"
 #include "io/results/coverage_grid.hpp"
-#include "io/results/loops_gis.hpp"
+#include "io/results/gis_output.hpp"
 
 namespace lacuna::io {
 

@@ -5,10 +5,10 @@
 #pragma once
 
 #include "engine/export.hpp"
+#include "io/results/gis_output.hpp"
 #include "io/stations/cause.hpp"
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -20,13 +20,6 @@ enum class GisFormat : std::uint8_t { kGeoPackage, kGeoJson };
 // The layers of the files.
 inline constexpr const char* kGisLayer = "lacuna_loops";
 inline constexpr const char* kGisAreas = "lacuna_areas";  // the second one of a GeoPackage, with polygons
-
-// A file that GDAL makes.
-struct GisOutput {
-  std::string crs;              // as FileScan::common_crs
-  std::filesystem::path name;   // what errors call it
-  std::filesystem::path place;  // where it is made
-};
 
 struct GisTask {
   const ExplainedDetection& detection;

@@ -4,7 +4,7 @@
 
 #include "engine/export.hpp"
 #include "io/area/area_check.hpp"
-#include "io/results/loops_gis.hpp"
+#include "io/results/gis_output.hpp"
 
 namespace lacuna::io {
 
