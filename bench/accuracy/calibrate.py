@@ -195,8 +195,8 @@ def formula(coefficients):
 
 def standing_loops(arguments, case):
     folder = arguments.work / "out" / "calibrate" / case.name
-    run([arguments.lacuna, "detect", case.scan, "--out", folder, "--quiet", "--overwrite", "--threads", 1,
-         "--sample-points", 0, "--min-confidence", 0])
+    run([arguments.lacuna, "detect", case.scan, "--out", folder, "--quiet", "--threads", 1, "--sample-points", 0,
+         "--min-confidence", 0])
     found = json.loads((folder / "holes.json").read_text(encoding="utf-8"))["loops"]
     return [Loop(case.group, verdict, loop["confidence"], terms(loop), of_emptiness(loop))
             for loop, verdict in zip(found, verdicts(arguments, case, folder), strict=True)]
