@@ -4,8 +4,6 @@
 #include "engine/loops/measure_loop.hpp"
 
 namespace lacuna::evaluation {
-using namespace io;
-
 namespace {
 
 constexpr std::size_t kNeighbours = 15;  // as in `detect`

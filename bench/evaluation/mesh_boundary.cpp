@@ -12,8 +12,6 @@
 #include <Eigen/Geometry>
 
 namespace lacuna::evaluation {
-using namespace io;
-
 namespace {
 
 using Positions = std::span<const Eigen::Vector3d>;
@@ -152,7 +150,7 @@ class BoundaryCurves {
       const auto& [vertex, edge] = path[i];
       on_path_[first_end(vertex)] = kNowhere;
       loop.vertices.push_back(vertex);
-      loop.edges.push_back({edges_[edge].ends().first, edges_[edge].ends().second});
+      loop.edges.push_back({vertex, edges_[edge].end_beside(vertex)});
     }
     std::sort(loop.vertices.begin(), loop.vertices.end());
     path.resize(place);

@@ -8,8 +8,6 @@
 #include <vector>
 
 namespace lacuna::evaluation {
-using namespace io;
-
 namespace {
 
 EdgeTree tree_of_steps(std::span<const LoopIds> steps, std::span<const Eigen::Vector3d> positions) {

@@ -8,8 +8,6 @@ namespace lacuna::matching {
 
 namespace {
 
-using Edge = std::array<std::uint64_t, 2>;
-
 std::array<double, 3> place_of(const Eigen::Vector3d& p) {
   return {p.x(), p.y(), p.z()};
 }
@@ -17,10 +15,6 @@ std::array<double, 3> place_of(const Eigen::Vector3d& p) {
 void sort_once(std::vector<std::uint64_t>& ids) {
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
-
-Edge edge_between(std::uint64_t a, std::uint64_t b) {
-  return {std::min(a, b), std::max(a, b)};
 }
 
 }  // namespace
@@ -50,7 +44,7 @@ std::vector<TrueLoop> loops_through(std::span<const LoopIds> ids, std::span<cons
     for (std::size_t i = 0; i < line.size(); ++i) {
       const std::uint64_t next = line[i + 1 < line.size() ? i + 1 : 0];
       loop.vertices.push_back(stand_ins[line[i]]);
-      loop.edges.push_back(edge_between(stand_ins[line[i]], stand_ins[next]));
+      loop.edges.push_back({stand_ins[line[i]], stand_ins[next]});
     }
     sort_once(loop.vertices);
   }

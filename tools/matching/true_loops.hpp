@@ -21,7 +21,7 @@ using LoopIds = std::vector<std::uint64_t>;  // closed, in the order of its edge
 // A place may have several points; ids here are the ids of the points that stand for a place (see stand_ins).
 struct TrueLoop {
   std::vector<std::uint64_t> vertices;              // ascending, each once
-  std::vector<std::array<std::uint64_t, 2>> edges;  // in no particular order
+  std::vector<std::array<std::uint64_t, 2>> edges;  // in its order and direction
   std::string name;                                 // its name in the truth; empty if it has none
   std::optional<LoopKind> kind;                     // of loops as text; of a mesh's boundary not known
 };

@@ -85,6 +85,10 @@ TEST_CASE("the boundary of two discs is two loops, also where their triangles sh
     CHECK(loops[0].edges.size() == 12);
     CHECK(loops[1].vertices == second);
     CHECK(loops[1].edges.size() == 20);
+    for (const TrueLoop& loop : loops) {
+      for (std::size_t i = 0; i < loop.edges.size(); ++i)
+        CHECK(loop.edges[i][1] == loop.edges[(i + 1) % loop.edges.size()][0]);
+    }
   }
 }
 
