@@ -110,13 +110,21 @@ std::vector<Eigen::Vector3d> points_of(const Truth& truth, const std::vector<boo
   return points;
 }
 
+void measure_holes(std::span<const Eigen::Vector3d> points, const PointTree& tree, Truth& truth) {
+  for (const TrueLoop& loop : truth.loops)
+    truth.hole_widths.push_back(hole_width(loop, truth.positions, points, tree));
+}
+
 void take_mesh(const std::vector<Triangle>& triangles, Truth& truth) {
   std::vector<bool> takes_part(truth.positions.size());
   for (const Triangle& triangle : triangles) {
     for (const std::uint64_t corner : triangle) takes_part[truth.stand_ins[corner]] = true;
   }
   truth.loops = mesh_boundary(triangles, truth.stand_ins, truth.positions);
-  truth.spacing = median_spacing(points_of(truth, takes_part));
+  const std::vector<Eigen::Vector3d> points = points_of(truth, takes_part);
+  const PointTree tree(points);
+  truth.spacing = median_spacing(points, tree);
+  measure_holes(points, tree, truth);
 }
 
 void take_loops(std::vector<NamedLoopIds> named, Truth& truth) {
@@ -135,6 +143,7 @@ void take_loops(std::vector<NamedLoopIds> named, Truth& truth) {
     truth.loops[i].name = std::move(named[i].name);
     truth.loops[i].kind = kind_of(loops[i], truth.positions, points, tree);
   }
+  measure_holes(points, tree, truth);
 }
 
 // False loops around unsampled places of the surface become unsampled. If they run along true loops as well,
@@ -224,6 +233,7 @@ Evaluation evaluate(const Result& result, const Truth& truth, const EvaluationRu
   mark_steps(result.loops, truth.steps, truth.loops, truth.positions, match, evaluation.loops);
   if (truth.surface) mark_unsampled(result, truth, match, evaluation.loops);
   evaluation.scores = score_loops(evaluation.loops.loops, evaluation.loops.true_loops);
+  evaluation.holes = holes_by_width(truth.hole_widths, evaluation.loops.true_loops);
   if (result.boundary) {
     check_ids(result.file.parent_path() / "boundary.ply", *result.boundary, truth);
     evaluation.boundary =

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bench/evaluation/boundary_points.hpp"
+#include "bench/evaluation/hole_width.hpp"
 #include "bench/evaluation/loop_scores.hpp"
 #include "bench/evaluation/unsampled.hpp"
 #include "io/scan/file_scan.hpp"
@@ -39,8 +40,9 @@ struct Truth {
   std::vector<Eigen::Vector3d> positions;
   std::vector<std::uint64_t> stand_ins;
   std::vector<TrueLoop> loops;
-  std::vector<LoopIds> steps;  // of density; see read_steps()
-  double spacing = 0;          // median, over the places that take part
+  std::vector<std::optional<double>> hole_widths;  // of each loop; see hole_width()
+  std::vector<LoopIds> steps;                      // of density; see read_steps()
+  double spacing = 0;                              // median, over the places that take part
   std::optional<Surface> surface;
 };
 
@@ -54,6 +56,7 @@ struct Evaluation {
   LoopScores scores;
   std::optional<PointAccuracy> boundary;  // radius: the tolerance
   std::optional<double> confidence;       // area under the ROC curve
+  HolesByWidth holes;
 };
 
 // Reads the output folder of a run: loops.ply, and boundary.ply and holes.json if they exist. Or reads a file

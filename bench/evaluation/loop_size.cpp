@@ -3,9 +3,9 @@
 
 #include "engine/loops/measure_loop.hpp"
 
-namespace lacuna::evaluation {
-using namespace io;
+#include <Eigen/Geometry>
 
+namespace lacuna::evaluation {
 namespace {
 
 Eigen::Vector3d mean_of(std::span<const std::uint64_t> ids, std::span<const Eigen::Vector3d> positions) {
@@ -19,30 +19,26 @@ Eigen::Vector3d mean_of(std::span<const std::uint64_t> ids, std::span<const Eige
 }  // namespace
 
 LoopSize size_of(const TrueLoop& loop, std::span<const Eigen::Vector3d> positions) {
-  LoopSize size;
+  LoopSize size{.centre = mean_of(loop.vertices, positions)};
+  Eigen::Vector3d area(0, 0, 0);
   Loop along;  // both ends of each edge: edges that follow each other are near each other, and diameter is
                // then fast
   for (const auto& [a, b] : loop.edges) {
     size.perimeter += (positions[a] - positions[b]).norm();
+    area += (positions[a] - size.centre).cross(positions[b] - size.centre) / 2;
     along.push_back({ScanPoint::at(positions[a], PointId{a})});
     along.push_back({ScanPoint::at(positions[b], PointId{b})});
   }
   if (!along.empty()) size.diameter = diameter(along);
-  size.centre = mean_of(loop.vertices, positions);
+  size.area = area.norm();
   return size;
 }
 
 LoopSize size_of(const LoopIds& loop, std::span<const Eigen::Vector3d> positions) {
-  LoopSize size;
-  Loop along;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const std::uint64_t next = loop[i + 1 < loop.size() ? i + 1 : 0];
-    size.perimeter += (positions[loop[i]] - positions[next]).norm();
-    along.push_back({ScanPoint::at(positions[loop[i]], PointId{loop[i]})});
-  }
-  if (!along.empty()) size.diameter = diameter(along);
-  size.centre = mean_of(loop, positions);
-  return size;
+  TrueLoop closed{.vertices = loop};
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    closed.edges.push_back({loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]});
+  return size_of(closed, positions);
 }
 
 }  // namespace lacuna::evaluation

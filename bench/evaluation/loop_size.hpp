@@ -12,10 +12,11 @@
 namespace lacuna::evaluation {
 using namespace matching;
 
-// Lengths in units of the scan.
+// In units of the scan.
 struct LoopSize {
   double perimeter = 0;             // sum of the edges' lengths
   double diameter = 0;              // largest distance between two vertices
+  double area = 0;                  // projected along its normal; of an open loop: closed over its centre
   Eigen::Vector3d centre{0, 0, 0};  // mean of the vertices
 };
 

@@ -17,9 +17,9 @@ struct EvaluationText {
   EvaluationRule rule;
 };
 
-// Prints one sentence with the numbers of found and false loops. Then it prints a line for each true loop,
-// the largest first, with its name, size, place, and what found it. Then it prints a line for each loop that
-// matches no true loop.
+// Prints one sentence with the numbers of found and false loops, and the holes found by width. Then it prints
+// a line for each true loop, the largest first, with its name, size, place, and what found it. Then it prints
+// a line for each loop that matches no true loop.
 std::string print_verdict(const EvaluationText& text);
 
 // Returns all scores, and every number behind them, by loop.

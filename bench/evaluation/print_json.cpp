@@ -62,6 +62,13 @@ std::string print_json(const EvaluationText& text) {
                         {"by_id", points_json(boundary->by_id)},
                         {"within_tolerance", points_json(boundary->within_radius)}};
   }
+  root["holes_by_width"] = Json::array();
+  for (std::size_t i = 0; i < kWidths.size(); ++i) {
+    root["holes_by_width"].push_back({{"from", kWidths[i]},
+                                      {"to", i + 1 < kWidths.size() ? Json(kWidths[i + 1]) : Json()},
+                                      {"true", evaluation.holes[i].all},
+                                      {"found", evaluation.holes[i].found}});
+  }
   root["true_loops"] = Json::array();
   for (std::size_t i = 0; i < truth.loops.size(); ++i) {
     const TrueMatch& match = evaluation.loops.true_loops[i];
@@ -72,6 +79,7 @@ std::string print_json(const EvaluationText& text) {
                                   {"vertices", truth.loops[i].vertices.size()},
                                   {"perimeter", size.perimeter},
                                   {"diameter", size.diameter},
+                                  {"width", or_null(truth.hole_widths[i])},
                                   {"centre", {size.centre.x(), size.centre.y(), size.centre.z()}},
                                   {"counts", match.counts},
                                   {"found_by", or_null(match.found_by)}});

@@ -23,10 +23,6 @@ namespace {
 constexpr std::size_t kMostRows = 40;
 constexpr const char* kUnit = "";  // files of true loops have none
 
-struct Tally {
-  std::size_t found = 0, all = 0;
-};
-
 Tally tally(const EvaluationText& text, std::optional<LoopKind> kind) {
   Tally tally;
   for (std::size_t i = 0; i < text.truth.loops.size(); ++i) {
@@ -109,6 +105,19 @@ std::vector<std::string> row_of(const std::string& what, const LoopSize& size, s
           print_place(size.centre, extent),
           print_count(points),
           verdict};
+}
+
+std::string print_widths(const HolesByWidth& holes) {
+  Rows rows = {{"width of holes, local spacings"}, {"found"}};
+  std::size_t all = 0;
+  for (std::size_t i = 0; i < holes.size(); ++i) {
+    const std::string from = print_count(kWidths[i]);
+    const std::string to = i + 1 < holes.size() ? print_count(kWidths[i + 1]) : "";
+    rows[0].push_back(to.empty() ? from + " and more" : i == 0 ? "below " + to : from + " to " + to);
+    rows[1].push_back(print_count(holes[i].found) + " of " + print_count(holes[i].all));
+    all += holes[i].all;
+  }
+  return all == 0 ? "" : "\n" + print_table(rows);
 }
 
 // Prints large loops first. For loops beyond the table, it prints their number and how many are missed.
@@ -200,7 +209,7 @@ std::string print_others(const EvaluationText& text, double extent) {
 
 std::string print_verdict(const EvaluationText& text) {
   const double extent = extent_of(text.truth);
-  std::string all = print_sentence(text);
+  std::string all = print_sentence(text) + print_widths(text.evaluation.holes);
   if (knows_kinds(text)) {
     all += print_true_loops(text, loops_of(text.truth, LoopKind::kHole), "hole", extent);
     all += print_true_loops(text, loops_of(text.truth, LoopKind::kOuter), "outer curve", extent);

@@ -115,7 +115,9 @@ TEST_CASE("each true loop is printed with what it is, its size, its place and wh
   CHECK(text.exit_code == 0);
   CHECK_THAT(
       text.out,
-      StartsWith("found 1 of 2 holes and 0 of 1 outer curve, 1 false\n\n") &&
+      StartsWith("found 1 of 2 holes and 0 of 1 outer curve, 1 false\n\n"
+                 "  width of holes, local spacings  below 2  2 to 3  3 to 5  5 to 10  10 and more\n"
+                 "  found                            0 of 0  0 of 1  1 of 1   0 of 0       0 of 0\n\n") &&
           Contains("  window               40.0      14.1   9.0 9.0 0.0      40    loop 0\n") &&
           Contains("  edge of wall        156      62.0  29.5 9.5 0.0     156    missed\n") &&
           Contains("  loop 1                      32.0      11.3  42.0 12.0 0.0      32       false\n"));
@@ -125,6 +127,9 @@ TEST_CASE("each true loop is printed with what it is, its size, its place and wh
   CHECK(report.at("true_loops")[0].at("diameter") == Approx(10 * std::sqrt(2)));
   CHECK(report.at("true_loops")[0].at("kind") == "hole");
   CHECK(report.at("true_loops")[1].at("centre")[0] == Approx(32));
+  CHECK((report.at("true_loops")[0].at("width") > 4.5 && report.at("true_loops")[2].at("width").is_null()));
+  CHECK(report.at("holes_by_width")[2] == nlohmann::json{{"from", 3}, {"to", 5}, {"true", 1}, {"found", 1}});
+  CHECK(report.at("holes_by_width")[4].at("to").is_null());
 }
 
 TEST_CASE("the truth is itself found, from either kind of file, without boundary points") {
