@@ -8,7 +8,7 @@ usage() {
   cat <<'END'
 usage: tools/accuracy.sh [OPTIONS] [-- DETECT_OPTIONS]
 
-Builds the program, makes the sets, finds and evaluates their holes, prints one table and writes it as
+Builds the program, makes the sets, finds and evaluates their holes, prints two tables and writes all rows as
 bench/accuracy/results/DATE.csv. Where PCL (libpcl-dev) or CGAL (libcgal-dev) are installed, the table has PCL's boundary
 points and the border loops of CGAL's advancing front, too.
 

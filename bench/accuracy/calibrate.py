@@ -22,8 +22,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from degrade import Scan, doubled, falling_by_ten, halved, kept_with  # noqa: E402
 from range_map import SCENES, range_map  # noqa: E402
-from sets import (GROUPS, RANGE_NOISES, SYNTH_KINDS, cut_mesh, degraded, fail, made_mesh, quick_sets,  # noqa: E402
-                  real, run, synth)
+from sets import (GROUPS, RANGE_NOISES, SYNTH_KINDS, cut_mesh, degraded, fail, is_lidar, made_mesh,  # noqa: E402
+                  quick_sets, real, run, synth)
 
 UNDECIDED = ("joined", "parted")  # such loops are neither right nor wrong
 REPORTED = 0.5  # the least confidence, by default
@@ -137,10 +137,6 @@ def fit_sets(arguments):
 
 def test_sets(arguments):
     return [case for sets in GROUPS if sets is not quick_sets for case in sets(arguments)]
-
-
-def is_lidar(group):
-    return group.startswith("lidar") or group == "aerial"
 
 
 # ---- their loops

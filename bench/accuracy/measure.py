@@ -9,6 +9,8 @@ from sets import run
 
 # Numbers of loops from `lacuna-bench evaluate`. All are columns of the CSV; all but the first are columns of the table.
 COUNTS = ("true", "found", "false", "joined", "parted", "step", "repeated")
+# Classes of the widths of holes, in local spacings: those of `lacuna-bench evaluate`, in its order.
+WIDTHS = ("below 2", "2 to 3", "3 to 5", "5 to 10", "10 and more")
 PCL_NEIGHBOURS = [15, 30]
 PCL_DEGREES = [90, 120]
 CGAL_BOUNDS = [1.5, 2, 3, 4]  # circumradii of triangles, spacings
@@ -34,6 +36,8 @@ def evaluate(arguments, case, method, result):
     row |= {"flagged": points["flagged"], "boundary": points["true"]}
     row |= {key: points["within_tolerance"].get(key) for key in ("precision", "recall", "f1")}
     row |= {f"{key}_by_id": points["by_id"].get(key) for key in ("precision", "recall", "f1")}
+    for width, holes in zip(WIDTHS, scores["holes_by_width"], strict=True):
+        row |= {f"{key} {width}": holes[key] for key in ("true", "found")}
     return row | {"spacing": scores["spacing"]}
 
 
@@ -56,7 +60,7 @@ def pcl(arguments, case, neighbours, degrees):
     folder = arguments.work / "pcl" / f"{case.name}-{neighbours}-{degrees}"
     peer_result(folder / "boundary.ply", arguments.pcl, case, [arguments.pcl, case.scan, folder, neighbours, degrees])
     row = evaluate(arguments, case, f"pcl-k{neighbours}-a{degrees}", folder)
-    return row | dict.fromkeys((*COUNTS[1:], "loops", "confidence_auc"))
+    return row | dict.fromkeys((*COUNTS[1:], "loops", "confidence_auc", *(f"found {width}" for width in WIDTHS)))
 
 
 def cgal(arguments, case, bound, spacing):

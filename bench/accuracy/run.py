@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs `lacuna detect` on scans whose holes are known, evaluates what it finds, and prints one table. See
+"""Runs `lacuna detect` on scans whose holes are known, evaluates what it finds, and prints two tables. See
 bench/accuracy/README.md; tools/accuracy.sh builds what it needs and calls it."""
 
 import argparse
@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from floors import check_floors, read_floors  # noqa: E402
 from measure import known_methods, measure  # noqa: E402
 from sets import GROUPS, fail  # noqa: E402
-from table import print_table  # noqa: E402
+from table import print_table, print_widths  # noqa: E402
 
 
 def write_csv(results, file):
@@ -64,6 +64,8 @@ def main():
         fail("no set was run")
     write_csv(results, arguments.csv)
     print_table(results, list(methods))
+    print()
+    print_widths(results, list(methods))
     if arguments.floors:
         check_floors(floors, [row for rows in results for row in rows])
 

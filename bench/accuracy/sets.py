@@ -44,6 +44,10 @@ class Set:
             self.make()
 
 
+def is_lidar(group):
+    return group.startswith("lidar") or group == "aerial"
+
+
 def fail(reason):
     raise SystemExit(f"accuracy: {reason}")
 

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One table of all results: a line for each set, and one for the sums of each group. A column is a title and what it
+"""Two tables of all results. The first has a line for each set, and one for the sums of each group. The second has the
+holes found by width, for each group and for the sums of each kind. A column is a title and what it
 shows of a list of sets, where a set is the list of its rows. So a line and a line of sums are the same columns."""
 
-from measure import COUNTS
+from measure import COUNTS, WIDTHS
+from sets import is_lidar
 
 
 def total(rows, key):
@@ -95,16 +97,15 @@ def group_lines(group, methods):
     return ["set", *columns], [[name, *(text(sets) for text in columns.values())] for name, sets in named]
 
 
-def print_table(results, methods):
-    """`results`: a list of rows for each set. `methods`: those of Lacuna."""
+def by_group(results):
     groups = {}
     for rows in results:
         groups.setdefault(rows[0]["group"], []).append(rows)
-    lines = []
-    for group in groups.values():
-        header, own = group_lines(group, methods)
-        lines += own
-    lines.insert(0, header)
+    return groups
+
+
+def print_lines(lines):
+    header = lines[0]
     widths = [max(len(line[i]) for line in lines) for i in range(len(header))]
     for place, line in enumerate(lines):
         cells = [cell.ljust(width) if i == 0 else cell.rjust(width)
@@ -112,3 +113,29 @@ def print_table(results, methods):
         print(f"| {' | '.join(cells)} |")
         if place == 0:
             print(f"|{'|'.join('-' * (width + 2) for width in widths)}|")
+
+
+def print_table(results, methods):
+    """`results`: a list of rows for each set. `methods`: those of Lacuna."""
+    lines = []
+    for group in by_group(results).values():
+        header, own = group_lines(group, methods)
+        lines += own
+    print_lines([header, *lines])
+
+
+def found_of_true(rows, width):
+    true = total(rows, f"true {width}")
+    return f"{total(rows, f'found {width}')} of {true}" if true else "-"
+
+
+def print_widths(results, methods):
+    """Holes found, of the true ones, by their width in spacings. Arguments as of print_table."""
+    groups = by_group(results)
+    sums = {"lidar and aerial": [rows for group in groups if is_lidar(group) for rows in groups[group]],
+            "others": [rows for group in groups if not is_lidar(group) for rows in groups[group]]}
+    columns = [(method, width) for method in methods for width in WIDTHS]
+    lines = [["holes by width", *(width if len(methods) == 1 else f"{width} {method}" for method, width in columns)]]
+    for name, sets in [*groups.items(), *sums.items()]:
+        lines.append([name, *(found_of_true(of_method(sets, method), width) for method, width in columns)])
+    print_lines(lines)

@@ -176,6 +176,27 @@ assert all(-2 <= x <= 42 and -2 <= y <= 42 and -2 <= z <= 2 for x, y, z in outli
 assert max(z for _, _, z in outliers) > 1
 END
 
+# Holes by width are summed for each group, and for lidar scans apart from others.
+python3 - "$root/bench/accuracy" <<'END' >"$scratch/table"
+import sys
+
+sys.path.insert(0, sys.argv[1])
+from measure import WIDTHS
+from table import print_widths
+
+
+def row(group, true, found):
+    return {"group": group, "method": "default", **{f"true {width}": 0 for width in WIDTHS},
+            **{f"found {width}": 0 for width in WIDTHS}, "true 2 to 3": true, "found 2 to 3": found}
+
+
+print_widths([[row("lidar-view", 4, 1)], [row("aerial", 5, 3)], [row("synth", 2, 2)], [row("synth", 3, 0)]], ["default"])
+END
+tr -s ' ' <"$scratch/table" >"$scratch/squeezed"
+for line in '| synth | - | 2 of 5 | - | - | - |' '| lidar and aerial | - | 4 of 9 | - | - | - |' '| others | - | 2 of 5 | - | - | - |'; do
+  grep -qxF "$line" "$scratch/squeezed" || fail "$(cat "$scratch/table")"
+done
+
 # The table shows the best of CGAL's bounds for a group, and sums of columns that only some methods have.
 python3 - "$root/bench/accuracy" <<'END' >"$scratch/table"
 import sys
