@@ -21,15 +21,17 @@ Eigen::Vector3d mean_of(std::span<const std::uint64_t> ids, std::span<const Eige
 LoopSize size_of(const TrueLoop& loop, std::span<const Eigen::Vector3d> positions) {
   LoopSize size{.centre = mean_of(loop.vertices, positions)};
   Eigen::Vector3d area(0, 0, 0);
-  Loop along;  // both ends of each edge: edges that follow each other are near each other, and diameter is
-               // then fast
+  Loop along;  // the vertices in order, which makes the diameter fast
+  const auto add = [&](std::uint64_t id) { along.push_back({ScanPoint::at(positions[id], PointId{id})}); };
   for (const auto& [a, b] : loop.edges) {
     size.perimeter += (positions[a] - positions[b]).norm();
     area += (positions[a] - size.centre).cross(positions[b] - size.centre) / 2;
-    along.push_back({ScanPoint::at(positions[a], PointId{a})});
-    along.push_back({ScanPoint::at(positions[b], PointId{b})});
+    add(a);
   }
-  if (!along.empty()) size.diameter = diameter(along);
+  if (!along.empty()) {
+    add(loop.edges.back()[1]);  // the first one again, but for an open loop
+    size.diameter = diameter(along);
+  }
   size.area = area.norm();
   return size;
 }
