@@ -127,7 +127,8 @@ void take_mesh(const std::vector<Triangle>& triangles, Truth& truth) {
   measure_holes(points, tree, truth);
 }
 
-void take_loops(std::vector<NamedLoopIds> named, Truth& truth) {
+// `narrow`: the number of the last loops that are too narrow to count.
+void take_loops(std::vector<NamedLoopIds> named, std::size_t narrow, Truth& truth) {
   std::vector<LoopIds> loops;
   for (const NamedLoopIds& loop : named) {
     check_ids(truth.file, loop.ids, truth);
@@ -141,6 +142,7 @@ void take_loops(std::vector<NamedLoopIds> named, Truth& truth) {
   truth.spacing = median_spacing(points, tree);
   for (std::size_t i = 0; i < named.size(); ++i) {
     truth.loops[i].name = std::move(named[i].name);
+    truth.loops[i].is_narrow = i + narrow >= named.size();
     truth.loops[i].kind = kind_of(loops[i], truth.positions, points, tree);
   }
   measure_holes(points, tree, truth);
@@ -205,9 +207,11 @@ Truth read_truth(const fs::path& file, std::vector<ScanInput> scans, Result& res
   if (mesh) {
     take_mesh(triangles, truth);
   } else {
-    truth.steps = read_steps(file);
+    truth.steps = read_marked(file, kStepMark);
     for (const LoopIds& step : truth.steps) check_ids(file, step, truth);
-    take_loops(std::move(loops), truth);
+    std::vector<LoopIds> narrow = read_marked(file, kNarrowMark);
+    for (LoopIds& loop : narrow) loops.push_back({std::move(loop), "narrow hole"});
+    take_loops(std::move(loops), narrow.size(), truth);
   }
   add_vertices(result, truth);
   return truth;

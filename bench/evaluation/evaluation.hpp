@@ -41,7 +41,7 @@ struct Truth {
   std::vector<std::uint64_t> stand_ins;
   std::vector<TrueLoop> loops;
   std::vector<std::optional<double>> hole_widths;  // of each loop; see hole_width()
-  std::vector<LoopIds> steps;                      // of density; see read_steps()
+  std::vector<LoopIds> steps;                      // of density; see kStepMark
   double spacing = 0;                              // median, over the places that take part
   std::optional<Surface> surface;
 };

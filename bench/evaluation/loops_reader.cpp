@@ -72,9 +72,11 @@ std::string read_comment(InputFile& in, std::string_view first) {
   return text;
 }
 
-// Returns "window" for "# window". The mark of the file is no name, and a step of density is none.
+// Returns "window" for "# window". The mark of the file is no name, and a marked row is none.
 std::string name_in(std::string comment) {
-  if (comment.starts_with(kLoopsTextMark) || comment.starts_with(std::string(kStepMark) + " ")) return {};
+  if (comment.starts_with(kLoopsTextMark)) return {};
+  for (const std::string_view mark : {kStepMark, kNarrowMark})
+    if (comment.starts_with(std::string(mark) + " ")) return {};
   comment.erase(0, comment.find_first_not_of("# "));
   return comment;
 }
@@ -120,18 +122,18 @@ std::vector<LoopIds> read_loops(const std::filesystem::path& file) {
   return loops;
 }
 
-std::vector<LoopIds> read_steps(const std::filesystem::path& file) {
-  std::vector<LoopIds> steps;
+std::vector<LoopIds> read_marked(const std::filesystem::path& file, std::string_view mark) {
+  std::vector<LoopIds> rows;
   InputFile in(file);
-  if (looks_like_ply({.first_bytes = in.peek(4), .size = in.remaining()})) return steps;
+  if (looks_like_ply({.first_bytes = in.peek(4), .size = in.remaining()})) return rows;
   while (in.next_row()) {
-    if (const auto word = in.next_word(); word && *word == kStepMark) {
-      LoopIds& step = steps.emplace_back();
-      while (const auto id = in.next_word()) step.push_back(parse_id(in, *id));
+    if (const auto word = in.next_word(); word && *word == mark) {
+      LoopIds& row = rows.emplace_back();
+      while (const auto id = in.next_word()) row.push_back(parse_id(in, *id));
     }
     while (!in.end_row()) in.next_word();
   }
-  return steps;
+  return rows;
 }
 
 std::vector<std::uint64_t> read_ids(const std::filesystem::path& file) {

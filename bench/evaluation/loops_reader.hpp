@@ -30,13 +30,13 @@ inline constexpr std::string_view kLoopsTextMark = "# one boundary loop per line
 // one blank. The name is cut to 200 bytes. Loops of a PLY file have no names.
 std::vector<NamedLoopIds> read_named_loops(const std::filesystem::path& file);
 
-// A line with a step of density begins with this text in a file of true loops; for other readers it is a
-// comment.
-inline constexpr std::string_view kStepMark = "#step";
+// In a file of true loops, a line of ids that is no true loop begins with one of these. Other readers take it
+// for a comment. In a row of ids, neighbours are joined by an edge. A step of density is closed where its
+// first id is its last, too. A hole that is too narrow to count is closed, as a true loop is.
+inline constexpr std::string_view kStepMark = "#step", kNarrowMark = "#narrow";
 
-// Reads the steps of density: rows of ids, in which neighbours are joined by an edge. They are closed where
-// the first id is the last, too. Only text has steps. Throws `Error`.
-std::vector<LoopIds> read_steps(const std::filesystem::path& file);
+// Reads the rows with a mark. Only text has them. Throws `Error`.
+std::vector<LoopIds> read_marked(const std::filesystem::path& file, std::string_view mark);
 
 // Returns the ids of boundary.ply, in file order. Throws `Error`.
 std::vector<std::uint64_t> read_ids(const std::filesystem::path& file);

@@ -70,8 +70,8 @@ std::string print_sentence(const EvaluationText& text) {
       "loops follow steps of density, with points on both sides");
   add(scores.unsampled, "loop goes around a place of the surface without points: right, but no true loop",
       "loops go around places of the surface without points: right, but no true loops");
-  add(scores.short_loops, "true loop is too short to count (--min-vertices)",
-      "true loops are too short to count (--min-vertices)");
+  add(scores.short_loops, "true loop is too short (--min-vertices) or too narrow to count",
+      "true loops are too short (--min-vertices) or too narrow to count");
   return line;
 }
 
@@ -142,7 +142,7 @@ std::string print_true_loops(const EvaluationText& text, std::vector<std::size_t
                           truth.loops[i].vertices.size(), extent,
                           match.found_by ? "loop " + std::to_string(*match.found_by)
                           : match.counts ? "missed"
-                                         : "too short"));
+                                         : "too short or narrow"));
   }
   std::string table = "\n" + print_table(rows);
   if (loops.size() > kMostRows) {

@@ -12,8 +12,8 @@ namespace lacuna::evaluation {
 using namespace matching;
 
 // A false loop becomes a step if `share` of its points are within the tolerance of the edges of steps. It
-// becomes joined if `share` of its points are near these edges or a true loop that counts. Steps come from
-// read_steps(). Without steps, nothing changes. Cost: n log n.
+// becomes joined if `share` of its points are near these edges or a true loop that counts. Without steps,
+// nothing changes. Cost: n log n.
 void mark_steps(std::span<const LoopIds> loops, std::span<const LoopIds> steps,
                 std::span<const TrueLoop> truth, std::span<const Eigen::Vector3d> positions,
                 const MatchRule& rule, LoopAccuracy& accuracy);

@@ -18,7 +18,6 @@ constexpr double kMostNodes = 3e6;
 constexpr double kMostRays = 1.2e7;   // one per node and sweep
 constexpr double kFewestNodes = 3e5;  // where there are so many points
 constexpr double kFewestSteps = 6;    // along each side of a patch
-constexpr double kHoleRadius = 2;     // spacings: narrower gaps are no holes
 constexpr double kHoleCorner = 1.5;   // of the radius: the corner of a square hole is in the hole
 constexpr double kFarSide = -0.5;     // cosine between normals: of the two sides of one thing
 constexpr std::array<std::pair<int, int>, 4> kBeside{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
@@ -64,14 +63,15 @@ ScenePoint with_side(ScenePoint place, const Visibility& visibility) {
   return place;
 }
 
-SampledBorder border_of(const std::vector<Lattice>& lattices, const Visibility& visibility) {
+SampledBorder border_of(const std::vector<Lattice>& lattices, const Visibility& visibility,
+                        double hole_radius) {
   SampledBorder border;
   for (const Lattice& lattice : lattices) {
     const auto holds = [&](std::size_t node) { return lattice.spacing[node] > 0; };
     for_each_node(lattice, [&](std::int32_t column, std::int32_t row, std::size_t node) {
       if (!holds(node) || !is_border(lattice, column, row, holds)) return;
       border.places.push_back(with_side(lattice.at(column, row), visibility));
-      border.spheres.push_back({border.places.back().position, kHoleRadius * double{lattice.spacing[node]}});
+      border.spheres.push_back({border.places.back().position, hole_radius * double{lattice.spacing[node]}});
     });
   }
   return border;
@@ -120,22 +120,6 @@ SphereIndex rounds_of(const std::vector<Lattice>& lattices, const std::vector<st
   return SphereIndex(std::move(rounds));
 }
 
-void close_gaps(std::vector<Lattice>& lattices, const Visibility& visibility) {
-  const std::vector<std::vector<float>> radii = radii_around(lattices, border_of(lattices, visibility));
-  const SphereIndex rounds = rounds_of(lattices, radii);
-  for (std::size_t i = 0; i < lattices.size(); ++i) {
-    Lattice& lattice = lattices[i];
-    for_each_node(lattice, [&](std::int32_t column, std::int32_t row, std::size_t node) {
-      if (lattice.spacing[node] > 0 || radii[i][node] == 0) return;
-      bool in_hole = false;
-      rounds.for_each_around(lattice.at(column, row).position, [&](std::uint32_t) { in_hole = true; });
-      if (in_hole) return;
-      lattice.sampled[node] = 1;
-      lattice.spacing[node] = radii[i][node] / static_cast<float>(kHoleRadius);
-    });
-  }
-}
-
 }  // namespace
 
 std::vector<Lattice> sample_surfaces(const Scanner& scanner, const Visibility& visibility,
@@ -168,8 +152,24 @@ std::vector<Lattice> sample_surfaces(const Scanner& scanner, const Visibility& v
       lattice.sampled[node] = sum > 0;
     });
   }
-  close_gaps(lattices, visibility);
   return lattices;
+}
+
+void close_gaps(std::vector<Lattice>& lattices, const Visibility& visibility, double hole_radius) {
+  const std::vector<std::vector<float>> radii =
+      radii_around(lattices, border_of(lattices, visibility, hole_radius));
+  const SphereIndex rounds = rounds_of(lattices, radii);
+  for (std::size_t i = 0; i < lattices.size(); ++i) {
+    Lattice& lattice = lattices[i];
+    for_each_node(lattice, [&](std::int32_t column, std::int32_t row, std::size_t node) {
+      if (lattice.spacing[node] > 0 || radii[i][node] == 0) return;
+      bool in_hole = false;
+      rounds.for_each_around(lattice.at(column, row).position, [&](std::uint32_t) { in_hole = true; });
+      if (in_hole) return;
+      lattice.sampled[node] = 1;
+      lattice.spacing[node] = radii[i][node] / static_cast<float>(hole_radius);
+    });
+  }
 }
 
 }  // namespace lacuna::synth

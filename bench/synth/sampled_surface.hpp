@@ -38,11 +38,14 @@ struct Lattice {
   }
 };
 
-// The lattice has about 4 nodes per point, but at most 3 million, and fewer for more than 4 sweeps. A place
-// that no station samples counts as sampled all the same unless it lies in a hole. Holes are balls with a
-// radius of 2 spacings of the nearest sampled places, in which nothing is sampled. Every place within 3
-// spacings of the middle of a ball belongs to its hole. Places on the far side of a thin thing are not near.
+// The lattice has about 4 nodes per point, but at most 3 million, and fewer for more than 4 sweeps.
 std::vector<Lattice> sample_surfaces(const Scanner& scanner, const Visibility& visibility,
                                      std::uint64_t points);
+
+// A place that no station samples counts as sampled all the same unless it lies in a hole. Holes are balls
+// with this radius, in spacings of the nearest sampled places, in which nothing is sampled. Every place
+// within 1.5 radii of the middle of a ball belongs to its hole. Places on the far side of a thin thing are
+// not near.
+void close_gaps(std::vector<Lattice>& lattices, const Visibility& visibility, double hole_radius);
 
 }  // namespace lacuna::synth

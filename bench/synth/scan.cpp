@@ -123,7 +123,8 @@ ScanSummary write_scan(const ScanOptions& options, const Scene& scene) {
   const std::vector<NamedLoop> loops = truth.loops();
   write_truth_head(truth_file, options.out);
   for (const NamedLoop& loop : loops) write_loop(truth_file, loop.name, loop.ids);
-  for (const std::vector<std::uint64_t>& step : truth.steps()) write_step(truth_file, step);
+  for (const auto& narrow : truth.narrow_loops()) write_marked(truth_file, evaluation::kNarrowMark, narrow);
+  for (const auto& step : truth.steps()) write_marked(truth_file, evaluation::kStepMark, step);
   scanner.moves() ? write_trajectory(scanner, options, stations) : write_stations(scanner, options, stations);
   ply.finish();
   truth_output.commit();

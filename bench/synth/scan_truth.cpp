@@ -9,12 +9,15 @@
 #include <limits>
 #include <map>
 #include <span>
+#include <unordered_set>
 #include <utility>
 
 namespace lacuna::synth {
 
 namespace {
 
+constexpr double kHoleRadius = 2;    // spacings: narrower gaps do not count
+constexpr double kNarrowRadius = 1;  // still narrower ones are no holes
 constexpr double kPlaceStep = 0.25;  // spacings between places on a curve
 constexpr double kMostPlaces = 1e6;
 constexpr double kSearchRadius = 4;        // spacings: the coarse direction of grazing rays included
@@ -73,29 +76,37 @@ void to_canonical(std::vector<std::uint64_t>& ids) {
 
 ScanTruth::ScanTruth(const Scanner& scanner, std::uint64_t points) : index_({}) {
   const Visibility visibility(scanner);
-  const std::vector<Lattice> lattices = sample_surfaces(scanner, visibility, points);
+  std::vector<Lattice> lattices = sample_surfaces(scanner, visibility, points);
+  std::vector<Lattice> narrow = lattices;
+  close_gaps(lattices, visibility, kHoleRadius);
+  close_gaps(narrow, visibility, kNarrowRadius);
   const std::vector<Curve> curves = boundary_curves(lattices, visibility);
   double whole = 0;
   for (const Curve& curve : curves)
     for_each_side(curve, [&](const CurveNode&, const CurveNode&, double length) { whole += length; });
   std::vector<Sphere> spheres;
-  for (const Curve& curve : curves) {
-    const std::string name = name_of(curve, scanner.scene());
-    if (!name.empty()) add(curve, whole / kMostPlaces, name, spheres);
-  }
+  const auto add_closed = [&](const std::vector<Curve>& closed, Kind kind) {
+    for (const Curve& curve : closed) {
+      std::string name = name_of(curve, scanner.scene());
+      if (!name.empty()) add(curve, whole / kMostPlaces, kind, std::move(name), spheres);
+    }
+  };
+  add_closed(curves, Kind::kLoop);
+  add_closed(boundary_curves(narrow, visibility), Kind::kNarrow);
   for (const Curve& step : density_steps(lattices, scanner, visibility))
-    add(step, whole / kMostPlaces, {}, spheres);
+    add(step, whole / kMostPlaces, Kind::kStep, {}, spheres);
   index_ = SphereIndex(std::move(spheres));
 }
 
 // There is one sphere per place. Places are a step apart at most, but for long ways. A step is not closed.
-void ScanTruth::add(const Curve& curve, double least_step, std::string name, std::vector<Sphere>& spheres) {
+void ScanTruth::add(const Curve& curve, double least_step, Kind kind, std::string name,
+                    std::vector<Sphere>& spheres) {
   const std::size_t begin = places_.size();
   const auto add_place = [&](Vec3 position, const CurveNode& near) {
     spheres.push_back({position, kSearchRadius * near.spacing});
     places_.push_back({near.shape, std::numeric_limits<double>::infinity(), kNobody, kNobody});
   };
-  std::size_t sides = name.empty() ? curve.size() - 1 : curve.size();
+  std::size_t sides = kind == Kind::kStep ? curve.size() - 1 : curve.size();
   for_each_side(curve, [&](const CurveNode& from, const CurveNode& to, double length) {
     if (sides == 0) return add_place(from.position, from);
     --sides;
@@ -106,7 +117,7 @@ void ScanTruth::add(const Curve& curve, double least_step, std::string name, std
       add_place(from.position + share * (to.position - from.position), share < 0.5 ? from : to);
     }
   });
-  rows_.push_back({begin, places_.size(), std::move(name)});
+  rows_.push_back({begin, places_.size(), kind, std::move(name)});
 }
 
 void ScanTruth::note(const Echo& echo, std::uint64_t ray, std::uint64_t id) {
@@ -135,10 +146,10 @@ std::vector<std::uint64_t> ScanTruth::ids_along(const Row& row) const {
   return ids;
 }
 
-std::vector<NamedLoop> ScanTruth::loops() const {
+std::vector<NamedLoop> ScanTruth::closed_rows(Kind kind) const {
   std::vector<NamedLoop> all;
   for (const Row& row : rows_) {
-    if (row.name.empty()) continue;
+    if (row.kind != kind) continue;
     std::vector<std::uint64_t> ids = ids_along(row);
     if (ids.size() > 1 && ids.back() == ids.front()) ids.pop_back();
     ids = without_returns(std::move(ids));
@@ -150,10 +161,27 @@ std::vector<NamedLoop> ScanTruth::loops() const {
   return all;
 }
 
+std::vector<NamedLoop> ScanTruth::loops() const {
+  return closed_rows(Kind::kLoop);
+}
+
+// Curves of large holes are curves of all holes, too: a narrow hole has few points of them.
+std::vector<std::vector<std::uint64_t>> ScanTruth::narrow_loops() const {
+  std::unordered_set<std::uint64_t> on_loops;
+  for (const NamedLoop& loop : loops()) on_loops.insert(loop.ids.begin(), loop.ids.end());
+  std::vector<std::vector<std::uint64_t>> all;
+  for (NamedLoop& loop : closed_rows(Kind::kNarrow)) {
+    const auto shared = std::count_if(loop.ids.begin(), loop.ids.end(),
+                                      [&](std::uint64_t id) { return on_loops.contains(id); });
+    if (2 * static_cast<std::size_t>(shared) < loop.ids.size()) all.push_back(std::move(loop.ids));
+  }
+  return all;
+}
+
 std::vector<std::vector<std::uint64_t>> ScanTruth::steps() const {
   std::vector<std::vector<std::uint64_t>> all;
   for (const Row& row : rows_) {
-    if (!row.name.empty()) continue;
+    if (row.kind != Kind::kStep) continue;
     std::vector<std::uint64_t> ids = ids_along(row);
     if (ids.size() >= kFewestPoints) all.push_back(std::move(ids));
   }

@@ -33,6 +33,9 @@ class ScanTruth {
   // rare, and loops with much of their edge in closed gaps.
   std::vector<NamedLoop> loops() const;
 
+  // The same of holes that are too narrow to count, half as wide or more as those that do.
+  std::vector<std::vector<std::uint64_t>> narrow_loops() const;
+
   // Call it after every echo is recorded. Returns the points along each step, 12 or more, sorted. Where a
   // sequence is closed, its first point is its last, too.
   std::vector<std::vector<std::uint64_t>> steps() const;
@@ -43,13 +46,16 @@ class ScanTruth {
     double nearest;  // squared
     std::uint64_t ray, id;
   };
+  enum class Kind : std::uint8_t { kLoop, kNarrow, kStep };
   struct Row {
     std::size_t begin, end;  // places
-    std::string name;        // empty for a step
+    Kind kind;
+    std::string name;  // of a loop
   };
 
-  void add(const Curve& curve, double least_step, std::string name, std::vector<Sphere>& spheres);
+  void add(const Curve& curve, double least_step, Kind kind, std::string name, std::vector<Sphere>& spheres);
   std::vector<std::uint64_t> ids_along(const Row& row) const;
+  std::vector<NamedLoop> closed_rows(Kind kind) const;
 
   std::vector<NearestEcho> places_;
   std::vector<Row> rows_;

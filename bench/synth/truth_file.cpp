@@ -36,8 +36,8 @@ void write_loop(OutputFile& file, const std::string& name, const std::vector<std
   file.write("# " + name + "\n" + line_of(loop));
 }
 
-void write_step(OutputFile& file, const std::vector<std::uint64_t>& step) {
-  file.write(std::string(evaluation::kStepMark) + " " + line_of(step));
+void write_marked(OutputFile& file, std::string_view mark, const std::vector<std::uint64_t>& row) {
+  file.write(std::string(mark) + " " + line_of(row));
 }
 
 }  // namespace lacuna::synth

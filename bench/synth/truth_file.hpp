@@ -23,7 +23,8 @@ std::filesystem::path truth_file_of(const std::filesystem::path& scan, const std
 void write_truth_head(io::OutputFile& file, const std::filesystem::path& scan);
 // Writes a comment that names the loop, and a line with its ids.
 void write_loop(io::OutputFile& file, const std::string& name, const std::vector<std::uint64_t>& loop);
-// Writes a step of density: a comment with the ids along it, for evaluation::read_steps().
-void write_step(io::OutputFile& file, const std::vector<std::uint64_t>& step);
+// Writes a row that is no true loop: a comment of the mark and the ids along it, for
+// evaluation::read_marked().
+void write_marked(io::OutputFile& file, std::string_view mark, const std::vector<std::uint64_t>& row);
 
 }  // namespace lacuna::synth

@@ -34,7 +34,7 @@ EdgeTree tree_of_loops(std::span<const LoopIds> loops, Positions positions) {
 }
 
 bool counts(const TrueLoop& loop, const MatchRule& rule) {
-  return loop.vertices.size() >= rule.min_vertices;
+  return !loop.is_narrow && loop.vertices.size() >= rule.min_vertices;
 }
 
 std::vector<Overlap> overlaps_of(std::span<const LoopIds> loops, std::span<const TrueLoop> truth,

@@ -21,7 +21,7 @@ namespace lacuna::matching {
 struct MatchRule {
   double tolerance = 0;  // a length
   double share = 0.7;
-  std::size_t min_vertices = 8;  // true loops with fewer do not count
+  std::size_t min_vertices = 8;  // true loops with fewer do not count, and neither do narrow ones
 };
 
 enum class EdgeDecision {

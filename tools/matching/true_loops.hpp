@@ -24,6 +24,7 @@ struct TrueLoop {
   std::vector<std::array<std::uint64_t, 2>> edges;  // in its order and direction
   std::string name;                                 // its name in the truth; empty if it has none
   std::optional<LoopKind> kind;                     // of loops as text; of a mesh's boundary not known
+  bool is_narrow = false;                           // too narrow to count, whatever its length
 };
 
 // Returns for each point the lowest id among the points at exactly its coordinates (-0 is 0). A point that is

@@ -55,22 +55,23 @@ TEST_CASE("the comment before a loop is its name, that of the file is none", "[i
   CHECK(read_named_loops(folder.write("a.ply", loops_ply("0 0 0 5 0\n"))).at(0).name.empty());
 }
 
-TEST_CASE("a line that begins with #step is a step of density, and neither a loop nor a name", "[io]") {
+TEST_CASE("a line that begins with a mark is neither a loop nor a name", "[io]") {
   const ScratchFolder folder;
   std::ostringstream many;
   many << "#step";
   for (int id = 0; id < 1000; ++id) many << ' ' << id;
-  const std::string file = folder.write(
-      "a.txt", "# head\n1 2 3\n#step 4 5 4\n 7 8\n" + many.str() + "\n9\n#steps 1 2\n# step 3\n");
+  const std::string file = folder.write("a.txt", "# head\n1 2 3\n#step 4 5 4\n 7 8\n" + many.str() +
+                                                     "\n9\n#steps 1 2\n# step 3\n#narrow 6 7 8\n");
   CHECK(read_loops(file) == Loops{{1, 2, 3}, {7, 8}, {9}});
   for (const NamedLoopIds& loop : read_named_loops(file)) CHECK((loop.name.empty() || loop.name == "head"));
-  const Loops steps = read_steps(file);
+  const Loops steps = read_marked(file, kStepMark);
   REQUIRE(steps.size() == 2);
   CHECK(steps[0] == LoopIds{4, 5, 4});
   CHECK(steps[1].size() == 1000);
-  CHECK(read_steps(folder.write("none.txt", "1 2 3\n")).empty());
-  CHECK(read_steps(folder.write("a.ply", loops_ply("0 0 0 5 0\n"))).empty());
-  CHECK_THAT(error_of([&] { read_steps(folder.write("b.txt", "1 2\n#step 3 x\n")); }),
+  CHECK(read_marked(file, kNarrowMark) == Loops{{6, 7, 8}});
+  CHECK(read_marked(folder.write("none.txt", "1 2 3\n"), kStepMark).empty());
+  CHECK(read_marked(folder.write("a.ply", loops_ply("0 0 0 5 0\n")), kStepMark).empty());
+  CHECK_THAT(error_of([&] { read_marked(folder.write("b.txt", "1 2\n#step 3 x\n"), kStepMark); }),
              Catch::Matchers::Contains("line 2: 'x' is not a point id"));
 }
 

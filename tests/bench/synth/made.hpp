@@ -87,12 +87,12 @@ inline std::vector<std::vector<std::uint64_t>> loops_of(const std::filesystem::p
   return loops;
 }
 
-// The lines of loops, without those of steps of density.
+// The lines of true loops, without marked rows.
 inline std::string without_steps(const std::string& truth) {
   std::istringstream in(truth);
   std::string kept;
   for (std::string line; std::getline(in, line);)
-    if (!line.starts_with("#step ")) kept += line + "\n";
+    if (!line.starts_with("#step ") && !line.starts_with("#narrow ")) kept += line + "\n";
   return kept;
 }
 

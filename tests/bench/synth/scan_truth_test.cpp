@@ -127,16 +127,21 @@ TEST_CASE("a window is the one true loop of its room, along its edge") {
   CHECK(perimeter(vertices(made, 0)) == Approx(4.4).epsilon(0.1));
 }
 
-TEST_CASE("a window narrower than four spacings is no hole, one of eight spacings is") {
+TEST_CASE("a window counts from four spacings on, and is a narrow hole from two spacings on") {
   const ScratchFolder folder;
+  const double spacing = 2 * kTwoPi * std::sqrt(0.5 / 100'000);
   const auto loops = [&](double width) {
     Scene scene = closed_room({2.5, 2, 1.5});
-    scene.walls[2].openings.push_back({2.5 - width / 2, 1, 2.5 + width / 2, 2, Opening::kGlass});
-    return make(whole_sphere(folder), scene).loops.size();
+    const double half = width * spacing / 2;
+    scene.walls[2].openings.push_back({2.5 - half, 1, 2.5 + half, 2, Opening::kGlass});
+    const std::size_t counting = make(whole_sphere(folder), scene).loops.size();
+    const auto narrow = evaluation::read_marked(folder / "made.loops.txt", evaluation::kNarrowMark);
+    for (const auto& loop : narrow) CHECK(loop.size() > 30);  // a metre high
+    return std::pair(counting, narrow.size());
   };
-  const double spacing = 2 * kTwoPi * std::sqrt(0.5 / 100'000);
-  CHECK(loops(3.5 * spacing) == 0);
-  CHECK(loops(8 * spacing) == 1);
+  CHECK(loops(1.5) == std::pair<std::size_t, std::size_t>(0, 0));
+  CHECK(loops(3.5) == std::pair<std::size_t, std::size_t>(0, 1));
+  CHECK(loops(8) == std::pair<std::size_t, std::size_t>(1, 0));
 }
 
 TEST_CASE("a box on the floor has one true loop: its shadow's outline, and the edges where it turns away") {
@@ -202,14 +207,14 @@ TEST_CASE("a tripod circle that another station samples sparsely is a step of de
   Scene scene = closed_room({1, 2, 1.5});
   scene.stand_high.x = 5;
   CHECK(make(options, scene).loops.size() == 1);
-  CHECK(evaluation::read_steps(folder / "made.loops.txt").empty());
+  CHECK(evaluation::read_marked(folder / "made.loops.txt", evaluation::kStepMark).empty());
   options.stations = 2;
   options.seed = 9;
   const std::vector<Vec3> eyes = Scanner(options, scene).stations();
   REQUIRE(std::fabs(eyes[0].x - eyes[1].x) > 3);  // so that no place lies in both circles
   const Made made = make(options, scene);
   CHECK(made.loops.empty());
-  const auto steps = evaluation::read_steps(folder / "made.loops.txt");
+  const auto steps = evaluation::read_marked(folder / "made.loops.txt", evaluation::kStepMark);
   REQUIRE(steps.size() == 2);
   std::set<std::size_t> found;
   for (const auto& step : steps) {

@@ -51,6 +51,18 @@ TEST_CASE("a loop along a true loop finds it, the next ones repeat it") {
   CHECK(scores.precision == 1);
 }
 
+TEST_CASE("a loop along a narrow true loop is neither right nor wrong") {
+  Drawing drawing;
+  const LoopIds ring = drawing.ring(40, 0, 0), far = drawing.ring(40, 100, 0);
+  std::vector<TrueLoop> truth = loops_through(std::vector{ring, far}, stand_ins(drawing.positions));
+  truth[0].is_narrow = true;
+  const LoopAccuracy result = match_loops(std::vector{ring, far}, truth, drawing.positions, {.tolerance = 2});
+  CHECK(result.loops[0].verdict == EdgeDecision::kShort);
+  CHECK(result.loops[1].verdict == EdgeDecision::kFound);
+  const LoopScores scores = scores_of(result);
+  CHECK((scores.true_loops == 1 && scores.found == 1 && scores.false_loops == 0));
+}
+
 TEST_CASE("a loop that covers less than 70 percent of a true one does not find it") {
   Drawing drawing;
   const LoopIds ring = drawing.ring(100, 0, 0);
