@@ -127,8 +127,7 @@ void take_mesh(const std::vector<Triangle>& triangles, Truth& truth) {
   measure_holes(points, tree, truth);
 }
 
-// `narrow`: the number of the last loops that are too narrow to count.
-void take_loops(std::vector<NamedLoopIds> named, std::size_t narrow, Truth& truth) {
+void take_loops(std::vector<NamedLoopIds> named, Truth& truth) {
   std::vector<LoopIds> loops;
   for (const NamedLoopIds& loop : named) {
     check_ids(truth.file, loop.ids, truth);
@@ -142,7 +141,7 @@ void take_loops(std::vector<NamedLoopIds> named, std::size_t narrow, Truth& trut
   truth.spacing = median_spacing(points, tree);
   for (std::size_t i = 0; i < named.size(); ++i) {
     truth.loops[i].name = std::move(named[i].name);
-    truth.loops[i].is_narrow = i + narrow >= named.size();
+    truth.loops[i].is_narrow = named[i].is_narrow;
     truth.loops[i].kind = kind_of(loops[i], truth.positions, points, tree);
   }
   measure_holes(points, tree, truth);
@@ -209,9 +208,9 @@ Truth read_truth(const fs::path& file, std::vector<ScanInput> scans, Result& res
   } else {
     truth.steps = read_marked(file, kStepMark);
     for (const LoopIds& step : truth.steps) check_ids(file, step, truth);
-    std::vector<LoopIds> narrow = read_marked(file, kNarrowMark);
-    for (LoopIds& loop : narrow) loops.push_back({std::move(loop), "narrow hole"});
-    take_loops(std::move(loops), narrow.size(), truth);
+    for (LoopIds& loop : read_marked(file, kNarrowMark))
+      loops.push_back({std::move(loop), "narrow hole", true});
+    take_loops(std::move(loops), truth);
   }
   add_vertices(result, truth);
   return truth;

@@ -21,6 +21,7 @@ std::vector<LoopIds> read_loops(const std::filesystem::path& file);
 struct NamedLoopIds {
   LoopIds ids;
   std::string name;  // empty without a name
+  bool is_narrow = false;
 };
 
 // The first line of a file of true loops begins with this text. The line is about the file and names no loop.

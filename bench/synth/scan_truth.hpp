@@ -33,7 +33,7 @@ class ScanTruth {
   // rare, and loops with much of their edge in closed gaps.
   std::vector<NamedLoop> loops() const;
 
-  // The same of holes that are too narrow to count, half as wide or more as those that do.
+  // The same of holes too narrow to count: at least half as wide as the narrowest ones that do.
   std::vector<std::vector<std::uint64_t>> narrow_loops() const;
 
   // Call it after every echo is recorded. Returns the points along each step, 12 or more, sorted. Where a
