@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Figures of part D: the loops of a hole at the levels of a scan, and which holes `--min-hole` reports."""
+"""Figures of part D: the loops of a hole at the levels of a scan, which holes `--min-hole` reports, and how small they are."""
 
 import math
+import re
+from pathlib import Path
 
 from scans import scan_lines
 from svg import BLUE, GREEN, INK, LINE, MUTED, ORANGE, RED, Page
@@ -43,6 +45,19 @@ REPORTED = {
 }
 
 
+def share_axes(page, x0, y0, width, height):
+    """Draws the lines of 0 to 100 %."""
+    for share in (0, 0.25, 0.5, 0.75, 1):
+        y = y0 + (1 - share) * height
+        page.parts.append(f'<line x1="{x0}" y1="{y:.1f}" x2="{x0 + width}" y2="{y:.1f}" stroke="{LINE}"/>')
+        page.text(x0 - 8, y + 5, f"{100 * share:.0f} %", MUTED, "end")
+
+
+def curve(page, color, places):
+    d = "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in places)
+    page.parts.append(f'<path d="{d}" fill="none" stroke="{color}" stroke-width="2.5"/>')
+
+
 def min_hole(path):
     page = Page(820, 380, "Which holes --min-hole reports, by their diameter")
     x0, y0, width, height = 70, 30, 430, 280
@@ -50,19 +65,54 @@ def min_hole(path):
     def at(diameter, share):
         return x0 + (diameter - 0.4) / 1.1 * width, y0 + (1 - share) * height
 
-    for share in (0, 0.25, 0.5, 0.75, 1):
-        (left, y), (right, _) = at(0.4, share), at(1.5, share)
-        page.parts.append(f'<line x1="{left:.1f}" y1="{y:.1f}" x2="{right:.1f}" y2="{y:.1f}" stroke="{LINE}"/>')
-        page.text(left - 8, y + 5, f"{100 * share:.0f} %", MUTED, "end")
+    share_axes(page, x0, y0, width, height)
     for diameter in (0.4, 0.6, 0.8, 1.0, 1.2, 1.4):
         page.text(at(diameter, 0)[0], y0 + height + 20, f"{diameter}", MUTED, "middle")
     page.text(x0 + width / 2, y0 + height + 44, "diameter of the hole, in --min-hole", INK, "middle")
     for color, shares in REPORTED.values():
-        d = "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in (at(*p) for p in zip(DIAMETERS, shares)))
-        page.parts.append(f'<path d="{d}" fill="none" stroke="{color}" stroke-width="2.5"/>')
+        curve(page, color, (at(*p) for p in zip(DIAMETERS, shares)))
     page.text(520, 60, "Holes reported", weight="bold")
     page.legend(520, 88, [("line", color, words) for words, (color, _) in REPORTED.items()])
     page.write(path)
 
 
-FIGURES = {"levels": levels, "min_hole": min_hole}
+MEASURED = Path(__file__).resolve().parents[2] / "bench/accuracy/README.md"
+KINDS = {  # the groups of each
+    "surfaces": (BLUE, "synth|uneven|half|density|doubled|outliers"),
+    "meshes": (GREEN, "meshes|.*-meshes"),
+    "range maps": (INK, "range|range-made"),
+    "aerial": (ORANGE, "aerial"),
+    "lidar": (RED, "lidar|lidar-.*"),
+}
+
+
+def found_by_width():
+    """Returns the classes of width, and for each group of MEASURED a pair (found, true) per class."""
+    table = MEASURED.read_text(encoding="utf-8").split("Lacuna, by group:")[1].split("\n## ")[0]
+    title, _, *rows = ([cell.strip() for cell in line.strip("|").split("|")] for line in table.strip().splitlines())
+    counts = [[tuple(map(int, cell.split(" of "))) if cell else (0, 0) for cell in row[1:]] for row in rows]
+    return title[1:], {row[0]: of_group for row, of_group in zip(rows, counts)}
+
+
+def widths(path):
+    page = Page(820, 380, "Found of the true holes, by their width")
+    x0, y0, width, height = 70, 30, 430, 280
+    classes, found = found_by_width()
+
+    def at(place, share):
+        return x0 + (place + 0.5) / len(classes) * width, y0 + (1 - share) * height
+
+    share_axes(page, x0, y0, width, height)
+    for place, words in enumerate(classes):
+        page.text(at(place, 0)[0], y0 + height + 20, words, MUTED, "middle")
+    page.text(x0 + width / 2, y0 + height + 44, "width of the hole, in local spacings", INK, "middle")
+    for color, groups in KINDS.values():
+        of_kind = [counts for name, counts in found.items() if re.fullmatch(groups, name)]
+        sums = [[sum(numbers) for numbers in zip(*column)] for column in zip(*of_kind)]
+        curve(page, color, (at(place, some / true) for place, (some, true) in enumerate(sums) if true > 0))
+    page.text(520, 60, "Holes found", weight="bold")
+    page.legend(520, 88, [("line", color, words) for words, (color, _) in KINDS.items()])
+    page.write(path)
+
+
+FIGURES = {"levels": levels, "min_hole": min_hole, "widths": widths}
