@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/inspect.hpp"
 
-#include "engine/first_level.hpp"
 #include "engine/run/job.hpp"
+#include "engine/scan_steps.hpp"
 #include "engine/summarise.hpp"
 
 namespace lacuna {
 
-Inspection inspect(PointSource& scan, const Config& given, const std::filesystem::path& workspace,
+Inspection inspect(PointSource& scan, const Config& given, const std::filesystem::path& temporary,
                    Progress& progress) {
   check_config(given);
   const Config config = with_min_hole(given);
-  Job job(config, workspace, progress);
-  const Level level = first_level(scan, {}, job);
+  Job job(config, temporary, progress);
+  const Parts nothing_kept;
+  const Level level = first_level({scan, nothing_kept, job});
   return {.summary = summarise(level, job),
           .cell_size = level.survey.grid.edge(),
           .cells = level.store.tiling().cells.size()};

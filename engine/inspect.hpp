@@ -18,9 +18,9 @@ struct Inspection {
   std::uint64_t cells = 0;
 };
 
-// Surveys, thins and buckets the scan as a run does. `workspace`: an existing empty folder. Throws `Error`,
+// Surveys, thins and buckets the scan as a run does. `temporary`: an existing empty folder. Throws `Error`,
 // also where the scan can never fit in the memory limit.
-Inspection inspect(PointSource& scan, const Config& config, const std::filesystem::path& workspace,
+Inspection inspect(PointSource& scan, const Config& config, const std::filesystem::path& temporary,
                    Progress& progress);
 
 }  // namespace lacuna

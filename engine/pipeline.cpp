@@ -3,26 +3,22 @@
 
 #include "engine/boundary/candidates.hpp"
 #include "engine/consumers.hpp"
-#include "engine/evaluate/evaluate_tiles.hpp"
-#include "engine/first_level.hpp"
 #include "engine/halo/eps_balls.hpp"
-#include "engine/halo/halo.hpp"
+#include "engine/level_steps.hpp"
 #include "engine/loops/measure_loops.hpp"
 #include "engine/loops/nest_loops.hpp"
-#include "engine/loops/rate_loops.hpp"
-#include "engine/pipeline_steps.hpp"
+#include "engine/parts/kept_run.hpp"
 #include "engine/results/collect.hpp"
 #include "engine/results/loop_rows.hpp"
 #include "engine/results/orientation_graph.hpp"
 #include "engine/results/point_results.hpp"
 #include "engine/results/represented.hpp"
 #include "engine/results/scan_sample.hpp"
-#include "engine/run/error.hpp"
+#include "engine/scan_steps.hpp"
 #include "engine/summarise.hpp"
 #include "engine/thin/thin.hpp"
 #include "engine/track/level_loops.hpp"
 #include "engine/track/track_loops.hpp"
-#include "engine/workspace/sealed_level.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -35,37 +31,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct LevelResult {
-  TileOutputs outputs;
-  Totals totals;
-  FoundLoops boundary;
-};
-
-// Finds the loops of one level.
-LevelResult find_loops(const Level& level, Consumers& consumers, const Workspace& workspace, Job& job) {
-  // Halo, evaluate: each point's criteria from its exact neighbourhood (paper, 4.1 to 4.6).
-  TileOutputs outputs = evaluate_level(level, consumers.all, workspace, job);
-  Totals totals = read_totals(outputs, level.store.tiling(), level.extent);
-
-  // Boundary edges, stitch, loops (paper, 5.1 and 5.2).
-  Phase phase(job, "loops", 0);
-  BoundaryMethod& method = *consumers.method;
-  method.complete_edges(outputs);
-  job.trim();
-  method.stitch(outputs, totals);
-  FoundLoops found = method.find_loops(outputs);
-  if (job.config.loops.method == LoopMethod::kTangential) rate_loops(level.store, found.loops, job);
-  return {std::move(outputs), std::move(totals), std::move(found)};
-}
-
-// Finds the loops of each level above, from fine to coarse.
-void find_loops_above(const Level& first, Totals totals, std::vector<LevelLoops>& levels,
-                      const Workspace& workspace, Job& job) {
-  Phase phase(job, "levels", 2 * first.store.tiling().points());  // each has half of the points below
+// Finds the loops of each level above the first one, from fine to coarse.
+void find_loops_above(const Level& first, Totals totals, std::vector<LevelLoops>& levels, const Run& run) {
+  Phase phase(run.job, "levels", 2 * first.store.tiling().points());  // each has half of the points below
   std::optional<Level> below;
-  while (std::optional<Level> level = level_above(below ? *below : first, totals, workspace, job)) {
-    Consumers consumers(*level, job);
-    LevelResult found = find_loops(*level, consumers, workspace, job);
+  while (std::optional<Level> level = level_above(
+             below ? *below : first, [&] { return totals; }, run)) {
+    Consumers consumers(*level, run.job);
+    std::optional<TileOutputs> outputs;
+    const auto evaluate = [&]() -> const TileOutputs& {
+      return outputs.emplace(evaluate_level(*level, consumers.all, run));
+    };
+    FoundLevel found = loops_of_level(*level, *consumers.method, evaluate, run);
     levels.push_back(level_loops(std::move(found.boundary.loops), level->edge, found.totals));
     totals = std::move(found.totals);
     phase.advance(level->store.tiling().points());
@@ -73,68 +50,29 @@ void find_loops_above(const Level& first, Totals totals, std::vector<LevelLoops>
   }
 }
 
-}  // namespace
-
-std::optional<Level> thin_level(const Level& below, const Totals& totals, const TaskShare& share,
-                                const Workspace& workspace, Job& job) {
-  const double edge = edge_above(below, totals.distances);
-  if (edge == 0) return std::nullopt;
-  Level part = thin_above(below, share, edge, level_files(below.number + 1, workspace, job), job);
-  if (share.tasks == 1 && part.store.tiling().points() < kFewestOfLevel) return std::nullopt;
-  seal_part(part, share, made_from(below, job.config), workspace, job);
-  return part;
-}
-
-std::optional<Level> level_above(const Level& below, const Totals& totals, const Workspace& workspace,
-                                 Job& job) {
-  const std::size_t number = below.number + 1;
-  const std::string from = made_from(below, job.config);
-  std::optional<Level> level = open_level(number, from, workspace, job);
-  if (!level) {
-    const std::size_t tasks = tasks_of(number, workspace.plan);
-    if (tasks == 1) return thin_level(below, totals, {}, workspace, job);
-    for (std::size_t task = 0; task < tasks; ++task) {
-      if (!has_part(number, {task, tasks}, from, workspace, job))
-        thin_level(below, totals, {task, tasks}, workspace, job);
-    }
-    level = open_level(number, from, workspace, job);
-    if (!level) fail_replaced(workspace);
-  }
-  return level->store.tiling().points() >= kFewestOfLevel ? std::move(level) : std::nullopt;
-}
-
-TileOutputs evaluate_level(const Level& level, std::span<const TileConsumer> consumers,
-                           const Workspace& workspace, Job& job, const TaskShare& share) {
-  const Tiling& tiling = level.store.tiling();
-  TileOutputs outputs(tiling, find_outputs(level, workspace, job.config), job);
-  std::vector<TileIndex> tiles = outputs.missing();
-  const TileRange range = tiling.tiles_in(share);
-  std::erase_if(tiles, [&](TileIndex t) { return t < range.first || t >= range.last; });
-  evaluate_tiles(level, tiles, exchange_halo(level.store, tiles, job), consumers, outputs, job);
-  return outputs;
-}
-
-namespace {
-
-std::unique_ptr<Detection> detect_once(PointSource& scan, const Config& config, const fs::path& scratch,
+std::unique_ptr<Detection> detect_once(PointSource& scan, const Config& config, const fs::path& temporary,
                                        Progress& progress) {
-  Job job(config, scratch, progress);
-  const Workspace workspace = open_workspace(scan, config);
+  Job job(config, temporary, progress);
+  const Parts parts = open_parts(scan, config, progress, Opener::kRun);
+  const Run run{scan, parts, job};
 
   // Survey and bucket: find where the points are, and bring them into tiles on disk.
-  Level first = first_level(scan, workspace, job);
+  Level first = first_level(run);
   const TileStore& store = first.store;
   Summary summary = summarise(first, job);
   const double eps = eps_length(config.neighbourhood, first.extent);
   refuse_balls(store.tiling(), eps, job);  // the balls of thinner levels hold fewer points
 
-  // Finds the loops of all levels.
+  // Halo, evaluate: each point's criteria from its exact neighbourhood (paper, 4.1 to 4.6).
   Consumers consumers(first, job);
-  LevelResult found = find_loops(first, consumers, workspace, job);
-  const TileOutputs& outputs = found.outputs;
+  const TileOutputs outputs = evaluate_level(first, consumers.all, run);
+
+  // Boundary edges, stitch, loops (paper, 5.1 and 5.2), of all levels.
+  FoundLevel found = loops_of_level(
+      first, *consumers.method, [&]() -> const TileOutputs& { return outputs; }, run);
   std::vector<LevelLoops> levels;
   levels.push_back(level_loops(std::move(found.boundary.loops), first.edge, found.totals));
-  if (has_levels(config)) find_loops_above(first, found.totals, levels, workspace, job);
+  if (has_levels(config)) find_loops_above(first, found.totals, levels, run);
   add_findings(found.totals, found.boundary, levels, eps, summary);
 
   // Track: follows each hole through the levels.
@@ -167,12 +105,12 @@ std::unique_ptr<Detection> detect_once(PointSource& scan, const Config& config, 
 
 }  // namespace
 
-std::unique_ptr<Detection> detect(PointSource& scan, const Config& given, const fs::path& scratch,
+std::unique_ptr<Detection> detect(PointSource& scan, const Config& given, const fs::path& temporary,
                                   Progress& progress) {
   check_config(given);
   const Config config = with_min_hole(given);
   const Config shared = with_planned_tiles(config);
-  return without_damaged_files([&] { return detect_once(scan, shared, scratch, progress); });
+  return without_damaged_files([&] { return detect_once(scan, shared, temporary, progress); });
 }
 
 }  // namespace lacuna

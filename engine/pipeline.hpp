@@ -14,13 +14,13 @@
 namespace lacuna {
 
 // Finds the boundary probability of every point and the loops around every hole of `scan`. Data that does not
-// fit in memory goes to `scratch`, an existing empty folder that must outlive the result. An empty path
+// fit in memory goes to `temporary`, an existing empty folder that must outlive the result. An empty path
 // stands for files in memory. Throws `Error`, and what `progress` throws. The result is the same, bit for
 // bit, for every `config.run`.
 //
-// The config may name a workspace, an existing folder. Then finished steps are kept there. A later call with
-// the same input and parameters goes on from them (workspace/workspace.hpp).
+// The config may name an existing folder that is kept. Then parts of finished steps stay there. A later call
+// makes again only what differs (parts/parts.hpp).
 LACUNA_API std::unique_ptr<Detection> detect(PointSource& scan, const Config& config,
-                                             const std::filesystem::path& scratch, Progress& progress);
+                                             const std::filesystem::path& temporary, Progress& progress);
 
 }  // namespace lacuna

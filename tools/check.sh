@@ -85,7 +85,7 @@ run_tests build --label-regex "$( ((all)) && echo '^(fast|slow)$' || echo '^fast
 measures='memory_test'
 export ASAN_OPTIONS=quarantine_size_mb=16  # freed memory that is not used again; 256 took a third more time
 export LSAN_OPTIONS=suppressions=$PWD/tests/support/leaks_of_others.txt:print_suppressions=0
-build build-sanitize lacuna_tests -DLACUNA_SANITIZE=address -DLACUNA_PYTHON=OFF "-DLACUNA_TESTED=$( ((all)) && echo 'engine|io' || echo 'engine/(store|bucket|workspace|run)|io')"
+build build-sanitize lacuna_tests -DLACUNA_SANITIZE=address -DLACUNA_PYTHON=OFF "-DLACUNA_TESTED=$( ((all)) && echo 'engine|io' || echo 'engine/(store|bucket|parts|steps|run)|io')"
 LACUNA_DRAWN_SHARE=0.1 run_tests build-sanitize --exclude-regex "$measures"
 
 # ---- all else

@@ -132,7 +132,7 @@ TilePlan plan_tiles(SurveyedScan& survey, const Job& job) {
   const std::uint64_t points = survey.points - survey.dropped;
   TilePlan plan = split_tiles(std::move(survey.cells), survey.grid, points, job.tile_points(points));
   plan.cell_points = job.cell_points(points);
-  require_space(job.workspace, least_store_bytes(plan, survey.precision()));
+  require_space(job.temporary, least_store_bytes(plan, survey.precision()));
   return plan;
 }
 

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cstring>
+#include <string_view>
 #include <type_traits>
 
 namespace lacuna {
 namespace {
+
+constexpr std::string_view kPoints = "points";  // the stream of a part
 
 template <class Record>
 void pack_as(std::span<const ScanPoint> points, std::size_t step, std::byte* to) {
@@ -72,6 +75,7 @@ void ScatteredPoints::add(std::size_t place, std::span<const ScanPoint> points,
 
 void ScatteredPoints::for_each_packed(std::size_t place,
                                       const std::function<void(std::span<const std::byte>)>& visit) const {
+  if (part_) return part_->for_each<std::byte>(kPoints, place, visit);
   constexpr std::size_t kTogether = 1 << 13;
   std::vector<std::byte> part(std::min<std::uint64_t>(kTogether * form_.record_bytes(), lists_->size(place)));
   lists_->for_each_part(place, part, [&](std::size_t bytes) { visit(std::span(part).first(bytes)); });
@@ -79,6 +83,11 @@ void ScatteredPoints::for_each_packed(std::size_t place,
 
 void ScatteredPoints::for_each(std::size_t place, const VisitPoints& visit) const {
   for_each_packed(place, [&](std::span<const std::byte> records) { visit(form_.unpack(records)); });
+}
+
+void ScatteredPoints::write(PartWriter& part) const {
+  for (std::size_t place = 0; place < lists_->lists(); ++place)
+    for_each_packed(place, [&](std::span<const std::byte> packed) { part.add(kPoints, place, packed); });
 }
 
 }  // namespace lacuna

@@ -5,12 +5,15 @@
 #include "engine/run/job.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/point_column.hpp"
+#include "engine/store/sealed_part.hpp"
 #include "engine/store/tile_store.hpp"
 
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace lacuna {
@@ -32,21 +35,24 @@ struct PointForm {
   PointsAndNormals unpack(std::span<const std::byte> records) const;
 };
 
-// The points of all places. What does not fit in memory is on disk.
+// The points of all places. What does not fit in memory is on disk, or all of them are in a sealed part.
 class ScatteredPoints {
  public:
   ScatteredPoints(std::size_t places, PointForm form, const Job& job);
+  ScatteredPoints(PartReader part, PointForm form) : form_(form), part_(std::move(part)) {}
 
   // From any thread.
   void add(std::size_t place, std::span<const ScanPoint> points, std::span<const PlainNormal> normals);
-  std::size_t places() const { return lists_->lists(); }
-  // Call visit(packed), or visit(points), with all points of a place, some thousands at a time, in any order.
-  void for_each_packed(std::size_t place, const std::function<void(std::span<const std::byte>)>& visit) const;
+  // Calls visit(points) with all points of a place, some thousands at a time, in any order.
   void for_each(std::size_t place, const VisitPoints& visit) const;
+  void write(PartWriter& part) const;
 
  private:
+  void for_each_packed(std::size_t place, const std::function<void(std::span<const std::byte>)>& visit) const;
+
   PointForm form_;
   std::unique_ptr<AppendBytes> lists_;
+  std::optional<PartReader> part_;
 };
 
 }  // namespace lacuna

@@ -119,9 +119,9 @@ struct RunConfig {
   std::int64_t threads = 0;        // 0: one per core
   std::uint64_t memory_limit = 0;  // bytes; 0: half of the machine's memory
   std::int64_t tile_points = 0;    // points per tile at most; 0: chosen from threads and memory limit
-  std::string workspace;           // folder of a run that can go on later; empty: it cannot
-  std::string scratch;             // folder for temporary files; empty: in the workspace or the output folder
-  std::string note;                // no parameter: text of the caller that a workspace keeps for it
+  std::string workspace;           // the kept folder, of a run that can go on later; empty: it cannot
+  std::string scratch;             // folder for temporary files; empty: in the kept or the output folder
+  std::string note;                // no parameter: text of the caller that is kept for it
 };
 
 struct Config {

@@ -2,21 +2,26 @@
 // The data that the steps behind the evaluation need of the tiles: named streams of plain records.
 //
 // Nothing else is left of an evaluated tile: the neighbour graph never touches the disk. The global steps
-// read the streams tile by tile. A run whose workspace is kept seals the outputs, so no tile is evaluated
-// twice. Any other run buffers them in memory, and spills what does not fit to one file without a name.
+// read the streams tile by tile. A run buffers them in memory, and spills what does not fit to one file
+// without a name. A run that keeps its parts gathers tiles in parts. It seals one from time to time, so that
+// a stop loses the tiles of the last seconds. No other process gives the same name to a part, so several may
+// evaluate tiles of one level. Two outputs of one tile do no harm: they are the same.
 #pragma once
 
 #include "engine/model/tiling.hpp"
+#include "engine/parts/parts.hpp"
 #include "engine/run/job.hpp"
 #include "engine/store/append_lists.hpp"
-#include "engine/workspace/kept_outputs.hpp"
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -56,13 +61,13 @@ class TileOutput {
 // The outputs of all tiles of a level. Tiles are added from any thread. A stream is read after `finish`.
 class TileOutputs {
  public:
-  // `kept`: where a workspace keeps the outputs. `tiling` must outlive this.
-  TileOutputs(const Tiling& tiling, std::optional<KeptOutputs> kept, const Job& job);
+  // `key`: of the parts that are kept. `tiling` must outlive this.
+  TileOutputs(const Tiling& tiling, const Parts& parts, PartKey key, const Job& job);
 
   // Returns the tiles whose outputs are not there yet, ascending.
   std::vector<TileIndex> missing() const;
   void add(TileIndex tile, const TileOutput& output);
-  void finish();
+  void finish();  // seals the last part
 
   // Returns records in the order in which they were added. Throws `Error` where a sealed stream is broken.
   template <class Record>
@@ -78,6 +83,25 @@ class TileOutputs {
 
  private:
   static constexpr std::size_t kUnknown = SIZE_MAX;
+  using Clock = std::chrono::steady_clock;
+
+  // Where outputs are kept.
+  struct Kept {
+    std::filesystem::path folder;
+    PartKey key;
+    Clock::duration least_age;  // of a part, unless it is large
+    Clock::time_point start = Clock::now();
+    // By tile: the part that has its output; null: there is no output.
+    std::vector<std::shared_ptr<const PartReader>> part_of;
+    std::filesystem::path open_path;  // of the open part
+    std::optional<PartWriter> open;
+    Clock::time_point begun;  // when the open part was begun
+
+    void find_parts(const Parts& parts);
+    bool take(const std::filesystem::path& file);  // returns whether it is a part of these tiles
+    void add(TileIndex tile, std::span<const TileOutput::Stream> streams);
+    void seal();
+  };
 
   std::size_t list_of(std::string_view stream, TileIndex tile) const;
   std::size_t make_list(std::string_view stream, TileIndex tile);
@@ -85,11 +109,11 @@ class TileOutputs {
   void read_bytes(std::string_view stream, TileIndex tile, std::span<std::byte> to) const;
 
   const Tiling* tiling_;
-  std::optional<KeptOutputs> kept_;
-  // Without a workspace: a list for each stream and tile, stream by stream.
+  std::optional<Kept> kept_;
+  // Where they are not kept: a list for each stream and tile, stream by stream.
   std::vector<std::string_view> streams_;
   std::unique_ptr<AppendBytes> lists_;
-  std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();  // of new streams
+  std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();  // of new streams, or the open part
 };
 
 }  // namespace lacuna

@@ -29,6 +29,36 @@ struct DistanceBin {
 constexpr RecordStream<TileSums> kSums{"sums"};
 constexpr RecordStream<DistanceBin> kDistances{"distances"};
 
+TileSums sums_of(const Totals& totals) {
+  return {.points = totals.points,
+          .neighbours = totals.neighbours,
+          .candidates = totals.candidates,
+          .undefined_normals = totals.undefined_normals,
+          .probabilities = totals.probabilities,
+          .edge_length_low = static_cast<std::uint64_t>(totals.edge_length),
+          .edge_length_high = static_cast<std::int64_t>(totals.edge_length >> 64)};
+}
+
+std::vector<DistanceBin> bins_of(const Totals& totals) {
+  std::vector<DistanceBin> bins;
+  for (const auto& [bin, count] : totals.distances.counts) bins.push_back({bin, count});
+  return bins;
+}
+
+void add(const std::vector<TileSums>& of_tiles, const std::vector<DistanceBin>& distances, Totals& totals) {
+  for (const TileSums& sums : of_tiles) {
+    totals.points += sums.points;
+    totals.neighbours += sums.neighbours;
+    totals.candidates += sums.candidates;
+    totals.undefined_normals += sums.undefined_normals;
+    totals.edge_length += (Int128{sums.edge_length_high} << 64) + sums.edge_length_low;
+    for (std::size_t bin = 0; bin < kProbabilityBins; ++bin)
+      totals.probabilities[bin] += sums.probabilities[bin];
+  }
+  for (const DistanceBin& bin : distances)
+    totals.distances.counts[static_cast<std::uint32_t>(bin.bin)] += bin.count;
+}
+
 }  // namespace
 
 Totals::Totals(double extent) : length_unit(lacuna::length_unit(extent)) {}
@@ -72,35 +102,25 @@ Totals sum_up(std::span<const Evaluation> evaluations, const Neighbourhoods& nei
 }
 
 void emit_totals(const Totals& sums, TileOutput& output) {
-  std::vector<TileSums> stored(1);
-  stored.front() = {.points = sums.points,
-                    .neighbours = sums.neighbours,
-                    .candidates = sums.candidates,
-                    .undefined_normals = sums.undefined_normals,
-                    .probabilities = sums.probabilities,
-                    .edge_length_low = static_cast<std::uint64_t>(sums.edge_length),
-                    .edge_length_high = static_cast<std::int64_t>(sums.edge_length >> 64)};
-  output.add(kSums, std::move(stored));
-  std::vector<DistanceBin> bins;
-  for (const auto& [bin, count] : sums.distances.counts) bins.push_back({bin, count});
-  output.add(kDistances, std::move(bins));
+  output.add(kSums, {sums_of(sums)});
+  output.add(kDistances, bins_of(sums));
 }
 
 Totals read_totals(const TileOutputs& outputs, const Tiling& tiling, double extent) {
   Totals totals(extent);
-  for (TileIndex tile = 0; tile < tiling.tiles.size(); ++tile) {
-    for (const TileSums& sums : outputs.read(kSums, tile)) {
-      totals.points += sums.points;
-      totals.neighbours += sums.neighbours;
-      totals.candidates += sums.candidates;
-      totals.undefined_normals += sums.undefined_normals;
-      totals.edge_length += (Int128{sums.edge_length_high} << 64) + sums.edge_length_low;
-      for (std::size_t bin = 0; bin < kProbabilityBins; ++bin)
-        totals.probabilities[bin] += sums.probabilities[bin];
-    }
-    for (const DistanceBin& bin : outputs.read(kDistances, tile))
-      totals.distances.counts[static_cast<std::uint32_t>(bin.bin)] += bin.count;
-  }
+  for (TileIndex tile = 0; tile < tiling.tiles.size(); ++tile)
+    add(outputs.read(kSums, tile), outputs.read(kDistances, tile), totals);
+  return totals;
+}
+
+void write_totals(const Totals& totals, PartWriter& part) {
+  part.add_one(kSums.name, sums_of(totals));
+  part.add(kDistances.name, bins_of(totals));
+}
+
+Totals read_totals(const PartReader& part, double extent) {
+  Totals totals(extent);
+  add(part.records<TileSums>(kSums.name), part.records<DistanceBin>(kDistances.name), totals);
   return totals;
 }
 

@@ -51,4 +51,8 @@ void emit_totals(const Totals& sums, TileOutput& output);
 // Returns the sums of all tiles.
 Totals read_totals(const TileOutputs& outputs, const Tiling& tiling, double extent);
 
+// The sums as streams of a part.
+void write_totals(const Totals& totals, PartWriter& part);
+Totals read_totals(const PartReader& part, double extent);
+
 }  // namespace lacuna

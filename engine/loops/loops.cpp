@@ -3,6 +3,8 @@
 
 #include "engine/store/column_writer.hpp"
 
+#include <utility>
+
 namespace lacuna {
 
 void Loops::add(std::uint64_t count, const LoopEvidence& evidence,
@@ -33,6 +35,25 @@ int Loops::compare(const Loops& a, const Entry& i, const Loops& b, const Entry& 
 
 int compare_points(const Loops& a, std::size_t i, const Loops& b, std::size_t j) {
   return Loops::compare(a, a.index_[i], b, b.index_[j]);
+}
+
+void Loops::write(PartWriter& part) const {
+  part.add("loops", index_);
+  ColumnReader<LoopPoint> points(points_);
+  add_in_blocks<LoopPoint>(part, "points", 0, [&](auto&& visit) {
+    for (std::uint64_t i = 0; i < points_.size(); ++i) visit(points[i]);
+  });
+}
+
+Loops Loops::read(const PartReader& part, std::filesystem::path file) {
+  Loops loops(std::move(file));
+  loops.index_ = part.records<Entry>("loops");
+  ColumnWriter<LoopPoint> writer(loops.points_);
+  part.for_each<LoopPoint>("points", 0, [&](std::span<const LoopPoint> points) {
+    for (const LoopPoint& point : points) writer.add(point);
+  });
+  writer.finish();
+  return loops;
 }
 
 void Loops::sort() {

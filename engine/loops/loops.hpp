@@ -6,6 +6,7 @@
 #include "engine/run/job.hpp"
 #include "engine/store/column.hpp"
 #include "engine/store/scratch.hpp"
+#include "engine/store/sealed_part.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -38,6 +39,10 @@ class Loops {
   void read(std::size_t loop, std::span<LoopPoint> to) const { points_.read(index_[loop].first, to); }
   // Calls visit for the points, in the order of the loop, in blocks.
   void for_each_point(std::size_t loop, const std::function<void(const LoopPoint&)>& visit) const;
+
+  // The loops as streams of a part. `file`: a temporary file.
+  void write(PartWriter& part) const;
+  static Loops read(const PartReader& part, std::filesystem::path file);
 
   // Compares the points of two loops by (first id, length, ids). Returns less than 0 where a comes first, and
   // 0 where they have the same points.
@@ -88,7 +93,7 @@ void for_each_loop(const LoopSet& loops, Job& job, Visit&& visit) {
   for (std::size_t i = 0; i < loops.size(); ++i)
     needs.push_back(std::min<std::uint64_t>(most, 2 * loops.count(i) * sizeof(LoopPoint)));
   job.for_each_within(job.memory.work / 4 * 3, needs, [&](std::size_t i) {
-    Scratch scratch(job.workspace, most);
+    Scratch scratch(job.temporary, most);
     const std::span<LoopPoint> points = scratch.array<LoopPoint>(loops.count(i));
     loops.read(i, points);
     visit(i, std::span<const LoopPoint>(points), scratch);

@@ -150,7 +150,7 @@ std::vector<std::size_t> loops_inside(const MeasuredLoops& loops, std::size_t po
 std::vector<std::int64_t> find_around(const MeasuredLoops& loops, Job& job) {
   const std::vector<LoopMeasures>& measures = loops.measures;
   const MemoryLedger::Lease sampling = job.ledger.take(job.memory.work / 4);
-  Scratch scratch(job.workspace, sampling.bytes());
+  Scratch scratch(job.temporary, sampling.bytes());
   const std::span<const LoopSample> samples = sample_loops(loops, job, scratch);
   const MemoryLedger::Lease comparing = job.ledger.take(job.memory.work / 4);
   const std::size_t most = std::max<std::size_t>(1, comparing.bytes() / (kSamples * sizeof(Inside)));

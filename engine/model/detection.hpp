@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a finished run hands to the writers: numbers in memory, everything of the scan's size as streams
-// from the workspace.
+// from the temporary folder.
 #pragma once
 
 #include "engine/model/loop.hpp"

@@ -67,11 +67,11 @@ class LACUNA_API PointSource {
   // Lets passes read the parts [first, last) alone. The first point of theirs has the id `id`.
   virtual void select(std::size_t /*first*/, std::size_t /*last*/, PointId /*id*/) {}
   // Returns one line for each part of the source. Lines are equal only where the points are.
-  // The result is empty where a source cannot identify its parts. Then no workspace is kept.
+  // The result is empty where a source cannot identify its parts. Then no part is kept.
   virtual std::vector<std::string> identity() const { return {}; }
   // Returns names that open the same parts again, in whatever form the source's program reads.
   virtual std::vector<std::string> names() const { return {}; }
-  // Returns counts of the last pass, such as rows that filters left out. A workspace keeps them for runs that
+  // Returns counts of the last pass, such as rows that filters left out. They are kept for runs that
   // do not read again.
   virtual std::vector<std::uint64_t> pass_counts() const { return {}; }
   virtual void set_pass_counts(std::span<const std::uint64_t>) {}

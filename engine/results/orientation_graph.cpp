@@ -130,7 +130,7 @@ RowSet opposed_normals(const TileOutputs& outputs, const TileStore& store, Job& 
   }
 
   const MemoryLedger::Lease spanning = job.ledger.take(job.memory.work / 2);
-  Scratch scratch(job.workspace, spanning.bytes());
+  Scratch scratch(job.temporary, spanning.bytes());
   const std::uint64_t rows = tiling.row_count();
   SignedUnionFind trees(rows, scratch);
   edges.for_each([&](const OrientationEdge& e) { trees.unite(value(e.low), value(e.high), e.opposed); });

@@ -45,9 +45,9 @@ TileSizes tile_sizes(const Memory& memory, std::uint64_t points, const Config& c
 
 }  // namespace
 
-Job::Job(const Config& config, std::filesystem::path workspace, Progress& progress)
+Job::Job(const Config& config, std::filesystem::path temporary, Progress& progress)
     : config(config),
-      workspace(std::move(workspace)),
+      temporary(std::move(temporary)),
       progress(progress),
       arena(static_cast<std::size_t>(config.run.threads)),
       memory(Memory::share(config.run.memory_limit)),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The data that all passes over the scan share: settings, threads, memory, the workspace and the progress.
+// The data that all passes over the scan share: settings, threads, memory, temporary files and the
+// progress.
 #pragma once
 
 #include "engine/config/config.hpp"
@@ -19,10 +20,10 @@
 namespace lacuna {
 
 struct Job {
-  Job(const Config& config, std::filesystem::path workspace, Progress& progress);
+  Job(const Config& config, std::filesystem::path temporary, Progress& progress);
 
   const Config& config;
-  std::filesystem::path workspace;
+  std::filesystem::path temporary;  // the folder of temporary files; empty: they are in memory
   Progress& progress;
   TaskArena arena;
   Memory memory;
@@ -39,7 +40,7 @@ struct Job {
   void for_each_within(std::uint64_t bytes, std::span<const std::uint64_t> needs,
                        const std::function<void(std::size_t)>& body) const;
   // Returns the path of a temporary file.
-  std::filesystem::path file(std::string_view name) const { return workspace / name; }
+  std::filesystem::path file(std::string_view name) const { return temporary / name; }
   // Returns the points per tile: as the config has it, or enough tiles for all threads. They are never fewer
   // or more than memory allows. Throws `Error` where so many points can never fit.
   std::uint64_t tile_points(std::uint64_t points) const;

@@ -93,7 +93,7 @@ class Stitch {
   // Groups whole components: a batch has at most `most_records` records, save for one component of more.
   AppendLists<Member> make_batches(std::uint64_t most_records) {
     const MemoryLedger::Lease joining = job_.ledger.take(job_.memory.work / 3);
-    Scratch scratch(job_.workspace, joining.bytes());
+    Scratch scratch(job_.temporary, joining.bytes());
     const Components::Batches batches = components_.join(most_records, scratch);
     AppendLists<Member> lists(job_.file("batches"), batches.records.size(), job_.lists);
     job_.arena.for_each(tiles_, [&](std::size_t t) { distribute(t, batches, lists); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scan that is decoded once: its points are kept in the workspace for all later passes.
+// A scan that is decoded once: its points are in a temporary file for all later passes.
 #pragma once
 
 #include "engine/model/points.hpp"
@@ -17,7 +17,7 @@ namespace lacuna {
 // the ids of the source, which must count from 0 without gaps.
 class KeptScan final : public PointSource {
  public:
-  // `scan` must outlive this object. `file`: a name in the workspace that is free.
+  // `scan` must outlive this object. `file`: a temporary file.
   KeptScan(PointSource& scan, const std::filesystem::path& file);
 
   void rewind() override;

@@ -13,7 +13,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kBlock = 1 << 20;  // bytes read or written together
-constexpr std::array<char, 8> kMagic = {'l', 'a', 'c', 'u', 'n', 'a', '0', '2'};
+constexpr std::array<char, 8> kMagic = {'l', 'a', 'c', 'u', 'n', 'a', '0', '3'};
+constexpr std::string_view kMadeFrom = "made from";  // the stream, of a key that no other stream has
+constexpr std::uint64_t kOfMadeFrom = UINT64_MAX;
 
 struct Entry {
   std::array<char, 24> stream;
@@ -93,11 +95,13 @@ std::uint64_t PartWriter::bytes() const {
   return state_->size;
 }
 
-Digest PartWriter::seal(const Digest& made_from) {
+Digest PartWriter::seal(std::string_view made_from) {
+  add(kMadeFrom, kOfMadeFrom, std::span<const char>(made_from));
   State& s = *state_;
   s.write(std::as_bytes(std::span(s.table)));
   s.flush();
-  Trailer trailer{.entries = s.table.size(), .made_from = made_from, .checksum = {}, .magic = kMagic};
+  Trailer trailer{
+      .entries = s.table.size(), .made_from = digest_of(made_from), .checksum = {}, .magic = kMagic};
   trailer.checksum = checksum_of(s.table, trailer);
   s.file.append(std::as_bytes(std::span(&trailer, 1)));
   s.file.seal(s.path);
@@ -109,11 +113,11 @@ bool PartReader::is_part(const fs::path& path) {
   return file && trailer_of(*file);
 }
 
-std::optional<PartReader> PartReader::open(const fs::path& path, const std::optional<Digest>& made_from) {
+std::optional<PartReader> PartReader::open(const fs::path& path, std::optional<std::string_view> made_from) {
   std::optional<StoreFile> file = StoreFile::open_sealed(path);
   if (!file) return std::nullopt;
   const std::optional<Trailer> trailer = trailer_of(*file);
-  if (!trailer || (made_from && trailer->made_from != *made_from)) return std::nullopt;
+  if (!trailer || (made_from && trailer->made_from != digest_of(*made_from))) return std::nullopt;
   const std::uint64_t end = file->size() - sizeof *trailer;
   if (trailer->entries > end / sizeof(Entry)) return std::nullopt;
   std::vector<Entry> table(trailer->entries);
@@ -133,8 +137,19 @@ std::optional<PartReader> PartReader::open(const fs::path& path, const std::opti
 
 std::vector<std::uint64_t> PartReader::keys() const {
   std::vector<std::uint64_t> keys;
-  for (const auto& [key, streams] : entries_) keys.push_back(key);
+  for (const auto& [key, streams] : entries_) {
+    if (key != kOfMadeFrom) keys.push_back(key);
+  }
   return keys;
+}
+
+std::optional<std::string> PartReader::made_from() const {
+  try {
+    const std::vector<char> text = records<char>(kMadeFrom, kOfMadeFrom);
+    return std::string(text.begin(), text.end());
+  } catch (const DamagedFile&) {
+    return std::nullopt;
+  }
 }
 
 std::vector<std::string> PartReader::streams(std::uint64_t key) const {

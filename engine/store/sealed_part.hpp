@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sealed part: a file of a workspace that outlives the process. It holds what a step of a run has found.
+// A sealed part: a kept file that outlives the process. It holds what a step of a run has found.
 //
-// A part consists of entries: records of one stream that belong to one key, such as a tile. The table of the
-// entries follows, with the digest of each. The last bytes are the table's length, its checksum and the
-// fingerprint of what the part was made from. So a part proves by itself from what it was made, and each
-// entry proves that it is whole when it is read. The name of a file proves nothing. Its name is complete only
-// once all of it is on the disk.
+// A part consists of entries: records of one stream that belong to one key, such as a tile. The last entry is
+// what the part was made from. The table of the entries follows, with the digest of each. The last bytes are
+// the table's length, its checksum and the fingerprint of what the part was made from. So a part proves by
+// itself from what it was made, and each entry proves that it is whole when it is read. The name of a file
+// proves nothing. Its name is complete only once all of it is on the disk.
 #pragma once
 
 #include "engine/run/error.hpp"
@@ -27,7 +27,7 @@
 
 namespace lacuna {
 
-// A file of a workspace does not have the bytes that were sealed.
+// A kept file does not have the bytes that were sealed.
 class DamagedFile : public Error {
  public:
   explicit DamagedFile(std::filesystem::path file);
@@ -52,8 +52,18 @@ class PartWriter {
     static_assert(std::is_trivially_copyable_v<Record>);
     add(stream, key, std::as_bytes(records));
   }
+  // Adds records of the key 0.
+  template <class Record>
+  void add(std::string_view stream, const std::vector<Record>& records) {
+    add(stream, 0, std::span<const Record>(records));
+  }
+  template <class Record>
+  void add_one(std::string_view stream, const Record& record) {
+    add(stream, 0, std::span<const Record>(&record, 1));
+  }
   std::uint64_t bytes() const;
-  Digest seal(const Digest& made_from);  // returns the checksum of the table
+  // Seals the part with what it was made from. Returns the checksum of the table.
+  Digest seal(std::string_view made_from);
 
  private:
   struct State;
@@ -84,9 +94,10 @@ class PartReader {
   // Opens a part. Returns nothing if the part is missing, its table is not whole, or it was made from
   // something other than `made_from`. Without `made_from`, it may be made from anything.
   static std::optional<PartReader> open(const std::filesystem::path& path,
-                                        const std::optional<Digest>& made_from);
+                                        std::optional<std::string_view> made_from);
 
   const Digest& checksum() const { return checksum_; }  // of the table, and so of all entries
+  std::optional<std::string> made_from() const;         // empty where it is damaged
 
   std::vector<std::uint64_t> keys() const;  // ascending
   std::vector<std::string> streams(std::uint64_t key) const;
@@ -97,7 +108,12 @@ class PartReader {
   // Returns the records of an entry, and an empty vector where there is no entry. Throws `Error` where the
   // bytes are no whole number of records.
   template <class Record>
-  std::vector<Record> records(std::string_view stream, std::uint64_t key) const;
+  std::vector<Record> records(std::string_view stream, std::uint64_t key = 0) const;
+  // Returns the record of a stream that has one.
+  template <class Record>
+  Record record(std::string_view stream) const {
+    return records<Record>(stream).at(0);
+  }
   // Calls visit(records) for one entry after the other.
   template <class Record, class Visit>
   void for_each(std::string_view stream, std::uint64_t key, Visit&& visit) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file of the workspace: positioned reads and writes, every one checked.
+// A file of the engine: positioned reads and writes, every one checked.
 #pragma once
 
 #include <atomic>

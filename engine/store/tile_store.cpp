@@ -20,6 +20,7 @@ TileStore::TileStore(StoreFiles files, std::vector<Tile> tiles, std::uint64_t mo
                      bool with_normals, std::shared_ptr<BufferPool> lists)
     : cells_(tiles.size()),
       has_normals_(with_normals),
+      stores_normals_(with_normals),
       duplicates_(std::move(files.duplicates), most_tiles, std::move(lists)) {
   tiling_.tiles = std::move(tiles);
   columns_.push_back(
@@ -94,7 +95,7 @@ TileDigests TileStore::digests(TileIndex index) const {
   const Columns& columns = columns_of(value(tile.first_row));
   const std::uint64_t row = value(tile.first_row) - columns.first_row;
   return {columns.points.digest(row, tile.points),
-          columns.normals.digest(row, has_normals_ ? tile.points : 0)};
+          columns.normals.digest(row, stores_normals_ ? tile.points : 0)};
 }
 
 // Several threads may check a tile at once. They find the same.

@@ -26,7 +26,7 @@ struct Level {
   double extent = 0;                 // the largest distance between points of the scan
   std::uint64_t tile_points = 0;     // the most in a tile
   TileStore store;                   // distinct points
-  std::string seal;                  // the checksums of its parts, a line each; empty: no workspace is kept
+  std::string seal;                  // the checksums of its parts, a line each; empty: it is not kept
   GivenNormals given_normals;        // of the first level
   std::vector<std::uint64_t> input;  // of the first level: `PointSource::pass_counts`
   // Which point represents which. Only for a first level on a lattice, with results.points.

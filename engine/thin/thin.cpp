@@ -25,6 +25,7 @@ Level level_of(ChosenPoints chosen, const Level& below, std::size_t number, doub
           .extent = below.extent,
           .tile_points = join.tile_points,
           .store = store_chosen(below.store, chosen, join, std::move(files), job),
+          .input = below.input,
           .represented = std::move(chosen.represented)};
 }
 

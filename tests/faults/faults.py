@@ -503,7 +503,7 @@ def streams_of(path):
         data = file.read()
     size = len(data)
     whole = [("all", [(0, size)])]
-    if size < trailer or data[-8:] != b"lacuna02":
+    if size < trailer or data[-8:] != b"lacuna03":
         return whole
     entries = struct.unpack_from("<Q", data, size - trailer)[0]
     begin = size - trailer - entries * entry
@@ -590,7 +590,7 @@ def damaged_counts(share, count, add_job):
         def job(slot, draw):
             case = case_of(slot, "finish", draw)
             slot.begin("evaluate-0")
-            parts = sorted(n for n in os.listdir(slot.workspace) if n.startswith("tiles-0-"))
+            parts = sorted(n for n in os.listdir(slot.workspace) if n.startswith("evaluate-0-"))
             path = os.path.join(slot.workspace, draw.choice(parts))
             begin, length = draw.choice(dict(streams_of(path))["distances"])
             record = 16  # bin and count

@@ -89,10 +89,14 @@ Detected run_engine(const Cloud& cloud, Config config) {
 }
 
 Detected run_engine(PointSource& scan, Config config) {
-  config.results.points = true;
-  const test::ScratchFolder workspace;
   NoProgress quiet;
-  const std::unique_ptr<Detection> detection = detect(scan, config, workspace.path(), quiet);
+  return run_engine(scan, std::move(config), quiet);
+}
+
+Detected run_engine(PointSource& scan, Config config, Progress& progress) {
+  config.results.points = true;
+  const test::ScratchFolder temporary;
+  const std::unique_ptr<Detection> detection = detect(scan, config, temporary.path(), progress);
   Detected detected{.summary = detection->summary};
   detection->for_each_result_block([&](PointId, std::span<const PointResult> block) {
     detected.points.insert(detected.points.end(), block.begin(), block.end());

@@ -25,5 +25,6 @@ struct Detected {
 // Runs the engine in a workspace of its own, with results.points.
 Detected run_engine(const Cloud& cloud, Config config);
 Detected run_engine(PointSource& scan, Config config);
+Detected run_engine(PointSource& scan, Config config, Progress& progress);
 
 }  // namespace lacuna

@@ -3,7 +3,7 @@
 
 #include "engine/halo/eps_balls.hpp"
 #include "engine/halo/halo.hpp"
-#include "engine/workspace/sealed_level.hpp"
+#include "engine/parts/level_form.hpp"
 #include "tests/support/memory_scan.hpp"
 
 #include <memory>
@@ -35,7 +35,7 @@ TiledScan::TiledScan(PointSource& scan, const Config& given)
     : config(given), job(config, folder.path(), quiet), level(make_level(scan, job)), store(level.store) {}
 
 TileOutputs TiledScan::evaluate(const std::vector<TileConsumer>& consumers) {
-  TileOutputs outputs(store.tiling(), std::nullopt, job);
+  TileOutputs outputs(store.tiling(), {}, {}, job);
   const std::vector<TileIndex> tiles = all_tiles();
   evaluate_tiles(level, tiles, exchange_halo(store, tiles, job), consumers, outputs, job);
   return outputs;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/commands/detect_command.hpp"
 
+#include "engine/kept_state.hpp"
 #include "engine/pipeline.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
 #include "engine/store/temporary_folder.hpp"
-#include "engine/workspace/workspace.hpp"
-#include "engine/workspace/workspace_state.hpp"
 #include "io/area/check_area.hpp"
 #include "io/results/results.hpp"
 #include "io/scan/file_scan.hpp"
@@ -161,7 +160,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   if (workspace) {
     const fs::path& folder = workspace->folder.path();
     watch_workspace(folder);
-    if (const std::optional<WorkspaceState> state = state_of_workspace(folder))
+    if (const std::optional<KeptState> state = state_of(folder))
       spdlog::info("goes on in {}: {}", folder.string(), print_state(*state));
   }
   const MadeFolder parent(scratch_parent(config.run, out));

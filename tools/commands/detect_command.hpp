@@ -2,7 +2,7 @@
 // `lacuna detect`: from scan files to their holes on disk.
 #pragma once
 
-#include "engine/workspace/workspace.hpp"
+#include "engine/parts/kept_run.hpp"
 #include "io/scan/file_scan.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/progress.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "engine/parts/kept_run.hpp"
 #include "engine/run/disk_space.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
+#include "engine/steps.hpp"
 #include "engine/store/temporary_folder.hpp"
-#include "engine/unit.hpp"
-#include "engine/workspace/workspace.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/detect_command.hpp"
 #include "tools/console/command_line.hpp"
@@ -58,7 +58,7 @@ void print_plan(const PlanArguments& arguments, const std::vector<Step>& steps, 
   std::uint64_t all = 0;
   for (const Step& step : steps) {
     add(step.name(), step.tasks, step.points, minutes_of(step));
-    all += step.kind == Step::Kind::kEvaluate ? step.points : 0;
+    all += step.form->is_of_level ? step.points / 2 : 0;
   }
   // All tiles are read again, and their loops found; the levels that are no steps are made.
   add("finish", 1, all, minutes_of({.points = all}));

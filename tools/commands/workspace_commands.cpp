@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/commands/workspace_commands.hpp"
 
+#include "engine/kept_state.hpp"
+#include "engine/parts/parts.hpp"
 #include "engine/run/disk_space.hpp"
 #include "engine/run/error.hpp"
-#include "engine/workspace/workspace.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/measures_text.hpp"
@@ -14,6 +15,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <system_error>
 
 namespace lacuna::tools {
@@ -21,15 +23,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-WorkspaceState state_of(const fs::path& folder) {
-  const auto state = state_of_workspace(folder);
+KeptState kept_state(const fs::path& folder) {
+  const std::optional<KeptState> state = state_of(folder);
   if (!state)
     throw Error(folder.string() + ": not the workspace of a run; allowed: the folder of --workspace");
   return *state;
 }
 
 void print_status(const fs::path& folder) {
-  const WorkspaceState state = state_of(folder);
+  const KeptState state = kept_state(folder);
   std::cout << visible(folder.string()) << ": " << print_size(state.bytes) << "\n";
   for (const std::string& line : state.made_from) {
     if (line.starts_with("lacuna ") || line.starts_with("input: "))
@@ -41,16 +43,18 @@ void print_status(const fs::path& folder) {
       std::cout << "its points are not stored yet\n";
     } else {
       std::cout << print_count(level.points) << " points, " << level.evaluated << " of " << level.tiles
-                << " tiles evaluated, " << level.tiles - level.evaluated << " left\n";
+                << " tiles evaluated, " << level.tiles - level.evaluated << " left"
+                << (level.has_loops ? ", loops found" : "") << "\n";
     }
   }
+  if (state.damaged > 0) std::cout << "  " << state.damaged << " damaged parts are made again\n";
   std::cout << "The same command goes on from here; lacuna finish does, too.\n";
 }
 
 void clean(const fs::path& folder) {
-  const WorkspaceState state = state_of(folder);
+  const KeptState state = kept_state(folder);
   const FolderLock alone(folder);
-  for (const fs::path& file : workspace_files(folder)) remove_part(file);
+  for (const fs::path& file : kept_files(folder)) remove_kept(file);
   std::error_code error;
   const bool is_gone = fs::remove(folder, error);  // unless it has other files
   std::cout << "removed: " << print_size(state.bytes) << " of " << visible(folder.string())
@@ -69,7 +73,7 @@ void add_command(const Command& program, const std::string& name, const std::str
 
 }  // namespace
 
-std::string print_state(const WorkspaceState& state) {
+std::string print_state(const KeptState& state) {
   std::string text;
   for (const LevelState& level : state.levels) {
     if (level.tiles == 0) continue;

@@ -2,6 +2,7 @@
 #include "tools/console/progress.hpp"
 
 #include "tools/console/terminal.hpp"
+#include "tools/console/visible_text.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -67,6 +68,10 @@ class ShownProgress final : public Progress {
     const StepProgress all = state();
     print_line("lacuna: " + all.step + ": done in " + print_duration(all.step_seconds) + rate_of(all) +
                run_time(all));
+  }
+  void make_again(std::string_view step, std::string_view why) override {
+    const std::lock_guard lock(mutex_);
+    print_line("lacuna: " + std::string(step) + " is made again: " + visible(std::string(why)));
   }
 
  private:

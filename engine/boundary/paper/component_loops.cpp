@@ -21,7 +21,7 @@ void find_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_ed
     });
   });
   if (rows.size() <= static_cast<std::uint64_t>(e)) return;
-  Scratch scratch(job.workspace, memory / 3);
+  Scratch scratch(job.temporary, memory / 3);
   const std::span<PointId> ids = scratch.array<PointId>(rows.size());
   for_each_edge([&](const BoundaryEdge& edge) {
     scratch.trim();
@@ -35,10 +35,10 @@ void find_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_ed
   };
   SpanningGraph cycles;
   {
-    Scratch work(job.workspace, memory / 2);
+    Scratch work(job.temporary, memory / 2);
     cycles = keep_cycles(span_whole(ids, for_each_passed, e, memory / 6, work), scratch);
   }
-  Scratch search(job.workspace, memory / 3 * 2);
+  Scratch search(job.temporary, memory / 3 * 2);
   find_loops_of(
       cycles, [&](LocalIndex v) { return rows.row(v); }, search, loops);
 }

@@ -152,7 +152,7 @@ void PaperBoundary::span_tile(const TileOutputs& outputs, TileIndex t) {
   std::atomic_ref(edges_) += static_cast<std::uint64_t>(std::count_if(
       edges.begin(), edges.end(), [&](const WeightedEdge& edge) { return vertices.part().reports(edge); }));
 
-  Scratch scratch(job_.workspace, job_.memory.limit);
+  Scratch scratch(job_.temporary, job_.memory.limit);
   const PartialSpanning spanned = span_partially(vertices.part(), std::move(edges), minimum_loop_, scratch);
   find_loops_of(
       spanned.complete, [&](LocalIndex v) { return vertices[v].row; }, scratch, loops_);

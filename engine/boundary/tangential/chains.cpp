@@ -75,13 +75,13 @@ class ChainFollower {
                 std::span<std::uint8_t> is_done, Scratch& scratch)
       : chains_(chains), partners_(partners), is_done_(is_done), scratch_(scratch) {}
 
-  void for_each_curve(const Column<CurvePoint>& points, const std::filesystem::path& workspace,
+  void for_each_curve(const Column<CurvePoint>& points, const std::filesystem::path& temporary,
                       std::uint64_t budget, const VisitCurve& visit) {
     for (LocalIndex start = 0; start < chains_.size(); ++start) {
       if (is_done_[start]) continue;
       std::uint64_t count = 0;
       for_each_chain_from(start, [&](const OpenChain& chain, bool) { count += chain.count; });
-      Scratch scratch(workspace, budget);
+      Scratch scratch(temporary, budget);
       const std::span<CurvePoint> curve = scratch.array<CurvePoint>(count);
       std::span<CurvePoint> left = curve;
       for_each_chain_from(start, [&](const OpenChain& chain, bool forwards) {
@@ -114,7 +114,7 @@ class ChainFollower {
 }  // namespace
 
 void close_chains(std::span<const OpenChain> chains, const Column<CurvePoint>& points,
-                  const std::filesystem::path& workspace, std::uint64_t budget, const VisitCurve& visit) {
+                  const std::filesystem::path& temporary, std::uint64_t budget, const VisitCurve& visit) {
   std::vector<NumberedEnd> ends;
   ends.reserve(2 * chains.size());
   for (LocalIndex c = 0; c < chains.size(); ++c)
@@ -125,15 +125,15 @@ void close_chains(std::span<const OpenChain> chains, const Column<CurvePoint>& p
   for (const NumberedEnd& end : ends) join.add(end);
   join.finish();
   std::vector<std::uint8_t> is_done(chains.size());
-  Scratch none(workspace, budget);
-  ChainFollower(chains, partners, is_done, none).for_each_curve(points, workspace, budget, visit);
+  Scratch none(temporary, budget);
+  ChainFollower(chains, partners, is_done, none).for_each_curve(points, temporary, budget, visit);
 }
 
 void close_many_chains(const Stitch<OpenChain>::ForEachRecord& for_each_chain, std::uint64_t count,
-                       const Column<CurvePoint>& points, const std::filesystem::path& workspace,
+                       const Column<CurvePoint>& points, const std::filesystem::path& temporary,
                        std::uint64_t budget, const VisitCurve& visit) {
-  Scratch scratch(workspace, budget);
-  SortedRuns<NumberedEnd> ends(workspace / "chain-ends", budget);
+  Scratch scratch(temporary, budget);
+  SortedRuns<NumberedEnd> ends(temporary / "chain-ends", budget);
   const std::span<OpenChain> chains = scratch.array<OpenChain>(count);
   LocalIndex number = 0;
   for_each_chain([&](const OpenChain& chain) {
@@ -149,7 +149,7 @@ void close_many_chains(const Stitch<OpenChain>::ForEachRecord& for_each_chain, s
   });
   join.finish();
   ChainFollower(chains, partners, scratch.array<std::uint8_t>(count), scratch)
-      .for_each_curve(points, workspace, budget, visit);
+      .for_each_curve(points, temporary, budget, visit);
 }
 
 }  // namespace lacuna::tangential

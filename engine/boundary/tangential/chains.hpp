@@ -32,14 +32,14 @@ struct OpenChain {
 using VisitCurve = std::function<void(std::span<const CurvePoint>, Scale, Scratch&)>;
 
 // Starts and directions of curves depend on the order of `chains`. Memory: `budget` bytes for the arrays of a
-// curve, and files of the workspace beyond that. Cost: linear, and a sort of the chains' ends.
+// curve, and temporary files beyond that. Cost: linear, and a sort of the chains' ends.
 void close_chains(std::span<const OpenChain> chains, const Column<CurvePoint>& points,
-                  const std::filesystem::path& workspace, std::uint64_t budget, const VisitCurve& visit);
+                  const std::filesystem::path& temporary, std::uint64_t budget, const VisitCurve& visit);
 
 // Closes the chains of a component that do not fit in memory. It sorts them on disk and follows them in
 // mapped arrays. Memory: three times the budget.
 void close_many_chains(const Stitch<OpenChain>::ForEachRecord& for_each_chain, std::uint64_t count,
-                       const Column<CurvePoint>& points, const std::filesystem::path& workspace,
+                       const Column<CurvePoint>& points, const std::filesystem::path& temporary,
                        std::uint64_t budget, const VisitCurve& visit);
 
 }  // namespace lacuna::tangential

@@ -78,7 +78,7 @@ void TangentialBoundary::chain_tile(TileIndex t) {
     }
     const Scale scale = wedges[chain.wedges.front()].scale;
     if (chain.is_closed) {
-      Scratch scratch(job_.workspace, curve_budget_);
+      Scratch scratch(job_.temporary, curve_budget_);
       add_loops(points, scale, scratch);
       return;
     }
@@ -115,11 +115,11 @@ FoundLoops TangentialBoundary::find_loops(const TileOutputs&) {
   const auto add = [&](auto curve, Scale scale, Scratch& scratch) { add_loops(curve, scale, scratch); };
   stitch_->for_each_component(
       [&](std::span<const OpenChain> chains) {
-        close_chains(chains, chain_points_, job_.workspace, curve_budget_, add);
+        close_chains(chains, chain_points_, job_.temporary, curve_budget_, add);
       },
       [&](const auto& for_each_chain, std::uint64_t count) {
         const MemoryLedger::Lease lease = job_.ledger.take(job_.memory.work / 4 * 3);
-        close_many_chains(for_each_chain, count, chain_points_, job_.workspace, lease.bytes() / 3, add);
+        close_many_chains(for_each_chain, count, chain_points_, job_.temporary, lease.bytes() / 3, add);
       });
   loops_.sort();
   return {.loops = std::move(loops_), .edges = edges_, .components = stitch_->components()};

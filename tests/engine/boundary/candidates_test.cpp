@@ -39,7 +39,7 @@ std::vector<Row> coherent_plainly(const std::vector<Candidate>& candidates, cons
 std::vector<Row> coherent(std::vector<Candidate> candidates, TiledScan& scan) {
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return a.row < b.row; });
-  TileOutputs outputs(scan.store.tiling(), std::nullopt, scan.job);
+  TileOutputs outputs(scan.store.tiling(), {}, {}, scan.job);
   for (auto first = candidates.begin(); first != candidates.end();) {
     const TileIndex tile = scan.tile_of(first->row);
     std::vector<Candidate> of_tile;

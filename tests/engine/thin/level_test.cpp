@@ -2,8 +2,8 @@
 // The levels of a scan: which lattices, and which points.
 #include "engine/thin/level.hpp"
 
-#include "engine/first_level.hpp"
-#include "engine/pipeline_steps.hpp"
+#include "engine/level_steps.hpp"
+#include "engine/scan_steps.hpp"
 #include "engine/thin/thin.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/memory_scan.hpp"
@@ -25,8 +25,8 @@ struct AtLevel {
   friend bool operator==(const AtLevel&, const AtLevel&) = default;
 };
 
-Totals totals_of(const Level& level, Job& job) {
-  return read_totals(evaluate_level(level, {}, {}, job), level.store.tiling(), level.extent);
+Totals totals_alone(const Level& level, const Run& run) {
+  return read_totals(evaluate_level(level, {}, run), level.store.tiling(), level.extent);
 }
 
 AtLevel seen(const Level& level) {
@@ -43,11 +43,13 @@ std::vector<AtLevel> levels_of(const Cloud& cloud, const Config& config) {
   NoProgress quiet;
   Job job(config, folder.path(), quiet);
   MemoryScan scan(cloud);
-  const Level first = first_level(scan, {}, job);
+  const Parts nothing_kept;
+  const Run run{scan, nothing_kept, job};
+  const Level first = first_level(run);
   std::vector<AtLevel> levels = {seen(first)};
   std::optional<Level> below;
-  while (std::optional<Level> level =
-             level_above(below ? *below : first, totals_of(below ? *below : first, job), {}, job)) {
+  const auto totals = [&] { return totals_alone(below ? *below : first, run); };
+  while (std::optional<Level> level = level_above(below ? *below : first, totals, run)) {
     levels.push_back(seen(*level));
     below.emplace(*std::move(level));
   }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A workspace that is kept: whatever of it is there, the result is that of an undisturbed run.
-#include "engine/workspace/workspace.hpp"
+#include "engine/parts/kept_run.hpp"
 
+#include "engine/kept_state.hpp"
+#include "engine/parts/parts.hpp"
 #include "engine/pipeline.hpp"
 #include "engine/run/error.hpp"
-#include "engine/workspace/workspace_state.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/memory_scan.hpp"
@@ -21,6 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 using test::ScratchFolder;
 
 Cloud scan() {
@@ -38,6 +40,17 @@ std::string bytes_of(const Cloud& cloud, Config config, const fs::path& workspac
   config.run.workspace = workspace.string();
   return run_engine(cloud, config).bytes();
 }
+
+// Why kept parts are made again.
+struct Reasons final : Progress {
+  void begin(std::string_view, std::uint64_t) override {}
+  void advance(std::uint64_t) override {}
+  void end() noexcept override {}
+  void make_again(std::string_view step, std::string_view why) override {
+    text += std::string(step) + ": " + std::string(why) + "\n";
+  }
+  std::string text;
+};
 
 std::vector<Config> all_configs() {
   std::vector<Config> configs(4);
@@ -59,7 +72,7 @@ TEST_CASE("a run with a workspace, and one that goes on from all of it, give the
     const std::string expected = run_engine(scan(), config).bytes();
     CHECK(bytes_of(scan(), config, folder.path()) == expected);
     CHECK(bytes_of(scan(), config, folder.path()) == expected);
-    const auto state = state_of_workspace(folder.path());
+    const auto state = state_of(folder.path());
     REQUIRE(state);
     CHECK(state->levels.size() == (config.loops.method == LoopMethod::kPaper ? 1 : state->levels.size()));
     for (const LevelState& level : state->levels) {
@@ -78,7 +91,7 @@ TEST_CASE("a run goes on from whatever parts there are, whole, damaged or cut") 
     const std::string expected = bytes_of(scan(), config, all);
     for (int round = 0; round < 12; ++round) {
       copy_files(all, some);
-      for (const fs::path& file : workspace_files(some)) {
+      for (const fs::path& file : kept_files(some)) {
         const auto size = static_cast<std::int64_t>(fs::file_size(file));
         const std::int64_t what = random.whole(0, 5);
         if (what == 0) {
@@ -92,8 +105,8 @@ TEST_CASE("a run goes on from whatever parts there are, whole, damaged or cut") 
           fs::rename(folder / "damaged", file);
         }
       }
-      fs::remove(some / "run");  // as its end may be what was damaged
-      fs::copy_file(all / "run", some / "run");
+      fs::remove(some / "run.lacuna");  // as its end may be what was damaged
+      fs::copy_file(all / "run.lacuna", some / "run.lacuna");
       INFO("round " << round);
       CHECK(bytes_of(scan(), config, some) == expected);
     }
@@ -103,8 +116,8 @@ TEST_CASE("a run goes on from whatever parts there are, whole, damaged or cut") 
 // The only part with outputs of a level.
 fs::path outputs_of(const ScratchFolder& folder, std::size_t level) {
   fs::path found;
-  for (const fs::path& file : workspace_files(folder.path())) {
-    if (!file.string().starts_with(tiles_prefix(folder.path(), level).string())) continue;
+  for (const fs::path& file : kept_files(folder.path())) {
+    if (!is_of_step(file, "evaluate-" + std::to_string(level))) continue;
     CHECK(found.empty());
     found = file;
   }
@@ -125,7 +138,7 @@ TEST_CASE("parts that are swapped are made again") {
 TEST_CASE("later steps take other parameters, and the parts before them are used again") {
   const ScratchFolder folder;
   bytes_of(scan(), small_tiles(), folder.path());
-  const auto written = fs::last_write_time(folder / "level-0-0");
+  const auto written = fs::last_write_time(folder / "level-0-0.lacuna");
   Config selected = small_tiles();
   selected.selection.min_confidence = 0.9;
   const fs::path outputs = outputs_of(folder, 0);
@@ -136,13 +149,13 @@ TEST_CASE("later steps take other parameters, and the parts before them are used
   threshold.results.points = true;
   CHECK(bytes_of(scan(), threshold, folder.path()) == run_engine(scan(), threshold).bytes());
   CHECK_FALSE(outputs_of(folder, 0).empty());  // the only ones
-  CHECK(fs::last_write_time(folder / "level-0-0") == written);
+  CHECK(fs::last_write_time(folder / "level-0-0.lacuna") == written);
   Config run = small_tiles();
   run.run.threads = 1;
   run.run.tile_points = 900;
   run.run.memory_limit = 100 << 20;
   CHECK(bytes_of(scan(), run, folder.path()) == run_engine(scan(), run).bytes());
-  CHECK(fs::last_write_time(folder / "level-0-0") == written);
+  CHECK(fs::last_write_time(folder / "level-0-0.lacuna") == written);
 }
 
 TEST_CASE("outputs that an earlier run did not want are found by the next one") {
@@ -156,24 +169,36 @@ TEST_CASE("outputs that an earlier run did not want are found by the next one") 
     CHECK(bytes_of(scan(), config, folder.path()) == run_engine(scan(), config).bytes());
 }
 
-TEST_CASE("another input, and parameters that the parts depend on, are an error that says what differs") {
+TEST_CASE("with another input or parameter, what differs is made again, and the run says why") {
   const ScratchFolder folder;
   bytes_of(scan(), small_tiles(), folder.path());
   Config config = small_tiles();
   config.neighbourhood.k = 20;
-  CHECK_THROWS_WITH(bytes_of(scan(), config, folder.path()),
-                    Contains("\"k = 15\" there, \"k = 20\" here") && Contains("lacuna clean"));
-  CHECK_THROWS_WITH(bytes_of(scan().translated({1, 0, 0}), small_tiles(), folder.path()),
-                    Contains("the workspace of another run: \"input: "));
+  const auto told = [&](const Cloud& cloud, const Config& changed) {
+    Reasons reasons;
+    Config kept = changed;
+    kept.run.workspace = folder.path().string();
+    MemoryScan input(cloud);
+    CHECK(run_engine(input, kept, reasons).bytes() == run_engine(cloud, changed).bytes());
+    return reasons.text;
+  };
+  CHECK(told(scan(), config) == "level-0: \"k = 15\" is \"k = 20\" now\n");
+  CHECK(told(scan(), config).empty());
+  config.coherence.threshold = 0.4;
+  CHECK_THAT(told(scan(), config), Contains("evaluate-0: \"threshold = 0.5\" is \"threshold = 0.4\" now\n"));
+  CHECK_THAT(told(scan().translated({1, 0, 0}), config), StartsWith("level-0: \"input: "));
+  std::string content = test::read_file(folder / "loops-1-0.lacuna");
+  fs::rename(folder.write("damaged", content.substr(0, 100)), folder / "loops-1-0.lacuna");
+  CHECK(told(scan().translated({1, 0, 0}), config) == "loops-1: damaged\n");
 }
 
 TEST_CASE("a run whose own part is damaged goes on, and the workspace keeps its state") {
   const ScratchFolder folder;
   const std::string expected = bytes_of(scan(), small_tiles(), folder.path());
-  std::string content = test::read_file(folder / "run");
+  std::string content = test::read_file(folder / "run.lacuna");
   content[content.size() / 2] ^= 1;
-  fs::rename(folder.write("damaged", content), folder / "run");
-  const auto state = state_of_workspace(folder.path());
+  fs::rename(folder.write("damaged", content), folder / "run.lacuna");
+  const auto state = state_of(folder.path());
   REQUIRE(state);
   CHECK(state->made_from.empty());
   CHECK(state->levels.size() > 2);
@@ -182,29 +207,29 @@ TEST_CASE("a run whose own part is damaged goes on, and the workspace keeps its 
 
 TEST_CASE("a folder with others' files of the names of parts is refused, and they stay") {
   const ScratchFolder folder;
-  folder.write("level-0-0", "notes on level 0");
+  folder.write("level-0-0.lacuna", "notes on level 0");
   CHECK_THROWS_WITH(bytes_of(scan(), small_tiles(), folder.path()),
-                    Contains("level-0-0: is not of a workspace"));
-  CHECK(test::read_file(folder / "level-0-0") == "notes on level 0");
-  CHECK(folder.names() == std::vector<std::string>{"level-0-0"});
-  CHECK_FALSE(state_of_workspace(folder.path()));
-  CHECK(workspace_files(folder.path()).empty());
+                    Contains("level-0-0.lacuna: is not of a workspace"));
+  CHECK(test::read_file(folder / "level-0-0.lacuna") == "notes on level 0");
+  CHECK(folder.names() == std::vector<std::string>{"level-0-0.lacuna"});
+  CHECK_FALSE(state_of(folder.path()));
+  CHECK(kept_files(folder.path()).empty());
 }
 
 TEST_CASE("other files in a workspace stay, and what was not finished goes") {
   const ScratchFolder folder;
   folder.write("notes.txt", "x");
   bytes_of(scan(), small_tiles(), folder.path());
-  folder.write("tiles-0-0123456789abcdef.0123456789abcdef.partial", "x");
-  folder.write("level-3-0123456789abcdef.points.partial", "x");
+  folder.write("evaluate-0-0123456789abcdef.lacuna.0123456789abcdef.partial", "x");
+  folder.write("level-3-0123456789abcdef.points.lacuna.partial", "x");
   folder.write("other.partial", "x");
   folder.write("results.csv", "x");
   bytes_of(scan(), small_tiles(), folder.path());
   CHECK(fs::exists(folder / "notes.txt"));
   CHECK(fs::exists(folder / "other.partial"));
-  for (const fs::path& file : workspace_files(folder.path())) CHECK(file.filename() != "results.csv");
-  CHECK_FALSE(fs::exists(folder / "tiles-0-0123456789abcdef.0123456789abcdef.partial"));
-  CHECK_FALSE(fs::exists(folder / "level-3-0123456789abcdef.points.partial"));
+  for (const fs::path& file : kept_files(folder.path())) CHECK(file.filename() != "results.csv");
+  CHECK_FALSE(fs::exists(folder / "evaluate-0-0123456789abcdef.lacuna.0123456789abcdef.partial"));
+  CHECK_FALSE(fs::exists(folder / "level-3-0123456789abcdef.points.lacuna.partial"));
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run as units, in whatever order and however often they are done.
-#include "engine/unit.hpp"
+#include "engine/steps.hpp"
 
+#include "engine/kept_state.hpp"
+#include "engine/parts/parts.hpp"
 #include "engine/pipeline.hpp"
 #include "engine/run/error.hpp"
-#include "engine/workspace/workspace.hpp"
-#include "engine/workspace/workspace_state.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/memory_scan.hpp"
@@ -67,11 +67,12 @@ TEST_CASE("units of any number of tasks give the result of one process") {
     for (const std::size_t tasks : {1, 2, 7, 40}) {
       SharedRun run(method);
       const std::vector<Step> steps = run.planned(tasks);
-      CHECK(steps.size() == (method == LoopMethod::kPaper ? 5 : 9));
+      const std::size_t of_levels = method == LoopMethod::kPaper ? 2 : 6;
+      CHECK(steps.size() == of_levels + (tasks > 1 ? 3 : 0));
       for (const Step& step : steps) {
         for (std::size_t task = step.tasks; task-- > 0;) CHECK(run.work_on(step, task));
       }
-      const auto state = state_of_workspace(run.config.run.workspace);
+      const auto state = state_of(run.config.run.workspace);
       REQUIRE(state);
       CHECK(state->levels.front().evaluated == state->levels.front().tiles);
       INFO(tasks << " tasks");
@@ -113,8 +114,8 @@ TEST_CASE("a step does not trust damaged outputs of the step before") {
     SharedRun run;
     run.planned(2);
     for (std::size_t task = 0; task < 2; ++task) run.work_on(run.step("evaluate-0"), task);
-    for (const fs::path& file : workspace_files(run.config.run.workspace)) {
-      if (!level_of_outputs(file)) continue;
+    for (const fs::path& file : kept_files(run.config.run.workspace)) {
+      if (!is_of_step(file, "evaluate-0")) continue;
       std::string content = test::read_file(file);
       content[static_cast<std::size_t>(random.whole(0, static_cast<std::int64_t>(content.size()) - 1))] ^= 8;
       fs::rename(run.folder.write("damaged", content), file);
@@ -131,7 +132,7 @@ TEST_CASE("the tasks of a step share its tiles: none is evaluated twice") {
   std::size_t before = 0, all = 0;
   for (std::size_t task = 0; task < 5; ++task) {
     run.work_on(run.step("evaluate-0"), task);
-    const LevelState level = state_of_workspace(run.config.run.workspace)->levels.front();
+    const LevelState level = state_of(run.config.run.workspace)->levels.front();
     CHECK(level.evaluated > before);
     before = level.evaluated;
     all = level.tiles;
@@ -142,8 +143,8 @@ TEST_CASE("the tasks of a step share its tiles: none is evaluated twice") {
 TEST_CASE("a level that the scan does not have is nothing to do") {
   SharedRun run;
   run.planned(2);
-  CHECK_FALSE(run.work_on({.level = 60}, 0));
-  CHECK_FALSE(run.work_on({.kind = Step::Kind::kEvaluate, .level = 60, .tasks = 2}, 1));
+  CHECK_FALSE(run.work_on(run.step("level-60"), 0));
+  CHECK_FALSE(run.work_on(run.step("evaluate-60"), 1));
   CHECK(run.bytes() == run.expected());
 }
 
@@ -153,7 +154,7 @@ TEST_CASE("names of steps go forth and back, and others are none") {
     const std::optional<Step> read = step_of_name(step.name(), run.config.run.workspace);
     REQUIRE(read);
     CHECK(read->level == step.level);
-    CHECK(read->kind == step.kind);
+    CHECK(read->form == step.form);
     CHECK(read->tasks == step.tasks);
   }
   for (const char* name : {"", "level", "level-", "level--1", "evaluate-0x", "evaluate-500", "tiles-0"})

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/parts/kept_run.hpp"
+
+#include "engine/run/error.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <string_view>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The number changes with the records in the parts.
+constexpr const char* kProgram = "lacuna " LACUNA_VERSION ", parts of form 7";
+constexpr const char* kPlanPart = "plan.lacuna";
+
+// Returns "key = value" of the parameters that change this, a line each.
+std::string parameter_lines(const Config& config, Changes changed) {
+  Config copy = config;
+  std::string lines;
+  for (const Parameter& parameter : parameters(copy)) {
+    if (parameter.changes == changed) lines += std::string(parameter.key) + " = " + parameter.print() + "\n";
+  }
+  return lines;
+}
+
+std::string made_from(const std::vector<std::string>& identity, const Config& config) {
+  std::string lines = std::string(kProgram) + "\n";
+  for (const std::string& part : identity) lines += "input: " + part + "\n";
+  lines += parameter_lines(config, Changes::kPoints);
+  // Then the first level has a list of the points that each of its points represents.
+  if (first_edge(config.scale) > 0 && config.results.points) lines += "with the represented points\n";
+  return lines;
+}
+
+std::vector<std::string> split(std::string_view text, char end) {
+  std::vector<std::string> lines;
+  for (std::size_t at; (at = text.find(end)) != std::string_view::npos; text.remove_prefix(at + 1))
+    lines.emplace_back(text.substr(0, at));
+  return lines;
+}
+
+// Returns the text of a stream. Returns nothing where it is damaged.
+std::optional<std::string> text_of(const std::optional<PartReader>& part, std::string_view stream) {
+  if (!part) return std::nullopt;
+  try {
+    const std::vector<char> text = part->records<char>(stream);
+    return std::string(text.begin(), text.end());
+  } catch (const DamagedFile&) {
+    return std::nullopt;
+  }
+}
+
+std::optional<PartReader> open_run(const fs::path& folder) {
+  return PartReader::open(folder / kRunPart, std::nullopt);
+}
+
+void write_run(const fs::path& folder, const PointSource& scan, const std::string& note,
+               const std::string& made_from) {
+  std::string inputs;
+  for (const std::string& name : scan.names()) inputs += name + '\0';
+  PartWriter part(folder / kRunPart);
+  part.add("inputs", 0, std::span<const char>(inputs));
+  part.add("note", 0, std::span<const char>(note));
+  part.seal(made_from);
+}
+
+// Refuses files of others that have names of parts: they would be replaced.
+void refuse_others(const fs::path& folder) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const bool is_begun = entry.path().filename().string().starts_with(std::string(kRunPart) + ".");
+    if (is_kept_name(entry.path()) && !is_begun)
+      throw Error(entry.path().string() +
+                  ": is not of a workspace, and has the name of a part of one; allowed: "
+                  "an empty folder");
+  }
+}
+
+}  // namespace
+
+std::string evaluation_parameters(const Config& config) {
+  return parameter_lines(config, Changes::kEvaluation);
+}
+
+std::string output_parameters(const Config& config) {
+  return parameter_lines(config, Changes::kOutputs);
+}
+
+void write_plan(const fs::path& folder, const TaskPlan& plan) {
+  PartWriter part(folder / kPlanPart);
+  part.add("plan", std::vector<std::uint64_t>{plan.tasks, plan.levels, plan.tile_points, plan.reads});
+  part.seal("");
+}
+
+std::optional<TaskPlan> read_plan(const fs::path& folder) {
+  const std::optional<PartReader> part = PartReader::open(folder / kPlanPart, "");
+  if (!part) return std::nullopt;
+  const std::vector<std::uint64_t> plan = part->records<std::uint64_t>("plan");
+  if (plan.size() != 4) return std::nullopt;
+  return TaskPlan{.tasks = plan[0], .levels = plan[1], .tile_points = plan[2], .reads = plan[3] != 0};
+}
+
+Config with_planned_tiles(Config config) {
+  const fs::path folder = config.run.workspace;
+  if (!folder.empty() && config.run.tile_points == 0)
+    config.run.tile_points = static_cast<std::int64_t>(read_plan(folder).value_or(TaskPlan()).tile_points);
+  return config;
+}
+
+std::optional<std::vector<std::string>> made_from_of(const fs::path& folder) {
+  const std::optional<PartReader> part = open_run(folder);
+  const std::optional<std::string> text = part ? part->made_from() : std::nullopt;
+  return text ? std::optional(split(*text, '\n')) : std::nullopt;
+}
+
+KeptRun read_run(const fs::path& folder) {
+  const std::optional<PartReader> part = open_run(folder);
+  const std::optional<std::string> inputs = text_of(part, "inputs"), note = text_of(part, "note");
+  if (!inputs || !note)
+    throw Error(folder.string() + ": not the workspace of a run; allowed: the folder of --workspace");
+  return {.names = split(*inputs, '\0'), .note = *note};
+}
+
+Parts open_parts(const PointSource& scan, const Config& config, Progress& progress, Opener opener) {
+  const fs::path folder = config.run.workspace;
+  if (folder.empty()) return {};
+  const std::vector<std::string> identity = scan.identity();
+  if (identity.empty())
+    throw Error(folder.string() + ": no workspace can be kept for points that are not read from files");
+  Parts parts{.folder = folder,
+              .made_from = made_from(identity, config),
+              .plan = read_plan(folder).value_or(TaskPlan()),
+              .is_unit = opener != Opener::kRun,
+              .progress = &progress};
+  if (!is_kept_folder(folder)) refuse_others(folder);
+  const std::optional<PartReader> before = open_run(folder);
+  const std::optional<std::string> was = before ? before->made_from() : std::nullopt;
+  const bool is_same = was == parts.made_from;
+  if (opener == Opener::kUnit && was && !is_same) {
+    const auto [line, now] = first_difference(*was, parts.made_from);
+    throw Error(folder.string() + ": was planned for another run: \"" + line + "\" there, \"" + now +
+                "\" here; allowed: the input and parameters of the plan, or lacuna plan again");
+  }
+  if (opener == Opener::kRun) {
+    for (const fs::path& file : kept_files(folder))
+      if (file.extension() == kUnsealed) remove_kept(file);
+  }
+  // A process that is given no note keeps the one that is there.
+  const std::string& note = config.run.note;
+  if (!is_same || (!note.empty() && text_of(before, "note") != note))
+    write_run(folder, scan, note, parts.made_from);
+  return parts;
+}
+
+}  // namespace lacuna

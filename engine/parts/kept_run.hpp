@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The run that a kept folder is of: its input, parameters and plan of tasks.
+#pragma once
+
+#include "engine/config/config.hpp"
+#include "engine/model/points.hpp"
+#include "engine/parts/parts.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lacuna {
+
+// Who opens a kept folder. A run removes the unfinished files of a stopped run. A unit is one of several
+// processes at work: its input and parameters must be those of the plan.
+enum class Opener { kRun, kPlan, kUnit };
+
+// Opens the kept folder that the config names, for this input; without a name, nothing is kept. Where it is
+// of another input or other parameters, the parts that differ are made again. Throws `Error`, also where
+// files of others have the names of parts.
+Parts open_parts(const PointSource& scan, const Config& config, Progress& progress, Opener opener);
+
+// Return further parameters, a line each. The evaluation of a tile depends on the first, and the others say
+// which outputs of a tile are wanted.
+std::string evaluation_parameters(const Config& config);
+std::string output_parameters(const Config& config);
+
+// The data of a run from which another process can do a part of it.
+struct KeptRun {
+  std::vector<std::string> names;  // `PointSource::names`
+  std::string note;                // as `RunConfig::note` was
+};
+// Reads the data of the run. Throws `Error` where the folder keeps no run.
+KeptRun read_run(const std::filesystem::path& folder);
+// Returns the input and parameters of the run, a line each. Returns nothing where that part is damaged: the
+// run makes it again.
+std::optional<std::vector<std::string>> made_from_of(const std::filesystem::path& folder);
+
+// Write and read the plan of a run. The result is empty where none was made.
+void write_plan(const std::filesystem::path& folder, const TaskPlan& plan);
+std::optional<TaskPlan> read_plan(const std::filesystem::path& folder);
+// Returns the config with tiles as large as the plan of its folder has them, unless it says how large.
+Config with_planned_tiles(Config config);
+
+}  // namespace lacuna

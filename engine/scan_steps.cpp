@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/scan_steps.hpp"
+
+#include "engine/bucket/bucket_scan.hpp"
+#include "engine/evaluate/check_normals.hpp"
+#include "engine/halo/eps_balls.hpp"
+#include "engine/parts/level_form.hpp"
+#include "engine/store/kept_scan.hpp"
+#include "engine/survey/survey_scan.hpp"
+#include "engine/thin/thin.hpp"
+
+#include <optional>
+#include <utility>
+
+namespace lacuna {
+namespace {
+
+// Forms of parts.
+struct SurveyForm {
+  static std::optional<TaskSurvey> read(const PartReader& part) {
+    return TaskSurvey{{part.record<SurveyTotals>("survey"), part.records<CountedCell>("cells")},
+                      part.records<std::uint64_t>("input"),
+                      line_of(part.checksum())};
+  }
+  static void write(const TaskSurvey& task, PartWriter& part) {
+    part.add_one<SurveyTotals>("survey", task.survey);
+    part.add("cells", task.survey.cells);
+    part.add("input", task.pass_counts);
+  }
+};
+
+struct TilesForm {
+  static std::optional<ScanTiles> read(const PartReader& part) {
+    return ScanTiles{{part.record<PlanTotals>("plan"), part.records<CountedCell>("cells"),
+                      part.records<Tile>("tiles"), part.records<CountedCell>("aside")},
+                     part.record<SurveyTotals>("survey"),
+                     part.records<std::uint64_t>("input"),
+                     part.records<std::uint64_t>("first ids"),
+                     line_of(part.checksum())};
+  }
+  static void write(const ScanTiles& tiles, PartWriter& part) {
+    part.add_one<PlanTotals>("plan", tiles.plan);
+    part.add("cells", tiles.plan.cells);
+    part.add("tiles", tiles.plan.tiles);
+    part.add("aside", tiles.plan.aside);
+    part.add_one("survey", tiles.survey);
+    part.add("input", tiles.pass_counts);
+    part.add("first ids", tiles.first_ids);
+  }
+};
+
+struct BucketForm {
+  PointForm form;
+
+  std::optional<ScatteredPoints> read(PartReader part) const {
+    return ScatteredPoints(std::move(part), form);
+  }
+  static void write(const ScatteredPoints& points, PartWriter& part) { points.write(part); }
+};
+
+// The parts of the steps before the first level are kept where tasks share them.
+Parts shared_parts(const Run& run) {
+  return run.parts.plan.reads ? run.parts : Parts();
+}
+
+TaskShare share_of(const Run& run, std::size_t task) {
+  return {task, run.parts.plan.tasks_of_level(0)};
+}
+
+IndexRange files_of(const Run& run, const TaskShare& share) {
+  return share_of(run.scan.parts(), share);
+}
+
+PartKey key_of(const Run& run, std::string_view step, std::size_t task, std::string made_from) {
+  return {std::string(step), share_of(run, task), std::move(made_from)};
+}
+
+PartKey level_key(const Run& run, std::size_t task) {
+  return key_of(run, step_of_level(kLevel, 0), task, run.parts.made_from);
+}
+
+// Returns what the tiles are made from.
+std::string seals_of_surveys(const Run& run) {
+  std::string seals;
+  if (!run.parts.plan.reads) return seals;
+  for (std::size_t task = 0; task < run.parts.plan.tasks; ++task) {
+    const std::optional<std::string> seal =
+        run.parts.seal_of(key_of(run, kSurvey, task, run.parts.made_from));
+    seals += seal ? *seal : survey_of_task(run, task).seal;
+  }
+  return seals;
+}
+
+// Surveys the whole scan, alone or from the surveys of all tasks.
+SurveyedScan survey_all(const Run& run, ScanTiles& tiles) {
+  if (!run.parts.plan.reads) {
+    SurveyedScan survey = survey_scan(run.scan, run.job);
+    tiles.pass_counts = run.scan.pass_counts();
+    return survey;
+  }
+  std::uint64_t first_id = 0;
+  const auto survey_of = [&](std::size_t task) {
+    TaskSurvey part = survey_of_task(run, task);
+    tiles.first_ids.push_back(first_id);
+    first_id += part.survey.ids;
+    tiles.pass_counts.resize(part.pass_counts.size());
+    for (std::size_t i = 0; i < part.pass_counts.size(); ++i) tiles.pass_counts[i] += part.pass_counts[i];
+    return std::move(part.survey);
+  };
+  SurveyedScan survey = merge_surveys(run.parts.plan.tasks, survey_of, run.scan.expected_points(), run.job);
+  if (survey.points == survey.dropped) {  // the source says so in its own words
+    run.scan.select(0, run.scan.parts().size(), PointId{0});
+    survey_scan(run.scan, run.job);
+  }
+  return survey;
+}
+
+Level level_of(const ScanTiles& tiles, TileStore store) {
+  const double extent = extent_of(tiles.survey.bounds);
+  return {.survey = tiles.survey,
+          .extent = extent,
+          .tile_points = tiles.plan.tile_points,
+          .store = std::move(store),
+          .input = tiles.pass_counts,
+          .represented = {}};
+}
+
+// Brings all points of a task's tiles into a store on disk.
+Level store_all_points(const Run& given, const TaskShare& share, StoreFiles files) {
+  std::optional<KeptScan> decoded;
+  if (share.tasks == 1 && given.scan.reads_slowly()) decoded.emplace(given.scan, given.job.file("input"));
+  const Run run{decoded ? static_cast<PointSource&>(*decoded) : given.scan, given.parts, given.job};
+  ScanTiles tiles = tiles_of_scan(run);
+  if (decoded) tiles.pass_counts = given.scan.pass_counts();
+  std::vector<ScatteredPoints> scattered;
+  for (std::size_t task = 0; task < share.tasks; ++task)
+    scattered.push_back(points_of_task(run, tiles, task));
+  decoded.reset();
+  const PointForm form{tiles.survey.precision(), given.scan.has_normals()};
+  const auto for_each = [&](std::size_t place, const VisitPoints& visit) {
+    for (const ScatteredPoints& points : scattered) points.for_each(place, visit);
+  };
+  return level_of(tiles, store_tiles(tiles.plan, share, tiles.survey.bounds, form, for_each, std::move(files),
+                                     given.job));
+}
+
+// Leaves out normals that are not wanted, or do not fit. Levels and outputs have no normals of theirs then.
+void choose_normals(Level& level, const Job& job) {
+  if (!level.store.has_normals()) return;
+  const NormalsUse use = job.config.normals.use;
+  if (use != NormalsUse::kEstimated) level.given_normals = check_normals(level.store, job.config, job.arena);
+  if (use == NormalsUse::kEstimated || (use == NormalsUse::kFitting && !level.given_normals.fit()))
+    level.store.leave_out_normals();
+}
+
+}  // namespace
+
+std::string step_of_level(std::string_view name, std::size_t level) {
+  return std::string(name) + "-" + std::to_string(level);
+}
+
+bool can_share_reading(const PointSource& scan, const Config& config) {
+  return !scan.parts().empty() && first_edge(config.scale) == 0;
+}
+
+TaskSurvey survey_of_task(const Run& run, std::size_t task) {
+  const PartKey key = key_of(run, kSurvey, task, run.parts.made_from);
+  return shared_parts(run).get(key, SurveyForm(), [&] {
+    SurveyedScan survey = survey_parts(run.scan, files_of(run, key.share), run.job);
+    return TaskSurvey{std::move(survey), run.scan.pass_counts(), ""};
+  });
+}
+
+ScanTiles tiles_of_scan(const Run& run) {
+  const PartKey key{std::string(kTiles), {}, seals_of_surveys(run)};
+  return shared_parts(run).get(key, TilesForm(), [&] {
+    ScanTiles tiles;
+    SurveyedScan survey = survey_all(run, tiles);
+    tiles.plan = plan_tiles(survey, run.job);
+    tiles.survey = survey;
+    return tiles;
+  });
+}
+
+ScatteredPoints points_of_task(const Run& run, const ScanTiles& tiles, std::size_t task) {
+  const PartKey key = key_of(run, kBucket, task, tiles.seal);
+  const PointForm form{tiles.survey.precision(), run.scan.has_normals()};
+  return shared_parts(run).get(key, BucketForm{form}, [&] {
+    const IndexRange files = files_of(run, key.share);
+    if (run.parts.plan.reads) run.scan.select(files.first, files.last, PointId{tiles.first_ids[task]});
+    return scatter_points(run.scan, tiles.plan, form.precision, tiles.plan.points / key.share.tasks, run.job);
+  });
+}
+
+Level share_of_first_level(const Run& run, std::size_t task) {
+  const PartKey key = level_key(run, task);
+  const LevelForm form{run.parts, run.job, key.step};
+  return run.parts.get(key, form, [&] {
+    if (first_edge(run.job.config.scale) == 0) return store_all_points(run, key.share, form.files());
+    const Level all = store_all_points(run, key.share, temporary_files(run.job));
+    return thin_to_first(all, form.files(), run.job);
+  });
+}
+
+bool is_first_level_kept(const Run& run) {
+  for (std::size_t task = 0; task < share_of(run, 0).tasks; ++task) {
+    if (!run.parts.seal_of(level_key(run, task))) return false;
+  }
+  return true;
+}
+
+Level first_level(const Run& run) {
+  std::vector<Level> shares;
+  for (std::size_t task = 0; task < share_of(run, 0).tasks; ++task)
+    shares.push_back(share_of_first_level(run, task));
+  Level level = join_levels(std::move(shares), run.job);
+  if (run.parts.plan.reads) {
+    run.scan.select(0, run.scan.parts().size(), PointId{0});
+    for (const std::string_view step : {kSurvey, kTiles, kBucket}) run.parts.drop(std::string(step));
+  }
+  if (run.parts.are_kept()) run.scan.set_pass_counts(level.input);
+  choose_normals(level, run.job);
+  return level;
+}
+
+}  // namespace lacuna
