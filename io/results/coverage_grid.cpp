@@ -48,7 +48,7 @@ void count_points(const FileScan& scan, const InputConfig& config, CoverageGrid&
   BeforeFilters before;
   for (std::size_t file = 0; file < scan.files().size(); ++file) {
     const auto reader = scan.open(file);
-    RowFilter filter(config, scan.files()[file], *reader);
+    RowFilter filter(config, scan.files()[file].name, *reader);
     while (reader->next(rows, scan.batch_rows(file))) {
       positions.clear();
       load_vectors(rows, reader->layout(), kPositionNames, positions);

@@ -26,7 +26,7 @@ void warn_not_understood(const FileScan& scan) {
     spdlog::warn(
         "{}: GDAL does not understand the coordinate reference system of the scan; the files for GIS have "
         "none",
-        scan.files().front().string());
+        scan.files().front().name.string());
   });
 }
 

@@ -25,14 +25,14 @@ Json inputs(const FileScan& scan) {
   std::uint64_t first_id = 0;
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
     Json file = Json::object();
-    file["file"] = scan.files()[i].string();
-    if (const auto& pose = scan.poses()[i]) file["pose"] = rows_of(*pose);
-    if (!scan.crs()[i].empty()) file["crs"] = scan.crs()[i];
+    file["file"] = scan.files()[i].name.string();
+    if (const auto& pose = scan.files()[i].pose) file["pose"] = rows_of(*pose);
+    if (!scan.files()[i].crs.empty()) file["crs"] = scan.files()[i].crs;
     file["first_id"] = first_id;
-    file["points"] = scan.rows(i);
-    first_id += scan.rows(i);
+    file["points"] = scan.files()[i].rows();
+    first_id += scan.files()[i].rows();
     Json::object_t properties;  // names differ, so none is searched for
-    for (const Property& property : scan.layouts()[i].properties) {
+    for (const Property& property : scan.files()[i].layout.properties) {
       properties.emplace_back(property.name, ply_name(property.type));
     }
     file["properties"] = std::move(properties);

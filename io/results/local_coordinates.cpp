@@ -17,11 +17,11 @@ LocalOffset local_offset(const Detection& detection, const OutputConfig& config)
 }
 
 Scalar coordinate_type(const FileScan& scan, const OutputConfig& config) {
-  return config.local_coordinates || scan.single_precision() ? Scalar::kFloat32 : Scalar::kFloat64;
+  return config.local_coordinates || has_single_precision(scan) ? Scalar::kFloat32 : Scalar::kFloat64;
 }
 
 std::vector<RowLayout> written_layouts(const FileScan& scan, const OutputConfig& config) {
-  std::vector<RowLayout> layouts = scan.layouts();
+  std::vector<RowLayout> layouts = layouts_of(scan);
   if (!config.local_coordinates) return layouts;
   for (RowLayout& layout : layouts) layout = with_components_as(Scalar::kFloat32, kPositionNames, layout);
   return layouts;

@@ -38,8 +38,8 @@ struct PointsFile {
 };
 
 const FileFormat* own_format(const FileScan& scan, std::size_t file) {
-  const std::string& format = scan.formats()[file];
-  const bool has_pose = scan.poses()[file].has_value();
+  const std::string& format = scan.files()[file].format;
+  const bool has_pose = scan.files()[file].pose.has_value();
   if (format.starts_with("text")) return &kCsv;
   if (format.starts_with("LAS") && !has_pose) return &kLas;
   if (format.starts_with("LAZ") && !has_pose) return &kLaz;
@@ -66,11 +66,11 @@ std::vector<PointsFile> points_files(const FileScan& scan, const OutputConfig& c
   std::map<std::string, std::size_t> inputs;  // by the name of what is written
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
     const FileFormat* const format = own_format(scan, i);
-    std::string name = scan.files()[i].stem().string();
+    std::string name = scan.files()[i].name.stem().string();
     name += format->extension;
     if (const auto [known, is_new] = inputs.emplace(name, i); !is_new)
-      throw Error(scan.files()[i].string() + ": its results and those of " +
-                  scan.files()[known->second].string() + " would both be " + kPointsFolder + "/" + name +
+      throw Error(scan.files()[i].name.string() + ": its results and those of " +
+                  scan.files()[known->second].name.string() + " would both be " + kPointsFolder + "/" + name +
                   "; rename one, or --points-format ply writes one file for all");
     files.push_back({std::move(name), format, {i, i + 1}});
   }
@@ -92,8 +92,9 @@ bool has_own_quality(const RowLayout& layout) {
 std::vector<ResultColumn> results_of(const FileScan& scan, const OutputConfig& config,
                                      const PointsFile& file) {
   std::vector<ResultColumn> results = result_columns(scan, config);
-  const auto layouts = std::span(scan.layouts()).subspan(file.files.first, file.files.end - file.files.first);
-  if (file.format != &kPly || std::any_of(layouts.begin(), layouts.end(), has_own_quality)) return results;
+  const auto files = std::span(scan.files()).subspan(file.files.first, file.files.end - file.files.first);
+  const auto has_quality = [](const ScanFile& input) { return has_own_quality(input.layout); };
+  if (file.format != &kPly || std::ranges::any_of(files, has_quality)) return results;
   const auto loop = std::find_if(results.begin(), results.end(),
                                  [](const auto& result) { return result.name == kBeforeQuality; });
   results.insert(loop + 1, {std::string(kQuality), Scalar::kFloat32, results.front().offset});
@@ -181,7 +182,7 @@ void write_points(const Detection& detection, const FileScan& scan, const FilesC
     const PointsFile& file = files[next++];
     const PointsPlan plan = plan_of(scan, output, file, offset);
     const std::uint64_t rows =
-        files.size() == 1 ? detection.summary.counts.points : scan.rows(file.files.first);
+        files.size() == 1 ? detection.summary.counts.points : scan.files()[file.files.first].rows();
     open = std::make_unique<AnnotatedFile>(plan, *file.format, folder.open(plan.name), rows);
   };
   open_next();

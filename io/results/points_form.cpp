@@ -68,7 +68,7 @@ class PlyForm final : public JoinedForm {
 }  // namespace
 
 std::unique_ptr<PointsForm> csv_form(const PointsPlan& plan) {
-  return std::make_unique<CsvForm>(plan, plan.scan.layouts());
+  return std::make_unique<CsvForm>(plan, layouts_of(plan.scan));
 }
 
 std::unique_ptr<PointsForm> ply_form(const PointsPlan& plan) {

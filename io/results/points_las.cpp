@@ -53,7 +53,7 @@ LasInput examine(const std::filesystem::path& file) {
 class LasRows final : public InputRows {
  public:
   LasRows(const FileScan& scan, std::size_t file, const std::vector<Kept>& kept)
-      : in_(scan.files()[file]),
+      : in_(scan.files()[file].name),
         header_(read_las_header(in_)),
         // Its counts were checked when the scan was read.
         points_(las_points(in_, header_, Trust::kHeader, scan.memory())),
@@ -111,7 +111,7 @@ void add_results(std::span<const ResultColumn> results, std::vector<LasExtraByte
 class LasForm final : public PointsForm {
  public:
   LasForm(const PointsPlan& plan, bool is_compressed)
-      : scan_(plan.scan), file_(plan.files.first), input_(examine(scan_.files()[file_])) {
+      : scan_(plan.scan), file_(plan.files.first), input_(examine(scan_.files()[file_].name)) {
     constexpr std::size_t kMostRecordBytes = 65535, kMostDescriptors = 341;  // 192 bytes each in 65535
     const std::size_t extra = input_.extra.size();
     written_bytes_ = input_.record_bytes + bytes_of(plan.results);
@@ -128,8 +128,8 @@ class LasForm final : public PointsForm {
     return std::make_unique<LasRows>(scan_, file_, input_.kept);
   }
   std::unique_ptr<RowsWriter> writer(OutputFile& out, std::uint64_t) const override {
-    return std::make_unique<LasWriter>(out, scan_.files()[file_], input_.header, input_.extra, written_bytes_,
-                                       compression_);
+    return std::make_unique<LasWriter>(out, scan_.files()[file_].name, input_.header, input_.extra,
+                                       written_bytes_, compression_);
   }
 
  private:

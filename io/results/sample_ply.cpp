@@ -23,7 +23,7 @@ bool is_colour(std::string_view property) {
 
 RowLayout colour_columns(const FileScan& scan, const OutputConfig& config) {
   const bool with_colours = config.report || !scan.reads_slowly();
-  return join_layouts(scan.layouts(), [&](const RowLayout& layout, std::size_t i) {
+  return join_layouts(layouts_of(scan), [&](const RowLayout& layout, std::size_t i) {
     return !with_colours || !is_colour(layout.properties[i].name);
   });
 }

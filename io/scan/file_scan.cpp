@@ -12,20 +12,21 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <set>
 #include <sstream>
 #include <utility>
 
 namespace lacuna::io {
 namespace {
 
-// Returns the first text that is not empty, if the others are the same. Empty if two differ.
+// Returns the first text of a file that is not empty, if the others are the same. Empty if two differ.
 template <class Same>
-std::string common(const std::vector<std::string>& names, const Same& is_same) {
+std::string common(const std::vector<ScanFile>& files, std::string ScanFile::*text, const Same& is_same) {
   std::string first;
-  for (const std::string& name : names) {
-    if (name.empty()) continue;
-    if (first.empty()) first = name;
-    if (!is_same(name, first)) return "";
+  for (const ScanFile& file : files) {
+    if ((file.*text).empty()) continue;
+    if (first.empty()) first = file.*text;
+    if (!is_same(file.*text, first)) return "";
   }
   return first;
 }
@@ -41,125 +42,119 @@ ReadOptions read_options(const InputConfig& config, std::uint64_t memory) {
 }
 
 FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint64_t memory)
-    : config_(std::move(config)), memory_(memory), stated_(read_stated_crs(config_)), expected_points_(0) {
-  for (ScanInput& input : inputs) {
-    states_.push_back(input.arrays ? FileState() : file_state(input.file));
-    if (!input.arrays)
-      first_of_.emplace(FileIdentity(states_.back().device, states_.back().inode), states_.size() - 1);
-    arrays_.push_back(std::move(input.arrays));
-    files_.push_back(std::move(input.file));
-    poses_.push_back(std::move(input.pose));
-    const auto reader = open_in_own_units(files_.size() - 1);
-    const RowFilter filter(config_, files_.back(), *reader);
-    layouts_.push_back(reader->layout());
-    crs_.push_back(reader->crs());
-    add_units(*reader);
-    formats_.push_back(reader->format());
-    notes_.push_back(reader->notes());
-    has_scanner_at_zero_.push_back(!poses_.back() && reader->has_scanner_at_zero());
-    reads_slowly_ = reads_slowly_ || reader->is_slow();
-    has_normals_ = has_normals_ || has_vectors(layouts_.back(), kNormalNames);
-    has_scanners_ = has_scanners_ || !reader->scanners().empty();
-    rows_read_.push_back(0);
-    expected_rows_.push_back(reader->expected_rows());
-    if (expected_points_ && expected_rows_.back()) {
-      *expected_points_ += *expected_rows_.back();
-    } else {
-      expected_points_.reset();
-    }
-    is_geographic_.push_back(reader->is_geographic() || (crs_.back().empty() && look_like_degrees(*reader)));
-  }
+    : config_(std::move(config)), memory_(memory), stated_(read_stated_crs(config_)) {
+  for (ScanInput& input : inputs) add_file(std::move(input));
   choose_crs();
   choose_z_factors();
   last_file_ = files_.size();
 }
 
+void FileScan::add_file(ScanInput input) {
+  ScanFile& file = files_.emplace_back();
+  if (!input.arrays) file.state = file_state(input.file);
+  file.name = std::move(input.file);
+  file.pose = std::move(input.pose);
+  file.arrays = std::move(input.arrays);
+  const auto reader = open_in_own_units(files_.size() - 1);
+  const RowFilter filter(config_, file.name, *reader);
+  file.layout = reader->layout();
+  file.crs = reader->crs();
+  add_units(*reader, file);
+  file.format = reader->format();
+  file.notes = reader->notes();
+  file.has_scanner_at_zero = !file.pose && reader->has_scanner_at_zero();
+  file.expected_rows = reader->expected_rows();
+  file.is_geographic = reader->is_geographic() || (file.crs.empty() && look_like_degrees(*reader));
+  reads_slowly_ = reads_slowly_ || reader->is_slow();
+  has_normals_ = has_normals_ || has_vectors(file.layout, kNormalNames);
+  has_scanners_ = has_scanners_ || !reader->scanners().empty();
+}
+
 // The system states the units that a file does not, or contradicts them.
-void FileScan::add_units(const ScanReader& reader) {
-  units_.push_back(reader.length_unit());
-  z_units_.push_back(reader.vertical_unit());
-  std::string& contradiction = contradictions_.emplace_back();
+void FileScan::add_units(const ScanReader& reader, ScanFile& file) {
+  file.unit = reader.length_unit();
+  file.z_unit = reader.vertical_unit();
   const auto settle = [&](std::string& unit, const std::string& other, const char* what, const char* option) {
     if (unit.empty()) unit = other;
-    if (other.empty() || other == unit || !contradiction.empty()) return;
-    contradiction = std::string("its unit and its system contradict each other: ") + what + " are in " +
-                    unit + " or in " + other + "; " + unit + " holds, and " + option + " " + other +
-                    " states the other";
+    if (other.empty() || other == unit || !file.contradiction.empty()) return;
+    file.contradiction = std::string("its unit and its system contradict each other: ") + what + " are in " +
+                         unit + " or in " + other + "; " + unit + " holds, and " + option + " " + other +
+                         " states the other";
   };
-  settle(units_.back(), reader.other_unit(), "lengths", "--unit");
-  const std::string& crs = crs_.back();
+  settle(file.unit, reader.other_unit(), "lengths", "--unit");
+  const std::string& crs = file.crs;
   if (reader.is_geographic()) return;
-  if (!is_code(crs)) return settle(units_.back(), io::length_unit(crs), "lengths", "--unit");
+  if (!is_code(crs)) return settle(file.unit, io::length_unit(crs), "lengths", "--unit");
   const bool has_z_code = crs.find('+') != crs.npos;
-  if (is_utm(crs) && !has_z_code) return settle(units_.back(), "m", "lengths", "--unit");
+  if (is_utm(crs) && !has_z_code) return settle(file.unit, "m", "lengths", "--unit");
   // Files of one scan have one system, mostly, which is looked up once.
-  if (crs_.size() < 2 || crs != crs_[crs_.size() - 2]) known_crs_.clear();
-  if (known_crs_.empty()) known_crs_ = known_text(crs);
-  settle(units_.back(), io::length_unit(known_crs_), "lengths", "--unit");
-  settle(z_units_.back(), vertical_unit(known_crs_), "heights", "--unit-z");
+  if (crs != known_crs_) known_text_ = known_text(crs);
+  known_crs_ = crs;
+  settle(file.unit, io::length_unit(known_text_), "lengths", "--unit");
+  settle(file.z_unit, vertical_unit(known_text_), "heights", "--unit-z");
 }
 
 // A stated unit of x and y that is not a file's own is a word against its unit of z, too.
 void FileScan::choose_z_factors() {
   bool is_any = false;
-  for (std::size_t i = 0; i < files_.size(); ++i) {
+  for (ScanFile& file : files_) {
     const std::string& flat = !stated_.unit.empty() ? stated_.unit
-                              : units_[i].empty()   ? common_unit_
-                                                    : units_[i];
-    const std::string said = stated_.crs.empty() ? z_units_[i] : vertical_unit(stated_.crs);
+                              : file.unit.empty()   ? common_unit_
+                                                    : file.unit;
+    const std::string said = stated_.crs.empty() ? file.z_unit : vertical_unit(stated_.crs);
     if (!stated_.unit_z.empty()) {
-      z_units_[i] = stated_.unit_z;
-    } else if (!stated_.unit.empty() && stated_.unit != units_[i]) {
-      z_units_[i].clear();
+      file.z_unit = stated_.unit_z;
+    } else if (!stated_.unit.empty() && stated_.unit != file.unit) {
+      file.z_unit.clear();
     }
-    is_any = is_any || said != z_units_[i];
-    const auto metres = metres_of_unit(flat), metres_of_z = metres_of_unit(z_units_[i]);
+    is_any = is_any || said != file.z_unit;
+    const auto metres = metres_of_unit(flat), metres_of_z = metres_of_unit(file.z_unit);
     if (config_.unit_z != LengthUnit::kInput && !metres)
-      throw Error(files_[i].string() +
+      throw Error(file.name.string() +
                   ": the unit of x and y is not known, into which --unit-z brings z; "
                   "--unit states it");
-    if (flat == z_units_[i] || !metres || !metres_of_z) z_units_[i].clear();
-    z_factors_.push_back(z_units_[i].empty() ? 1 : *metres_of_z / *metres);
-    is_any = is_any || z_factors_.back() != 1;
+    if (flat == file.z_unit || !metres || !metres_of_z) file.z_unit.clear();
+    file.z_factor = file.z_unit.empty() ? 1 : *metres_of_z / *metres;
+    is_any = is_any || file.z_factor != 1;
   }
   // The results have z in other units than the vertical part of the system.
   if (is_any) common_crs_ = std::string(without_vertical(common_crs_));
 }
 
 void FileScan::choose_crs() {
-  common_crs_ = stated_.crs.empty() ? common(crs_, is_same_crs) : stated_.crs;
+  common_crs_ = stated_.crs.empty() ? common(files_, &ScanFile::crs, is_same_crs) : stated_.crs;
   if (!stated_.unit.empty()) {
     common_unit_ = stated_.unit;
     return;
   }
-  const bool differ = common_crs_.empty() && std::any_of(crs_.begin(), crs_.end(),
-                                                         [](const std::string& crs) { return !crs.empty(); });
-  const bool all_have_one =
-      std::none_of(units_.begin(), units_.end(), [](const std::string& unit) { return unit.empty(); });
-  if (!differ || all_have_one) common_unit_ = common(units_, std::equal_to<>());
+  const bool differ =
+      common_crs_.empty() && std::ranges::any_of(files_, [](const ScanFile& f) { return !f.crs.empty(); });
+  const bool all_have_one = std::ranges::none_of(files_, [](const ScanFile& f) { return f.unit.empty(); });
+  if (!differ || all_have_one) common_unit_ = common(files_, &ScanFile::unit, std::equal_to<>());
 }
 
 std::unique_ptr<ScanReader> FileScan::open(std::size_t file) const {
   auto reader = open_in_own_units(file);
-  const double factor = z_factors_[file];
+  const double factor = files_[file].z_factor;
   return factor == 1 ? std::move(reader) : with_z_times(std::move(reader), factor);
 }
 
-std::unique_ptr<ScanReader> FileScan::open_in_own_units(std::size_t file) const {
-  if (arrays_[file]) return read_arrays(*arrays_[file]);
-  io::check_unchanged(files_[file], states_[file]);
-  auto reader = open_scan(files_[file], read_options(config_, memory_));
-  return poses_[file] ? posed(std::move(reader), *poses_[file]) : std::move(reader);
+std::unique_ptr<ScanReader> FileScan::open_in_own_units(std::size_t index) const {
+  const ScanFile& file = files_[index];
+  if (file.arrays) return read_arrays(*file.arrays);
+  io::check_unchanged(file.name, file.state);
+  auto reader = open_scan(file.name, read_options(config_, memory_));
+  return file.pose ? posed(std::move(reader), *file.pose) : std::move(reader);
 }
 
 std::size_t FileScan::batch_rows(std::size_t file) const {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 16;
-  return std::clamp<std::uint64_t>(memory_ / 2 / layouts_[file].stride, 1, kMost);
+  return std::clamp<std::uint64_t>(memory_ / 2 / files_[file].layout.stride, 1, kMost);
 }
 
 void FileScan::check_unchanged() const {
-  for (std::size_t i = 0; i < files_.size(); ++i) {
-    if (!arrays_[i]) io::check_unchanged(files_[i], states_[i]);
+  for (const ScanFile& file : files_) {
+    if (!file.arrays) io::check_unchanged(file.name, file.state);
   }
 }
 
@@ -167,18 +162,19 @@ void FileScan::check_unchanged() const {
 void FileScan::refuse_too_far(const PointBatch& batch) const {
   const auto found = std::find_if(batch.positions.begin(), batch.positions.end(), is_too_far);
   if (found == batch.positions.end()) return;
-  const std::uint64_t row = rows_read_[file_] + static_cast<std::uint64_t>(found - batch.positions.begin());
+  const std::uint64_t row =
+      files_[file_].rows_read + static_cast<std::uint64_t>(found - batch.positions.begin());
   std::ostringstream message;
-  message << files_[file_].string() << ": point " << row << " lies at " << found->x() << " " << found->y()
-          << " " << found->z() << "; coordinates must be within 1e153";
+  message << files_[file_].name.string() << ": point " << row << " lies at " << found->x() << " "
+          << found->y() << " " << found->z() << "; coordinates must be within 1e153";
   throw Error(message.str());
 }
 
 std::vector<std::uint64_t> FileScan::parts() const {
   constexpr std::uint64_t kBytesOfLine = 24;
   std::vector<std::uint64_t> parts;
-  for (std::size_t file = 0; file < files_.size(); ++file)
-    parts.push_back(expected_rows_[file].value_or(states_[file].size / kBytesOfLine));
+  for (const ScanFile& file : files_)
+    parts.push_back(file.expected_rows.value_or(file.state.size / kBytesOfLine));
   return parts;
 }
 
@@ -186,7 +182,7 @@ void FileScan::select(std::size_t first, std::size_t last, PointId id) {
   first_file_ = first;
   last_file_ = last;
   first_id_ = id;
-  std::fill(rows_read_.begin(), rows_read_.end(), 0);
+  for (ScanFile& file : files_) file.rows_read = 0;
 }
 
 void FileScan::rewind() {
@@ -206,8 +202,8 @@ bool FileScan::next(PointBatch& batch) {
   for (; file_ < last_file_; ++file_, reader_.reset()) {
     if (!reader_) {
       reader_ = open(file_);
-      rows_read_[file_] = 0;
-      filter_.emplace(config_, files_[file_], *reader_);
+      files_[file_].rows_read = 0;
+      filter_.emplace(config_, files_[file_].name, *reader_);
     }
     if (!reader_->next(rows_, batch_rows(file_))) continue;
     const RowLayout& layout = reader_->layout();
@@ -223,22 +219,22 @@ bool FileScan::next(PointBatch& batch) {
     refuse_too_far(batch);
     has_point_ = has_point_ || std::any_of(batch.positions.begin(), batch.positions.end(),
                                            [](const Eigen::Vector3d& p) { return p.allFinite(); });
-    rows_read_[file_] += rows_.count;
+    files_[file_].rows_read += rows_.count;
     next_id_ += rows_.count;
     return true;
   }
   if (last_file_ - first_file_ < files_.size()) return false;  // other files may have points
   if (filtered_out_.total() > 0 && !has_point_)
     throw Error(describe_no_row_left(config_, filtered_out_, before_filters_));
-  if (!has_point_ && !files_.empty() && !arrays_[0]) throw Error(describe_no_point());
+  if (!has_point_ && !files_.empty() && !files_[0].arrays) throw Error(describe_no_point());
   if (observer_) observer_->end();
   return false;
 }
 
 std::string FileScan::describe_no_point() const {
   std::uint64_t rows = 0;
-  for (const std::uint64_t count : rows_read_) rows += count;
-  const std::string name = files_[0].string() + (files_.size() > 1 ? " and the other files" : "");
+  for (const ScanFile& file : files_) rows += file.rows_read;
+  const std::string name = files_[0].name.string() + (files_.size() > 1 ? " and the other files" : "");
   if (rows == 0) return name + ": no points: a header alone, or empty scans";
   return name + ": no points: none of " + std::to_string(rows) +
          " rows has a place; they are NaN, or rays that are marked as invalid or have no return";
@@ -254,27 +250,25 @@ void FileScan::read_all(RowObserver& observer) {
 }
 
 std::optional<std::uint64_t> FileScan::expected_points() const {
-  return expected_points_;
-}
-
-bool FileScan::has_normals() const {
-  return has_normals_;
-}
-
-bool FileScan::reads_slowly() const {
-  return reads_slowly_;
+  std::uint64_t points = 0;
+  for (const ScanFile& file : files_) {
+    if (!file.expected_rows) return std::nullopt;
+    points += *file.expected_rows;
+  }
+  return points;
 }
 
 std::vector<std::string> FileScan::identity() const {
   std::vector<std::string> lines;
-  if (std::any_of(arrays_.begin(), arrays_.end(), std::identity())) return lines;
+  if (std::ranges::any_of(files_, [](const ScanFile& file) { return file.arrays != nullptr; })) return lines;
   const std::vector<std::string> names = this->names();
   for (std::size_t i = 0; i < files_.size(); ++i) {
     std::ostringstream line;
-    const Digest sample = sample_digest(files_[i], states_[i]);
-    line << names[3 * i + 1] << ", " << states_[i].size << " bytes, written at " << states_[i].mtime
-         << " ns, sample " << std::hex << sample[0] << sample[1];
-    if (poses_[i]) line << ", pose " << names[3 * i + 2];
+    const FileState& state = files_[i].state;
+    const Digest sample = sample_digest(files_[i].name, state);
+    line << names[3 * i + 1] << ", " << state.size << " bytes, written at " << state.mtime << " ns, sample "
+         << std::hex << sample[0] << sample[1];
+    if (files_[i].pose) line << ", pose " << names[3 * i + 2];
     lines.push_back(line.str());
   }
   FilesConfig config;
@@ -292,10 +286,10 @@ std::vector<std::string> FileScan::identity() const {
 
 std::vector<std::string> FileScan::names() const {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < files_.size(); ++i) {
+  for (const ScanFile& file : files_) {
     std::ostringstream pose;
-    if (poses_[i]) pose << poses_[i]->matrix().format(Eigen::IOFormat(17, Eigen::DontAlignCols, " ", " "));
-    names.insert(names.end(), {files_[i].string(), full_name(files_[i]).string(), pose.str()});
+    if (file.pose) pose << file.pose->matrix().format(Eigen::IOFormat(17, Eigen::DontAlignCols, " ", " "));
+    names.insert(names.end(), {file.name.string(), full_name(file.name).string(), pose.str()});
   }
   return names;
 }
@@ -311,48 +305,59 @@ std::vector<ScanInput> inputs_of(std::span<const std::string> names) {
 }
 
 std::vector<std::uint64_t> FileScan::pass_counts() const {
-  std::vector<std::uint64_t> counts = rows_read_;
+  std::vector<std::uint64_t> counts;
+  for (const ScanFile& file : files_) counts.push_back(file.rows_read);
   for (const FilterCount& filter : kFilterCounts) counts.push_back(filtered_out_.*filter.count);
   counts.push_back(filtered_out_.synthetic);
   return counts;
 }
 
 void FileScan::set_pass_counts(std::span<const std::uint64_t> counts) {
-  if (counts.size() != rows_read_.size() + std::size(kFilterCounts) + 1)
+  if (counts.size() != files_.size() + std::size(kFilterCounts) + 1)
     fail_inconsistent("the workspace counts another number of files");
-  std::copy_n(counts.begin(), rows_read_.size(), rows_read_.begin());
-  auto left_out = counts.begin() + static_cast<std::ptrdiff_t>(rows_read_.size());
-  for (const FilterCount& filter : kFilterCounts) filtered_out_.*filter.count = *left_out++;
-  filtered_out_.synthetic = *left_out;
+  auto count = counts.begin();
+  for (ScanFile& file : files_) file.rows_read = *count++;
+  for (const FilterCount& filter : kFilterCounts) filtered_out_.*filter.count = *count++;
+  filtered_out_.synthetic = *count;
 }
 
-bool FileScan::single_precision() const {
-  return std::all_of(layouts_.begin(), layouts_.end(), [](const RowLayout& layout) {
-    return std::all_of(kPositionNames.begin(), kPositionNames.end(),
-                       [&](const char* name) { return layout.find(name)->type == Scalar::kFloat32; });
+std::vector<RowLayout> layouts_of(const FileScan& scan) {
+  std::vector<RowLayout> layouts;
+  for (const ScanFile& file : scan.files()) layouts.push_back(file.layout);
+  return layouts;
+}
+
+std::vector<std::filesystem::path> names_of(const FileScan& scan) {
+  std::vector<std::filesystem::path> names;
+  for (const ScanFile& file : scan.files()) names.push_back(file.name);
+  return names;
+}
+
+bool has_single_precision(const FileScan& scan) {
+  return std::ranges::all_of(scan.files(), [](const ScanFile& file) {
+    return std::ranges::all_of(
+        kPositionNames, [&](const char* name) { return file.layout.find(name)->type == Scalar::kFloat32; });
   });
 }
 
-std::optional<std::size_t> FileScan::find(const std::filesystem::path& file) const {
-  const std::optional<FileIdentity> identity = find_identity(file);
-  const auto first = identity ? first_of_.find(*identity) : first_of_.end();
-  return first == first_of_.end() ? std::nullopt : std::optional(first->second);
-}
-
-std::vector<std::size_t> FileScan::repeated() const {
+std::vector<std::size_t> repeated_files(const FileScan& scan) {
+  std::set<FileIdentity> seen;
   std::vector<std::size_t> repeated;
-  for (std::size_t i = 0; i < files_.size(); ++i) {
-    const auto first = first_of_.find({states_[i].device, states_[i].inode});
-    if (first != first_of_.end() && first->second < i) repeated.push_back(i);
+  for (std::size_t i = 0; i < scan.files().size(); ++i) {
+    const ScanFile& file = scan.files()[i];
+    if (!file.arrays && !seen.emplace(file.state.device, file.state.inode).second) repeated.push_back(i);
   }
   return repeated;
 }
 
 void check_not_input(const ResultFolder& folder, const FileScan& scan) {
-  for (const std::filesystem::path& file : folder.earlier_files()) {
-    if (const std::optional<std::size_t> input = scan.find(file))
-      throw Error(scan.files()[*input].string() +
-                  ": is an input in the place of a result; another output folder is needed");
+  for (const std::filesystem::path& earlier : folder.earlier_files()) {
+    const std::optional<FileIdentity> identity = find_identity(earlier);
+    for (const ScanFile& file : scan.files()) {
+      if (!file.arrays && identity == FileIdentity(file.state.device, file.state.inode))
+        throw Error(file.name.string() +
+                    ": is an input in the place of a result; another output folder is needed");
+    }
   }
 }
 

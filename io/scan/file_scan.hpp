@@ -14,7 +14,6 @@
 
 #include <concepts>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -54,6 +53,29 @@ class RowObserver {
   virtual void end() {}  // every row was there
 };
 
+// A file of a scan, or arrays, as they were opened first.
+struct ScanFile {
+  std::filesystem::path name;                // as given
+  std::optional<Pose> pose;                  // of its coordinates in the registered scan
+  std::shared_ptr<const ScanArrays> arrays;  // null for a file on disk
+  FileState state;                           // of a file on disk
+  std::string format;                        // as `ScanReader::format` says
+  RowLayout layout;
+  std::vector<ReaderNote> notes;  // of its reader
+  std::string crs;                // empty if it names none, or has a pose
+  std::string unit;               // of length; empty if it names none
+  std::string z_unit;             // of z, with what --unit-z states; empty if it is the unit of x and y
+  std::string contradiction;      // how the units that it states contradict each other; empty if they do not
+  double z_factor = 1;            // brings its z into the unit of x and y
+  bool is_geographic = false;  // longitude and latitude, as it says, or as its first rows show where it names
+                               // no system
+  bool has_scanner_at_zero = false;            // it states 0 0 0 as its scanner's place, and no pose moves it
+  std::optional<std::uint64_t> expected_rows;  // as its header declares; text declares none
+  std::uint64_t rows_read = 0;                 // in the last pass
+
+  std::uint64_t rows() const { return expected_rows.value_or(rows_read); }
+};
+
 // Ids count the rows over the files, in order. A batch lies within one file. If any file has normals, the
 // points of a file without normals get NaN. Points that the filters of the config leave out have NaN for a
 // position. If they leave out all points, the last `next` is an `Error`. A file that changes after the first
@@ -68,8 +90,8 @@ class LACUNA_API FileScan : public PointSource {
   void rewind() override;
   bool next(PointBatch& batch) override;
   std::optional<std::uint64_t> expected_points() const override;
-  bool has_normals() const override;   // any file has nx ny nz
-  bool reads_slowly() const override;  // any file does
+  bool has_normals() const override { return has_normals_; }    // any file has nx ny nz
+  bool reads_slowly() const override { return reads_slowly_; }  // any file does
   // Returns the rows of each file as its header declares. For text, they are as many as short lines allow.
   std::vector<std::uint64_t> parts() const override;
   void select(std::size_t first, std::size_t last, PointId id) override;
@@ -82,30 +104,7 @@ class LACUNA_API FileScan : public PointSource {
   std::vector<std::uint64_t> pass_counts() const override;
   void set_pass_counts(std::span<const std::uint64_t> counts) override;
 
-  const std::vector<std::filesystem::path>& files() const { return files_; }
-  const std::vector<std::optional<Pose>>& poses() const { return poses_; }  // one per file
-  const std::vector<RowLayout>& layouts() const { return layouts_; }        // one per file
-  // Returns the rows that each file's header declares; text files declare none.
-  const std::vector<std::optional<std::uint64_t>>& expected_rows() const { return expected_rows_; }
-  // Returns the format of each file, as ScanReader::format says.
-  const std::vector<std::string>& formats() const { return formats_; }
-  // Returns what each file's reader notes.
-  const std::vector<std::vector<ReaderNote>>& notes() const { return notes_; }
-  // Whether a file states 0 0 0 as its scanner's place, and no pose moves it.
-  bool has_scanner_at_zero(std::size_t file) const { return has_scanner_at_zero_[file]; }
-  // Returns the CRS of each file; empty if it names none, or has a pose.
-  const std::vector<std::string>& crs() const { return crs_; }
-  // Returns the unit of length of each file; empty if it names none.
-  const std::vector<std::string>& units() const { return units_; }
-  // Returns the unit of z of each file, with what --unit-z states; empty if it is the unit of x and y.
-  const std::vector<std::string>& z_units() const { return z_units_; }
-  // Returns how the units that each file states contradict each other; empty if they do not.
-  const std::vector<std::string>& contradictions() const { return contradictions_; }
-  // Returns the factor that brings z of a file into the unit of x and y.
-  double z_factor(std::size_t file) const { return z_factors_[file]; }
-  // Whether positions of a file are longitude and latitude, as it says, or as its first rows show where it
-  // names no system.
-  bool is_geographic(std::size_t file) const { return is_geographic_[file]; }
+  const std::vector<ScanFile>& files() const { return files_; }
   // Returns the values of --crs and --unit in the config; empty if not stated.
   const StatedCrs& stated_crs() const { return stated_; }
   // Returns the system that the config states, else the one that all files with a system share. It is empty
@@ -115,8 +114,6 @@ class LACUNA_API FileScan : public PointSource {
   // empty if units differ, or there are none. It is empty, too, if files have different systems and one has
   // no unit.
   const std::string& length_unit() const { return common_unit_; }
-  // Returns the rows of a file: as its header declares, else as many as the last pass has read of it.
-  std::uint64_t rows(std::size_t file) const { return expected_rows_[file].value_or(rows_read_[file]); }
   std::uint64_t memory() const { return memory_; }
   // Returns how many rows of a file to read at a time.
   std::size_t batch_rows(std::size_t file) const;
@@ -129,41 +126,25 @@ class LACUNA_API FileScan : public PointSource {
   // Throws `Error` if a file is no longer what it was when it was first opened. Then a later read may not fit
   // an earlier one.
   void check_unchanged() const;
-  // Returns the first input that is this file, by whatever name; nothing if none is.
-  std::optional<std::size_t> find(const std::filesystem::path& file) const;
-  // Returns the inputs that are the same file as one before them, ascending.
-  std::vector<std::size_t> repeated() const;
   void observe(RowObserver* observer) { observer_ = observer; }  // null: no observer
   void read_all(RowObserver& observer);                          // for this observer alone, once
   bool has_scanners() const { return has_scanners_; }            // a file has the place of one
-  bool single_precision() const;                                 // x, y and z are 32-bit floats in every file
 
  private:
+  void add_file(ScanInput input);
+  void add_units(const ScanReader& reader, ScanFile& file);
   void choose_crs();
-  void add_units(const ScanReader& reader);
   void choose_z_factors();
   void refuse_too_far(const PointBatch& batch) const;
   std::string describe_no_point() const;
 
-  std::vector<std::filesystem::path> files_;
-  std::vector<std::optional<Pose>> poses_;                 // one per file
-  std::vector<std::shared_ptr<const ScanArrays>> arrays_;  // one per file; null for a file on disk
+  std::vector<ScanFile> files_;
   InputConfig config_;
   std::uint64_t memory_;
-  std::vector<FileState> states_;                 // of each file; nothing for arrays
-  std::map<FileIdentity, std::size_t> first_of_;  // the first input of each file
-  std::vector<RowLayout> layouts_;
-  std::vector<std::string> crs_, units_, z_units_, contradictions_, formats_;
-  std::vector<double> z_factors_;
-  std::vector<std::vector<ReaderNote>> notes_;
-  std::vector<bool> is_geographic_, has_scanner_at_zero_;
   StatedCrs stated_;
-  std::string known_crs_;  // well-known text of the last code that was looked up
+  std::string known_crs_, known_text_;  // the last code that was looked up, and its well-known text
   std::string common_crs_, common_unit_;
   bool has_normals_ = false, reads_slowly_ = false, has_scanners_ = false;
-  std::vector<std::optional<std::uint64_t>> expected_rows_;
-  std::optional<std::uint64_t> expected_points_;
-  std::vector<std::uint64_t> rows_read_;    // of each file, in this pass
   std::size_t first_file_ = 0, last_file_;  // that passes read
   PointId first_id_{};
   // where reading goes on
@@ -178,6 +159,12 @@ class LACUNA_API FileScan : public PointSource {
   RowObserver* observer_ = nullptr;
   std::vector<Eigen::Vector3d> read_;  // positions before the filters, for the observer
 };
+
+std::vector<RowLayout> layouts_of(const FileScan& scan);            // one per file
+std::vector<std::filesystem::path> names_of(const FileScan& scan);  // likewise
+bool has_single_precision(const FileScan& scan);  // x, y and z are 32-bit floats in every file
+// Returns the inputs that are the same file as one before them, ascending.
+std::vector<std::size_t> repeated_files(const FileScan& scan);
 
 // Throws `Error` if an earlier result that the folder replaces is an input of the scan.
 void check_not_input(const ResultFolder& folder, const FileScan& scan);

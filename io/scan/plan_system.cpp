@@ -49,19 +49,19 @@ std::string utm_zone(double longitude, double latitude) {
 void require_plan(const FileScan& scan, const std::string& option) {
   const std::string& stated = scan.stated_crs().crs;
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
-    const std::string& crs = stated.empty() ? scan.crs()[i] : stated;
-    if (i > 0 && (!stated.empty() || crs == scan.crs()[i - 1])) continue;
+    const std::string& crs = stated.empty() ? scan.files()[i].crs : stated;
+    if (i > 0 && (!stated.empty() || crs == scan.files()[i - 1].crs)) continue;
     const bool is_guess = crs.empty();
-    const bool may_be_metres = scan.units()[i].empty() || scan.units()[i] == "m";
+    const bool may_be_metres = scan.files()[i].unit.empty() || scan.files()[i].unit == "m";
     if (is_guess && (!may_be_metres || !scan.stated_crs().unit.empty())) continue;
     const std::string text = is_guess ? std::string() : known_text(crs);
     if (!is_guess && !is_geocentric(text)) continue;
     const auto place = find_place(scan, i);
     if (is_guess && !(place && is_on_earth(*place))) continue;
     std::optional<std::vector<Eigen::Vector3d>> degrees;
-    if (place) degrees = to_degrees(is_guess ? kGeocentricCode : crs, {*place}, scan.files()[i]);
+    if (place) degrees = to_degrees(is_guess ? kGeocentricCode : crs, {*place}, scan.files()[i].name);
     const std::string zone = degrees ? utm_zone(degrees->front().x(), degrees->front().y()) : "EPSG:N";
-    throw Error(scan.files()[i].string() + ": " +
+    throw Error(scan.files()[i].name.string() + ": " +
                 (is_guess ? "its places are geocentric, as of EPSG:4978" : name_in(text) + " is geocentric") +
                 ", and " + option + " needs a plan; `pdal translate IN OUT reprojection " +
                 (is_guess ? "--filters.reprojection.in_srs=EPSG:4978 " : "") +

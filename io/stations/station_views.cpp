@@ -80,20 +80,20 @@ StationViews::StationViews(const FileScan& scan, const std::filesystem::path& st
                            std::filesystem::path folder, Ranges ranges)
     : folder_(std::move(folder)),
       memory_(scan.memory()),
-      files_(scan.files()),
+      files_(names_of(scan)),
       are_stated_(!stated.empty()),
       has_ranges_(ranges == Ranges::kKept) {
   if (!are_stated_) return;
   if (std::optional<Trajectory> path = read_trajectory(stated, memory_)) {
     for (std::size_t i = 0; i < files_.size(); ++i) {
-      if (!time_of(scan.layouts()[i]))
+      if (!time_of(scan.files()[i].layout))
         throw Error(files_[i].string() + ": has no column gps_time or time, which a trajectory needs");
     }
     const double metre = 1 / metres_of_unit(scan.length_unit()).value_or(1);
     path_ = std::make_unique<PathView>(std::move(*path), stated, metre, folder_, memory_);
     return;
   }
-  for (Station& station : read_stations(stated, scan.files())) add(std::move(station));
+  for (Station& station : read_stations(stated, files_)) add(std::move(station));
 }
 
 void StationViews::add(Station station) {

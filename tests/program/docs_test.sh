@@ -9,17 +9,20 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 failed=0
 
-cp docs/figures/*.py "$scratch"
-python3 "$scratch/make.py"
-for figure in "$scratch"/*.svg; do
+drawn=$scratch/docs/figures
+mkdir -p "$drawn" "$scratch/bench/accuracy"
+cp docs/figures/*.py "$drawn"
+cp bench/accuracy/README.md "$scratch/bench/accuracy"
+python3 "$drawn/make.py"
+for figure in "$drawn"/*.svg; do
   cmp "$figure" "docs/figures/$(basename "$figure")" || failed=1
 done
 for figure in docs/figures/*.svg; do
-  [[ -e $scratch/$(basename "$figure") ]] || { echo "$figure: no script draws it"; failed=1; }
+  [[ -e $drawn/$(basename "$figure") ]] || { echo "$figure: no script draws it"; failed=1; }
 done
 
 if [[ -n ${LACUNA_PROGRAM:-} ]]; then
-  python3 "$scratch/compare.py" "$LACUNA_PROGRAM" || failed=1
+  python3 "$drawn/compare.py" "$LACUNA_PROGRAM" || failed=1
 fi
 
 python3 tools/check_prose.py || failed=1

@@ -117,7 +117,7 @@ TEST_CASE("z in another unit is brought into the unit of x and y, but for the an
   InputConfig config;
   config.unit_z = LengthUnit::kM;
   FileScan stated({file}, config);
-  CHECK(stated.z_factor(0) == 1);
+  CHECK(stated.files()[0].z_factor == 1);
   CHECK(input_warnings(stated).empty());
 }
 

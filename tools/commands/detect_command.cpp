@@ -92,7 +92,7 @@ fs::path scratch_parent(const RunConfig& run, const ResultFolder& out) {
 
 // Returns an empty text if every program reads the file.
 std::string readers_note(const FileScan& scan, const OutputConfig& config) {
-  if (scan.single_precision() || config.local_coordinates) return "";
+  if (has_single_precision(scan) || config.local_coordinates) return "";
   return "note: PCL takes the 64-bit coordinates of PLY files for 0 0 0; --local-coordinates helps, or "
          "--points "
          "--points-format csv\n";

@@ -62,20 +62,20 @@ std::string without_divisors(std::string name) {
 
 // Returns the last part of the file's name alone, if no other file has it.
 std::string name_in_list(std::size_t file, const FileScan& scan) {
-  const fs::path last = scan.files()[file].filename();
-  const auto same = std::count_if(scan.files().begin(), scan.files().end(),
-                                  [&](const fs::path& other) { return other.filename() == last; });
-  return same == 1 ? last.string() : scan.files()[file].string();
+  const fs::path last = scan.files()[file].name.filename();
+  const auto same = std::ranges::count_if(
+      scan.files(), [&](const ScanFile& other) { return other.name.filename() == last; });
+  return same == 1 ? last.string() : scan.files()[file].name.string();
 }
 
 // Returns the subject of the sweep: the file, and the number.
 std::string subject_of(const Sweep& sweep, const FileScan& scan) {
   const std::string number = sweep.source ? " " + std::to_string(*sweep.source) : "";
-  return scan.files()[sweep.file].string() + number;
+  return scan.files()[sweep.file].name.string() + number;
 }
 
 Listed listed(const Sweep& sweep, const FoundStation& found, const FileScan& scan) {
-  const fs::path& file = scan.files()[sweep.file];
+  const fs::path& file = scan.files()[sweep.file].name;
   const std::string source = sweep.source ? std::to_string(*sweep.source) : "";
   Listed station{.line = without_divisors(file.stem().string()) + (source.empty() ? "" : "_" + source),
                  .subject = subject_of(sweep, scan),

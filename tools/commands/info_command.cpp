@@ -100,12 +100,12 @@ AttributeCounts counts_of_file(ScanReader& reader, std::size_t rows_at_a_time) {
 }
 
 FileInfo read_file_info(const FileScan& scan, std::size_t file, const ReadOptions& options) {
-  const std::unique_ptr<ScanReader> reader = open_scan(scan.files()[file], options);
-  return {.file = scan.files()[file],
+  const std::unique_ptr<ScanReader> reader = open_scan(scan.files()[file].name, options);
+  return {.file = scan.files()[file].name,
           .format = reader->format(),
           .crs = reader->crs(),
           .unit = reader->length_unit(),
-          .is_geographic = scan.is_geographic(file),
+          .is_geographic = scan.files()[file].is_geographic,
           .layout = reader->layout(),
           .counts = counts_of_file(*reader, scan.batch_rows(file))};
 }
@@ -170,9 +170,9 @@ void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const 
   std::cout << print_left_out(summary.counts, scan.filtered_out());
   if (!scan.common_crs().empty()) std::cout << "\n  crs           " << crs_name(scan.common_crs());
   if (!scan.length_unit().empty()) std::cout << "\n  unit          " << scan.length_unit();
-  const auto is_other = [](const std::string& unit) { return !unit.empty(); };
-  if (const auto z = std::ranges::find_if(scan.z_units(), is_other); z != scan.z_units().end())
-    std::cout << ", with z in " << *z << " in the files, which is brought into it";
+  const auto is_other = [](const ScanFile& file) { return !file.z_unit.empty(); };
+  if (const auto z = std::ranges::find_if(scan.files(), is_other); z != scan.files().end())
+    std::cout << ", with z in " << z->z_unit << " in the files, which is brought into it";
   if (summary.resolution > 0) {
     std::cout << "\n  resolution    " << summary.resolution << ": "
               << print_count(summary.counts.points - summary.counts.dropped - summary.counts.thinned_out)

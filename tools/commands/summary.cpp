@@ -40,7 +40,7 @@ std::string counted(std::size_t count, const char* one, const char* several) {
 
 std::string print_input(const Counts& counts, const FileScan& scan) {
   std::string text = print_count(counts.points) + " points";
-  text += scan.files().size() == 1 ? " in " + visible(scan.files().front().string())
+  text += scan.files().size() == 1 ? " in " + visible(scan.files().front().name.string())
                                    : " in " + std::to_string(scan.files().size()) + " files, as one scan";
   text += print_left_out(counts, scan.filtered_out());
   if (counts.thinned_out > 0) text += "; " + print_count(counts.thinned_out) + " thinned out";

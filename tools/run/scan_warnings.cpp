@@ -48,7 +48,7 @@ std::string print_in_steps(double value, double step) {
 }
 
 std::string file_name(const FileScan& scan, std::size_t i) {
-  return visible(scan.files()[i].string());
+  return visible(scan.files()[i].name.string());
 }
 
 // Returns the first of the files for which the condition holds.
@@ -81,7 +81,7 @@ void warn_of_notes(const FileScan& scan, std::vector<std::string>& warnings) {
   };
   std::map<std::pair<std::string, std::string>, Alike> notes;
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
-    for (const ReaderNote& note : scan.notes()[i]) {
+    for (const ReaderNote& note : scan.files()[i].notes) {
       if (note.count == 0) continue;
       const auto [at, is_new] = notes.try_emplace({note.thing, note.what}, Alike{.first = i});
       at->second.others += is_new ? 0 : 1;
@@ -95,21 +95,21 @@ void warn_of_notes(const FileScan& scan, std::vector<std::string>& warnings) {
 }
 
 void warn_of_other_systems(const FileScan& scan, std::vector<std::string>& warnings) {
-  const auto first = find_file(scan, [&](std::size_t i) { return !scan.crs()[i].empty(); });
+  const auto first = find_file(scan, [&](std::size_t i) { return !scan.files()[i].crs.empty(); });
   if (!first) return;
   for (std::size_t i = *first; i < scan.files().size(); ++i) {
-    if (scan.crs()[i].empty() || is_same_crs(scan.crs()[i], scan.crs()[*first])) continue;
+    if (scan.files()[i].crs.empty() || is_same_crs(scan.files()[i].crs, scan.files()[*first].crs)) continue;
     warnings.push_back(
         file_name(scan, i) +
-        ": its coordinate reference system differs from the first file: " + crs_name(scan.crs()[i]) +
-        ", not " + crs_name(scan.crs()[*first]) + "; results name none, unless --crs states it");
+        ": its coordinate reference system differs from the first file: " + crs_name(scan.files()[i].crs) +
+        ", not " + crs_name(scan.files()[*first].crs) + "; results name none, unless --crs states it");
   }
 }
 
 // A file with a pose is in the system of the others, not in its own.
 void warn_of_missing_systems(const FileScan& scan, std::vector<std::string>& warnings) {
   if (scan.common_crs().empty()) return;
-  const auto is_without = [&](std::size_t i) { return scan.crs()[i].empty() && !scan.poses()[i]; };
+  const auto is_without = [&](std::size_t i) { return scan.files()[i].crs.empty() && !scan.files()[i].pose; };
   const auto first = find_file(scan, is_without);
   if (!first) return;
   warnings.push_back(file_name(scan, *first) + and_more(scan, *first, is_without) +
@@ -118,42 +118,44 @@ void warn_of_missing_systems(const FileScan& scan, std::vector<std::string>& war
 }
 
 void warn_of_other_units(const FileScan& scan, std::vector<std::string>& warnings) {
-  const auto first = find_file(scan, [&](std::size_t i) { return !scan.units()[i].empty(); });
+  const auto first = find_file(scan, [&](std::size_t i) { return !scan.files()[i].unit.empty(); });
   if (!first || !scan.length_unit().empty()) return;
   const auto is_other = [&](std::size_t i) {
-    return !scan.units()[i].empty() && scan.units()[i] != scan.units()[*first];
+    return !scan.files()[i].unit.empty() && scan.files()[i].unit != scan.files()[*first].unit;
   };
   if (const auto other = find_file(scan, is_other))
     warnings.push_back(file_name(scan, *other) + and_more(scan, *other, is_other) + ": its unit is " +
-                       scan.units()[*other] + ", not " + scan.units()[*first] + " as in " +
+                       scan.files()[*other].unit + ", not " + scan.files()[*first].unit + " as in " +
                        file_name(scan, *first) + "; results name none, unless --unit states it");
 }
 
 // Warns of files that contradict what the user states of all: `is_other` of a file.
 template <class IsOther>
-void warn_of_overridden(const FileScan& scan, const std::vector<std::string>& of_files,
-                        const IsOther& is_other, const std::string& what, const std::string& stated,
+void warn_of_overridden(const FileScan& scan, std::string ScanFile::*text, const IsOther& is_other,
+                        const std::string& what, const std::string& stated,
                         std::vector<std::string>& warnings) {
   const auto contradicts = [&](std::size_t i) {
-    return !of_files[i].empty() && is_other(of_files[i], stated);
+    const std::string& of_file = scan.files()[i].*text;
+    return !of_file.empty() && is_other(of_file, stated);
   };
   if (const auto first = find_file(scan, contradicts))
     warnings.push_back(file_name(scan, *first) + and_more(scan, *first, contradicts) + ": its " + what +
-                       " is " + crs_name(of_files[*first]) + "; the stated one holds, " + crs_name(stated));
+                       " is " + crs_name(scan.files()[*first].*text) + "; the stated one holds, " +
+                       crs_name(stated));
 }
 
 void warn_of_contradictions(const FileScan& scan, std::vector<std::string>& warnings) {
-  const auto contradicts = [&](std::size_t i) { return !scan.contradictions()[i].empty(); };
+  const auto contradicts = [&](std::size_t i) { return !scan.files()[i].contradiction.empty(); };
   if (const auto first = find_file(scan, contradicts))
     warnings.push_back(file_name(scan, *first) + and_more(scan, *first, contradicts) + ": " +
-                       crs_name(scan.crs()[*first]) + ": " + scan.contradictions()[*first]);
+                       crs_name(scan.files()[*first].crs) + ": " + scan.files()[*first].contradiction);
 }
 
 void warn_of_z_units(const FileScan& scan, std::vector<std::string>& warnings) {
-  const auto is_scaled = [&](std::size_t i) { return scan.z_factor(i) != 1; };
+  const auto is_scaled = [&](std::size_t i) { return scan.files()[i].z_factor != 1; };
   if (const auto first = find_file(scan, is_scaled))
     warnings.push_back(file_name(scan, *first) + and_more(scan, *first, is_scaled) + ": z is in " +
-                       scan.z_units()[*first] +
+                       scan.files()[*first].z_unit +
                        ", and is brought into the unit of x and y; --unit-z states " +
                        "another unit; the annotated scan keeps its own z");
 }
@@ -191,7 +193,7 @@ void refuse_other_scale(const FileScan& scan, std::size_t file, const std::strin
 }
 
 [[noreturn]] void refuse_longitudes(const FileScan& scan, std::size_t file) {
-  const std::string name = scan.crs()[file].empty() ? "its system" : crs_name(scan.crs()[file]);
+  const std::string name = scan.files()[file].crs.empty() ? "its system" : crs_name(scan.files()[file].crs);
   std::ostringstream text;
   text.precision(10);
   text << file_name(scan, file) << ": " << name;
@@ -217,17 +219,17 @@ void require_lengths(const FileScan& scan) {
   if (!stated.empty()) return refuse_other_scale(scan, 0, "--crs", stated);
   const std::string* checked = nullptr;
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
-    const std::string& crs = scan.crs()[i];
+    const std::string& crs = scan.files()[i].crs;
     // Names and values of columns say so, but the user may know better.
-    if (scan.is_geographic(i) && crs.empty() && !scan.stated_crs().unit.empty()) continue;
-    if (scan.is_geographic(i) && crs.empty())
+    if (scan.files()[i].is_geographic && crs.empty() && !scan.stated_crs().unit.empty()) continue;
+    if (scan.files()[i].is_geographic && crs.empty())
       throw Error(
           file_name(scan, i) +
           ": x and y are longitude and latitude in degrees, by their names or values, and holes need "
           "lengths; "
           "project them first, as with `gdaltransform`; if they are lengths, --unit m or another unit "
           "says so");
-    if (scan.is_geographic(i)) refuse_longitudes(scan, i);
+    if (scan.files()[i].is_geographic) refuse_longitudes(scan, i);
     if (crs.empty() || (checked != nullptr && crs == *checked)) continue;
     refuse_other_scale(scan, i, file_name(scan, i), crs);
     checked = &crs;
@@ -236,21 +238,22 @@ void require_lengths(const FileScan& scan) {
 
 std::vector<std::string> input_warnings(const FileScan& scan) {
   std::vector<std::string> warnings;
-  for (const std::size_t i : scan.repeated())
+  for (const std::size_t i : repeated_files(scan))
     warnings.push_back(file_name(scan, i) + ": given more than once; its points are the same");
   warn_of_notes(scan, warnings);
   if (scan.stated_crs().crs.empty()) {
     warn_of_other_systems(scan, warnings);
     warn_of_missing_systems(scan, warnings);
   } else {
-    warn_of_overridden(scan, scan.crs(), std::not_fn(is_same_crs), "coordinate reference system",
+    warn_of_overridden(scan, &ScanFile::crs, std::not_fn(is_same_crs), "coordinate reference system",
                        scan.stated_crs().crs, warnings);
   }
   if (scan.stated_crs().unit.empty()) {
     warn_of_other_units(scan, warnings);
     warn_of_contradictions(scan, warnings);
   } else {
-    warn_of_overridden(scan, scan.units(), std::not_equal_to<>(), "unit", scan.stated_crs().unit, warnings);
+    warn_of_overridden(scan, &ScanFile::unit, std::not_equal_to<>(), "unit", scan.stated_crs().unit,
+                       warnings);
   }
   warn_of_z_units(scan, warnings);
   return warnings;
@@ -307,7 +310,7 @@ std::vector<std::string> filter_warnings(const FileScan& scan, const InputConfig
   constexpr double kMostNoise = 0.03;
   std::vector<std::string> warnings;
   std::uint64_t points = 0;
-  for (std::size_t i = 0; i < scan.files().size(); ++i) points += scan.rows(i);
+  for (std::size_t i = 0; i < scan.files().size(); ++i) points += scan.files()[i].rows();
   const FilteredOut& left_out = scan.filtered_out();
   const double share =
       static_cast<double>(left_out.noise) / static_cast<double>(std::max<std::uint64_t>(points, 1));
@@ -315,7 +318,7 @@ std::vector<std::string> filter_warnings(const FileScan& scan, const InputConfig
     warnings.push_back(print_count(left_out.noise) + " points, " + std::to_string(std::lround(100 * share)) +
                        " %, are left out as noise, of the classes 7 and 18; --keep-noise keeps them");
   if (!config.drop_origin || left_out.origin > 0 || bounds.isEmpty()) return warnings;
-  const auto is_at_zero = [&](std::size_t i) { return scan.has_scanner_at_zero(i); };
+  const auto is_at_zero = [&](std::size_t i) { return scan.files()[i].has_scanner_at_zero; };
   const auto first = find_file(scan, is_at_zero);
   if (first && bounds.exteriorDistance(Eigen::Vector3d::Zero().eval()) > bounds.diagonal().norm())
     warnings.push_back(file_name(scan, *first) + and_more(scan, *first, is_at_zero) +
@@ -366,7 +369,7 @@ std::vector<std::string> scan_warnings(const FileScan& scan, const Detection& de
                        "; each needs k = " + std::to_string(config.neighbourhood.k) + " neighbours");
   }
   const Eigen::AlignedBox3d& bounds = summary.strays.rest;
-  if (scan.single_precision() && !bounds.isEmpty()) {
+  if (has_single_precision(scan) && !bounds.isEmpty()) {
     const double step = coarsest_step(bounds);
     if (step > summary.median_distance / 4) {
       std::ostringstream warning;

@@ -58,9 +58,9 @@ TEST_CASE("a pose moves positions, turns normals without scaling them, and keeps
                 "property uchar red\n" + kXyz + "property float nx\nproperty float ny\nproperty float nz\n"));
   const Pose pose = parse_pose("0 -2 0 10  2 0 0 20  0 0 2 30");
   FileScan scan({{ply, pose}, {ply}}, {});
-  CHECK(scan.layouts()[0].find("x")->type == Scalar::kFloat64);
-  CHECK(scan.layouts()[0].find("red")->type == Scalar::kUint8);
-  CHECK_FALSE(scan.single_precision());
+  CHECK(scan.files()[0].layout.find("x")->type == Scalar::kFloat64);
+  CHECK(scan.files()[0].layout.find("red")->type == Scalar::kUint8);
+  CHECK_FALSE(has_single_precision(scan));
   PointBatch batch;
   REQUIRE(scan.next(batch));
   CHECK(batch.positions[0] == Eigen::Vector3d(6, 22, 36));

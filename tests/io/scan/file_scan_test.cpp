@@ -45,7 +45,7 @@ TEST_CASE("several files are one scan, in double, with ids over all rows", "[io]
       {folder.write("a.ply", kIntegers), folder.write("b.ply", kEmpty), folder.write("c.ply", kNormals)}, {});
   CHECK(scan.expected_points() == 3u);
   CHECK(scan.has_normals());
-  CHECK_FALSE(scan.single_precision());
+  CHECK_FALSE(has_single_precision(scan));
   for (int pass = 0; pass < 2; ++pass) {
     const Cloud all = read_all(scan);
     REQUIRE(all.size() == 3);
@@ -67,7 +67,7 @@ TEST_CASE("rewinding in the middle starts from the first point", "[io]") {
   REQUIRE(scan.next(batch));
   scan.rewind();
   CHECK(read_all(scan).positions.size() == 2);
-  CHECK(scan.single_precision());
+  CHECK(has_single_precision(scan));
 }
 
 TEST_CASE("a scan without normals has none, and a text file does not say its size", "[io]") {

@@ -99,7 +99,7 @@ TEST_CASE("degrees are known in every format without a system") {
        {folder.write("a.xyz", text(positions)), folder.write("d.ply", ply(positions, "double")),
         folder.write("f.ply", ply(positions, "float")), folder.write("a.las", las(positions))}) {
     INFO(file);
-    CHECK(FileScan({file}, {}).is_geographic(0));
+    CHECK(FileScan({file}, {}).files()[0].is_geographic);
   }
 }
 
