@@ -5,6 +5,7 @@
 #include "io/crs/gdal_session.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <sstream>
 #include <string_view>
@@ -27,6 +28,9 @@ class Reader {
   void read() {
     const char* const drivers[] = {"GPKG", "GeoJSON", "ESRI Shapefile", nullptr};
     const Dataset dataset(GDALDataset::Open(to_.file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers));
+    std::error_code error;
+    if (!dataset && !std::filesystem::exists(to_.file, error) && !to_.file.starts_with("/vsi"))
+      throw Error(to_.file + ": no such file");
     if (!dataset) fail("cannot be read as GeoPackage, GeoJSON or Shapefile");
     const std::string_view format = dataset->GetDriverName();
     for (OGRLayer* const layer : dataset->GetLayers()) read(*layer, format == "GeoJSON");

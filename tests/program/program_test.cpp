@@ -72,6 +72,7 @@ TEST_CASE("help shows the options that people use, --help-all every one, and ver
     CHECK_THAT(help, Contains(parameter.option()) && Contains(std::string(parameter.section) + ":\n"));
   }
   CHECK(run_program({"help"}).out == run_program({"--help"}).out);
+  CHECK(run_program({}).out == run_program({"--help"}).out);
   for (const char* command : {"detect", "info"})
     CHECK(run_program({"help", command}).out == run_program({command, "--help"}).out);
   CHECK(test::run_bench({"help", "synth", "scan"}).out == test::run_bench({"synth", "scan", "--help"}).out);
@@ -89,7 +90,7 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
     }
   };
   // The last word is a part of the message.
-  check({{"subcommand"},
+  check({{config, config + ": a file; allowed: a command before it, such as lacuna detect " + config},
          {"detetc", "unknown command \"detetc\" (did you mean \"detect\"?); allowed: detect"},
          {"help", "surfac", "unknown command \"surfac\"; allowed: detect"},
          {"detect", "SCAN"},

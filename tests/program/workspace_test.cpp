@@ -83,7 +83,8 @@ TEST_CASE("a signal says how to go on, and what is done stays") {
   CHECK(fs::exists(run.workspace / "level-0-0.lacuna"));
   CHECK_FALSE(fs::exists(run.folder / "out"));
   CHECK_THAT(run_program({"status", run.workspace.string()}).out,
-             Contains("level 0: ") && Contains(" tiles evaluated, ") && Contains(" left"));
+             Contains("level 0: ") && Contains(" tiles evaluated, ") && Contains(" left") &&
+                 Contains("scan.txt, ") && Contains(" bytes, written 20") && !Contains(" ns"));
 }
 
 TEST_CASE("a workspace on a full disk is an error, and its parts are used elsewhere") {

@@ -56,6 +56,19 @@ TEST_CASE("a folder stands for its scans by name, a list for the files in it, al
   CHECK(files_of({as_list(list)}) == Paths{scratch / "in/b.xyz", scratch / "in/deeper/d.xyz"});
 }
 
+TEST_CASE("results in a folder are no scans, unless they are named") {
+  const test::ScratchFolder scratch;
+  fs::create_directory(scratch / "holes");
+  const auto scan = scratch.write("a.ply", test::ascii_ply("")),
+             loops = scratch.write("holes/loops.ply", test::ascii_ply(""));
+  scratch.write("holes/.lacuna", "loops.ply\n");
+  FilesConfig config;
+  config.input.recursive = true;
+  CHECK(expand_inputs({scratch.path()}, config).size() == 1);
+  CHECK(files_of({loops}) == Paths{loops});
+  CHECK_THROWS_WITH(files_of({scratch / "holes"}), Contains("no scan file in this folder"));
+}
+
 TEST_CASE("text with binary scans is not read; options read deeper folders and leave out damaged files") {
   const test::ScratchFolder scratch;
   fs::create_directories(scratch / "in" / "deeper");

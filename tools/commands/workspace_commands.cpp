@@ -12,10 +12,14 @@
 #include "tools/console/visible_text.hpp"
 #include "tools/run/folders.hpp"
 
+#include <ctime>
 #include <filesystem>
+#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <regex>
+#include <sstream>
 #include <system_error>
 
 namespace lacuna::tools {
@@ -30,12 +34,26 @@ KeptState kept_state(const fs::path& folder) {
   return *state;
 }
 
+// Returns "  input: a.ply, 12 bytes, written 2026-11-27 20:15" of a line with nanoseconds and a sample, and
+// nothing of a parameter.
+std::string print_input(const std::string& line) {
+  static const std::regex file("(input: .*), written at ([0-9]{1,10})[0-9]{9} ns, .*");
+  std::smatch parts;
+  if (!std::regex_match(line, parts, file)) return "";
+  const std::time_t seconds = std::stoll(parts[2]);
+  std::tm local{};
+  localtime_r(&seconds, &local);
+  std::ostringstream text;
+  text << "  " << visible(parts[1].str()) << ", written " << std::put_time(&local, "%Y-%m-%d %H:%M") << "\n";
+  return text.str();
+}
+
 void print_status(const fs::path& folder) {
   const KeptState state = kept_state(folder);
   std::cout << visible(folder.string()) << ": " << print_size(state.bytes) << "\n";
   for (const std::string& line : state.made_from) {
-    if (line.starts_with("lacuna ") || line.starts_with("input: "))
-      std::cout << "  " << visible(line) << "\n";
+    if (line.starts_with("lacuna ")) std::cout << "  " << line << "\n";
+    if (line.starts_with("input: ")) std::cout << print_input(line);
   }
   for (const LevelState& level : state.levels) {
     std::cout << "  level " << level.number << ": ";

@@ -127,6 +127,10 @@ void check_names(const CLI::App& app, std::span<const std::string> arguments) {
     return check_names(*command, arguments.subspan(1));
   std::vector<std::string_view> names;
   for (const CLI::App* command : commands) names.push_back(command->get_name());
+  std::error_code error;
+  if (std::filesystem::exists(word, error))
+    throw WrongOption(word + ": a file; allowed: a command before it, such as " + app.get_name() + " " +
+                      std::string(names.front()) + " " + word);
   throw WrongOption("unknown command \"" + word + "\"" + suggestion(word, names) +
                     "; allowed: " + listed(names));
 }
@@ -314,8 +318,8 @@ Command CommandLine::program() const {
 }
 
 void CommandLine::run(std::vector<std::string> arguments) {
-  if (!arguments.empty() && arguments.front() == "help") {
-    arguments.erase(arguments.begin());
+  if (arguments.empty() || arguments.front() == "help") {
+    if (!arguments.empty()) arguments.erase(arguments.begin());
     arguments.push_back("--help");
   }
   try {

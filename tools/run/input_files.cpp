@@ -81,6 +81,8 @@ void warn_of_unread(const fs::path& folder, const Folder& unread) {
 
 void add_files(const fs::path& folder, const ReadOptions& options, const InputConfig& config,
                std::vector<ScanInput>& files) {
+  if (fs::exists(folder / ".lacuna"))
+    return spdlog::warn("{}: not read: results of lacuna", visible(folder.string()));
   Folder found = list_folder(folder);
   files.insert(files.end(), found.binary.begin(), found.binary.end());
   // Text may be anything, such as a readme or control points. Alone in a folder, it must be readable.
