@@ -41,6 +41,10 @@ if grep --recursive '#include "' "$prefix/include"; then
   fail "these includes depend on the user's folders"
 fi
 
+# The Python package is whole, or not there.
+[[ $(find "$prefix" -name '_core*.so' | wc -l) == $(find "$prefix" -path '*/lacuna/__init__.py' | wc -l) ]] ||
+  fail "the Python package is installed in part"
+
 version=$("$prefix/bin/lacuna" --version)
 [[ $version == "lacuna "*.*.* ]] || fail "--version prints: $version"
 "$prefix/bin/lacuna-bench" synth surface "$work/plane.ply" --points 5000 --holes 1 >"$work/log"
