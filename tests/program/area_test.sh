@@ -153,6 +153,7 @@ check() {
 }
 check filled.txt
 grep -q "not covered: 1 void" checked.txt
+grep -q "^lacuna: some.geojson: not covered: 1 void" checked.err  # an answer, and no error
 grep -q "; 14[0-9] synthetic points take no part" checked.txt
 "$program" detect filled.txt --out filled >filled.out 2>filled.err
 grep -q "; 14[0-9] flagged as synthetic, which were not measured" filled.out
@@ -186,7 +187,7 @@ refuse() {
 some=(holes.xyz --columns "x y z" --out refused)
 for command in check detect; do
   refuse "void_size = 0: --area needs it" "$command" "${some[@]}" --area holes.geojson
-  refuse "nothing.gpkg: cannot be read as GeoPackage" "$command" "${some[@]}" --area nothing.gpkg --void-size 4
+  refuse "nothing.gpkg: no such file" "$command" "${some[@]}" --area nothing.gpkg --void-size 4
   refuse "holes.xyz: cannot be read as GeoPackage" "$command" "${some[@]}" --area holes.xyz --void-size 4
   refuse "void_size = 1e-06: the area has .* cells of an eighth of it, more than .* allowed: .* or more" "$command" "${some[@]}" \
     --area holes.geojson --void-size 1e-6

@@ -52,6 +52,19 @@ TEST_CASE("a run counts its loops in words") {
   CHECK_THAT(summary_of("torus"), StartsWith("1 hole, 0 outer curves; 1 longer than 0.1\n"));
 }
 
+TEST_CASE("a smallest hole that thins nothing is a warning, one that thins is none") {
+  const ScratchFolder scratch;
+  const std::string scan = (scratch / "plane.ply").string();
+  test::run_bench({"synth", "surface", scan, "--points", "10000", "--holes", "1"});
+  const auto warnings = [&](const char* min_hole) {
+    return run_program(
+               {"detect", scan, "--out", (scratch / min_hole).string(), "--quiet", "--min-hole", min_hole})
+        .err;
+  };
+  CHECK_THAT(warnings("0.0001"), Contains("--min-hole 0.0001 thins nothing: neighbours are 0.0"));
+  CHECK(warnings("0.3").empty());
+}
+
 TEST_CASE("help shows the options that people use, --help-all every one, and version is one line") {
   CHECK(run_program({"--version"}).out == "lacuna 0.1.0\n");
   CHECK(run_program({"-V"}).out == run_program({"--version"}).out);

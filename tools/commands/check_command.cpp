@@ -10,6 +10,7 @@
 #include "tools/console/visible_text.hpp"
 #include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
+#include "tools/run/run_program.hpp"
 #include "tools/run/scan_warnings.hpp"
 #include "tools/run/signals.hpp"
 
@@ -65,7 +66,7 @@ void run_check(const CheckArguments& arguments) {
     note_complete_results();
   }
   if (!arguments.run.quiet) std::cout << text;
-  if (!check.is_covered()) throw Error(config.area.area + ": " + answer);
+  if (!check.is_covered()) throw AnswerIsNo{config.area.area + ": " + answer};
 }
 
 }  // namespace

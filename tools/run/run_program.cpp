@@ -91,6 +91,10 @@ int run_program(const std::string& name, CommandLine& line, int argc, char** arg
     line.run({argv + 1, argv + argc});
     warn_of_remaining_folders();
     return flush_output();
+  } catch (const AnswerIsNo& no) {
+    const int written = flush_output();
+    print_line(name + ": " + one_line(no.answer));
+    return written == kDone ? kFailed : written;
   } catch (const UsageError& error) {
     return fail(one_line(error.what()), kWrongUsage);
   } catch (const Error& error) {

@@ -8,8 +8,13 @@ namespace lacuna::tools {
 
 class CommandLine;
 
+// Ends a command whose answer is no, such as that an area is not covered. It is no error: all was done.
+struct AnswerIsNo {
+  std::string answer;
+};
+
 // Runs the command that the arguments name. `name` is the program's, before each line on stderr. Returns the
-// exit code. 0: done; 1: failed, one line on stderr; 2: wrong usage, one line on stderr. A signal n ends the
+// exit code. 0: done; 1: failed, or the answer is no, one line on stderr; 2: wrong usage, one line on stderr. A signal n ends the
 // process with the exit code 128 + n.
 int run_program(const std::string& name, CommandLine& line, int argc, char** argv);
 

@@ -368,6 +368,14 @@ std::vector<std::string> scan_warnings(const FileScan& scan, const Detection& de
     warnings.push_back(print_count(points) + " distinct " + (points == 1 ? "point" : "points") +
                        "; each needs k = " + std::to_string(config.neighbourhood.k) + " neighbours");
   }
+  if (config.scale.min_hole > 0 && summary.resolution > 0 && counts.thinned_out == 0 && points > 0) {
+    std::ostringstream warning;
+    warning << "--min-hole " << config.scale.min_hole << " thins nothing: neighbours are "
+            << summary.median_distance << " apart"
+            << (scan.length_unit().empty() ? "" : " " + scan.length_unit())
+            << "; it is a length in the unit of the scan";
+    warnings.push_back(warning.str());
+  }
   const Eigen::AlignedBox3d& bounds = summary.strays.rest;
   if (has_single_precision(scan) && !bounds.isEmpty()) {
     const double step = coarsest_step(bounds);
