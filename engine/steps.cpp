@@ -47,12 +47,18 @@ bool make_evaluation(const Run& run, std::size_t number, const TaskShare& share)
   return true;
 }
 
+// In the order of the run.
 constexpr StepForm kSteps[] = {
-    {kSurvey, false, true, true, "counts the points of a task's files in cells", make_survey},
-    {kTiles, false, true, false, "plans the tiles, from all counts", make_tiles},
-    {kBucket, false, true, true, "brings the points of a task's files to their tiles", make_bucket},
-    {kLevel, true, false, true, "stores a task's tiles of a level", make_level},
-    {kEvaluate, true, false, true, "evaluates a task's tiles of a level", make_evaluation},
+    // Counts the points of a task's files in cells.
+    {.name = kSurvey, .reads_scan = true, .make = make_survey},
+    // Plans the tiles, from all counts.
+    {.name = kTiles, .reads_scan = true, .is_shared = false, .make = make_tiles},
+    // Brings the points of a task's files to their tiles.
+    {.name = kBucket, .reads_scan = true, .make = make_bucket},
+    // Stores a task's tiles of a level.
+    {.name = kLevel, .is_of_level = true, .make = make_level},
+    // Evaluates a task's tiles of a level.
+    {.name = kEvaluate, .is_of_level = true, .make = make_evaluation},
 };
 
 constexpr std::uint64_t kTilesOfTask = 8;  // so that tasks take about equally long
@@ -61,7 +67,7 @@ constexpr std::uint64_t kTilesOfTask = 8;  // so that tasks take about equally l
 constexpr std::uint64_t kFewestOfTask = 100'000;
 
 std::size_t tasks_of(const StepForm& form, std::size_t level, const TaskPlan& plan) {
-  if (!form.is_of_tasks) return 1;
+  if (!form.is_shared) return 1;
   return form.name == kLevel ? plan.tasks_of_level(level) : plan.tasks;
 }
 
@@ -76,10 +82,6 @@ bool work_once(PointSource& scan, const Config& config, const Step& step, std::s
 }
 
 }  // namespace
-
-std::span<const StepForm> step_forms() {
-  return kSteps;
-}
 
 std::string Step::name() const {
   return form->is_of_level ? step_of_level(form->name, level) : std::string(form->name);

@@ -16,7 +16,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,12 +27,10 @@ struct StepForm {
   std::string_view name;
   bool is_of_level = false;  // there is one for each level
   bool reads_scan = false;   // only where tasks share the reading of the scan
-  bool is_of_tasks = true;   // it is shared
-  std::string_view makes;    // in words
+  bool is_shared = true;     // among tasks
   // Makes a task's share. Returns false where the run has no such level.
   bool (*make)(const Run& run, std::size_t level, const TaskShare& share) = nullptr;
 };
-std::span<const StepForm> step_forms();  // in the order of the run
 
 // A step of a planned run.
 struct Step {

@@ -64,7 +64,7 @@ class LACUNA_API PointSource {
   // Returns about how many points each part of the source has, such as a file. Parts can be read apart. The
   // result is empty where they cannot.
   virtual std::vector<std::uint64_t> parts() const { return {}; }
-  // Lets passes read the parts [first, last) alone. The first point of theirs has the id `id`.
+  // Lets passes read the parts [first, last) alone. Their first point gets the id `id`.
   virtual void select(std::size_t /*first*/, std::size_t /*last*/, PointId /*id*/) {}
   // Returns one line for each part of the source. Lines are equal only where the points are.
   // The result is empty where a source cannot identify its parts. Then no part is kept.
