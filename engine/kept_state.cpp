@@ -44,10 +44,17 @@ std::optional<KeptState> state_of(const fs::path& folder) {
     std::error_code error;
     if (const std::uintmax_t bytes = fs::file_size(file, error); !error) state.bytes += bytes;
   }
+  const TaskPlan plan = read_plan(folder).value_or(TaskPlan());
   for (std::size_t number = 0; number < kMostLevels; ++number) {
     LevelState level{.number = number};
     std::set<std::uint64_t> evaluated;
-    for_each_part(files, step_of_level(kLevel, number), state.damaged, [&](const PartReader& part) {
+    const std::string points = step_of_level(kLevel, number);
+    std::vector<fs::path> shares;  // of the plan: an earlier one may have left others
+    for (std::size_t task = 0; task < plan.tasks_of_level(number); ++task) {
+      const fs::path share = part_file(folder, points, std::to_string(task));
+      if (std::ranges::count(files, share) > 0) shares.push_back(share);
+    }
+    for_each_part(shares, points, state.damaged, [&](const PartReader& part) {
       const std::vector<Tile> tiles = part.records<Tile>("tiles");
       level.tiles += tiles.size();
       for (const Tile& tile : tiles) level.points += tile.points;

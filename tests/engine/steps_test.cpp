@@ -140,6 +140,18 @@ TEST_CASE("the tasks of a step share its tiles: none is evaluated twice") {
   CHECK(before == all);
 }
 
+TEST_CASE("another plan makes levels of its own, and what an earlier one has left does not count") {
+  SharedRun run;
+  const auto points = [&](std::size_t tasks) {
+    for (const Step& step : run.planned(tasks))
+      for (std::size_t task = 0; task < step.tasks; ++task) run.work_on(step, task);
+    return state_of(run.config.run.workspace)->levels.front().points;
+  };
+  const std::uint64_t before = points(7);
+  CHECK(points(2) == before);
+  CHECK(run.bytes() == run.expected());
+}
+
 TEST_CASE("a level that the scan does not have is nothing to do") {
   SharedRun run;
   run.planned(2);
