@@ -3,8 +3,6 @@
 
 #include "engine/run/error.hpp"
 
-#include <algorithm>
-#include <sstream>
 #include <string_view>
 
 namespace lacuna {
@@ -33,24 +31,6 @@ std::string made_from(const std::vector<std::string>& identity, const Config& co
   // Then the first level has a list of the points that each of its points represents.
   if (first_edge(config.scale) > 0 && config.results.points) lines += "with the represented points\n";
   return lines;
-}
-
-std::vector<std::string> split(std::string_view text, char end) {
-  std::vector<std::string> lines;
-  for (std::size_t at; (at = text.find(end)) != std::string_view::npos; text.remove_prefix(at + 1))
-    lines.emplace_back(text.substr(0, at));
-  return lines;
-}
-
-// Returns the text of a stream. Returns nothing where it is damaged.
-std::optional<std::string> text_of(const std::optional<PartReader>& part, std::string_view stream) {
-  if (!part) return std::nullopt;
-  try {
-    const std::vector<char> text = part->records<char>(stream);
-    return std::string(text.begin(), text.end());
-  } catch (const DamagedFile&) {
-    return std::nullopt;
-  }
 }
 
 std::optional<PartReader> open_run(const fs::path& folder) {
@@ -117,7 +97,8 @@ std::optional<std::vector<std::string>> made_from_of(const fs::path& folder) {
 
 KeptRun read_run(const fs::path& folder) {
   const std::optional<PartReader> part = open_run(folder);
-  const std::optional<std::string> inputs = text_of(part, "inputs"), note = text_of(part, "note");
+  const std::optional<std::string> inputs = part ? part->text("inputs") : std::nullopt;
+  const std::optional<std::string> note = part ? part->text("note") : std::nullopt;
   if (!inputs || !note)
     throw Error(folder.string() + ": not the workspace of a run; allowed: the folder of --workspace");
   return {.names = split(*inputs, '\0'), .note = *note};
@@ -149,7 +130,7 @@ Parts open_parts(const PointSource& scan, const Config& config, Progress& progre
   }
   // A process that is given no note keeps the one that is there.
   const std::string& note = config.run.note;
-  if (!is_same || (!note.empty() && text_of(before, "note") != note))
+  if (!is_same || (!note.empty() && before->text("note") != note))
     write_run(folder, scan, note, parts.made_from);
   return parts;
 }

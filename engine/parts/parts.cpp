@@ -5,9 +5,7 @@
 
 #include <algorithm>
 #include <regex>
-#include <sstream>
 #include <system_error>
-#include <vector>
 
 namespace lacuna {
 namespace {
@@ -15,13 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kChecksum = "part ";  // how a line begins that has one
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
 
 // Returns the first of `lines` that is not among `others`.
 std::string first_other(const std::vector<std::string>& lines, const std::vector<std::string>& others) {
@@ -108,8 +99,15 @@ bool is_kept_name(const fs::path& file) {
   return std::regex_match(file.filename().string(), names);
 }
 
+std::vector<std::string> split(std::string_view text, char end) {
+  std::vector<std::string> parts;
+  for (std::size_t at; (at = text.find(end)) != std::string_view::npos; text.remove_prefix(at + 1))
+    parts.emplace_back(text.substr(0, at));
+  return parts;
+}
+
 std::pair<std::string, std::string> first_difference(const std::string& was, const std::string& is) {
-  const std::vector<std::string> before = lines_of(was), now = lines_of(is);
+  const std::vector<std::string> before = split(was, '\n'), now = split(is, '\n');
   return {first_other(before, now), first_other(now, before)};
 }
 

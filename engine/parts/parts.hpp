@@ -15,7 +15,9 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace lacuna {
 
@@ -120,6 +122,8 @@ inline constexpr const char* kRunPart = "run.lacuna";  // the part that says who
 bool is_kept_folder(const std::filesystem::path& folder);
 bool is_kept_name(const std::filesystem::path& file);  // whether it could be of a kept folder
 
+// Returns the parts of a text, each of which ends with `end`.
+std::vector<std::string> split(std::string_view text, char end);
 // Returns the first line of each text that the other one does not have.
 std::pair<std::string, std::string> first_difference(const std::string& was, const std::string& is);
 

@@ -144,8 +144,12 @@ std::vector<std::uint64_t> PartReader::keys() const {
 }
 
 std::optional<std::string> PartReader::made_from() const {
+  return text(kMadeFrom, kOfMadeFrom);
+}
+
+std::optional<std::string> PartReader::text(std::string_view stream, std::uint64_t key) const {
   try {
-    const std::vector<char> text = records<char>(kMadeFrom, kOfMadeFrom);
+    const std::vector<char> text = records<char>(stream, key);
     return std::string(text.begin(), text.end());
   } catch (const DamagedFile&) {
     return std::nullopt;

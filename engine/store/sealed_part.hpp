@@ -97,7 +97,9 @@ class PartReader {
                                         std::optional<std::string_view> made_from);
 
   const Digest& checksum() const { return checksum_; }  // of the table, and so of all entries
-  std::optional<std::string> made_from() const;         // empty where it is damaged
+  std::optional<std::string> made_from() const;         // nothing where it is damaged
+  // Returns the text of a stream. Returns nothing where it is damaged.
+  std::optional<std::string> text(std::string_view stream, std::uint64_t key = 0) const;
 
   std::vector<std::uint64_t> keys() const;  // ascending
   std::vector<std::string> streams(std::uint64_t key) const;

@@ -169,6 +169,11 @@ std::vector<fs::path> ResultFolder::commit() {
   return written;
 }
 
+bool is_result_folder(const fs::path& folder) {
+  std::error_code error;
+  return fs::exists(folder / kList, error);
+}
+
 void note_result(const fs::path& folder, const std::string& name) {
   const std::set<std::string> listed = listed_files(folder);
   if (listed.empty() || listed.contains(name)) return;

@@ -57,6 +57,9 @@ class ResultFolder {
   std::optional<TemporaryFolder> temporary_;
 };
 
+// Returns whether a folder has results.
+bool is_result_folder(const std::filesystem::path& folder);
+
 // A later command writes this file to the folder, too. Adds the name to the list of the folder, if it has
 // one.
 void note_result(const std::filesystem::path& folder, const std::string& name);

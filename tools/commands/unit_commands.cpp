@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "engine/level_steps.hpp"
 #include "engine/parts/kept_run.hpp"
 #include "engine/run/disk_space.hpp"
 #include "engine/run/error.hpp"
@@ -58,7 +59,7 @@ void print_plan(const PlanArguments& arguments, const std::vector<Step>& steps, 
   std::uint64_t all = 0;
   for (const Step& step : steps) {
     add(step.name(), step.tasks, step.points, minutes_of(step));
-    all += step.form->is_of_level ? step.points / 2 : 0;
+    all += step.form->name == kEvaluate ? step.points : 0;
   }
   // All tiles are read again, and their loops found; the levels that are no steps are made.
   add("finish", 1, all, minutes_of({.points = all}));

@@ -5,6 +5,7 @@
 #include "engine/run/job.hpp"
 #include "io/files/input_file.hpp"
 #include "io/files/number.hpp"
+#include "io/files/result_folder.hpp"
 #include "io/formats.hpp"
 #include "io/rows/pose.hpp"
 #include "io/rows/scan_reader.hpp"
@@ -81,7 +82,7 @@ void warn_of_unread(const fs::path& folder, const Folder& unread) {
 
 void add_files(const fs::path& folder, const ReadOptions& options, const InputConfig& config,
                std::vector<ScanInput>& files) {
-  if (fs::exists(folder / ".lacuna"))
+  if (is_result_folder(folder))
     return spdlog::warn("{}: not read: results of lacuna", visible(folder.string()));
   Folder found = list_folder(folder);
   files.insert(files.end(), found.binary.begin(), found.binary.end());

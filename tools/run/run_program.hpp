@@ -14,8 +14,8 @@ struct AnswerIsNo {
 };
 
 // Runs the command that the arguments name. `name` is the program's, before each line on stderr. Returns the
-// exit code. 0: done; 1: failed, or the answer is no, one line on stderr; 2: wrong usage, one line on stderr. A signal n ends the
-// process with the exit code 128 + n.
+// exit code. 0: done; 1: failed, or the answer is no; 2: wrong usage. For 1 and 2 there is one line on
+// stderr. A signal n ends the process with the exit code 128 + n.
 int run_program(const std::string& name, CommandLine& line, int argc, char** argv);
 
 }  // namespace lacuna::tools
