@@ -36,6 +36,13 @@ def read_printed(printed_file):
     return int(values["points"]), "", phases, "", float(values["untimed"])
 
 
+def read_kernel(scan_file):
+    """Of the program that only finds neighbours, nothing but its total counts."""
+    with open(scan_file, "rb") as lines:
+        points = next(int(line.split()[2]) for line in lines if line.startswith(b"element vertex "))
+    return points, "", {}, "", 0.0
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     for name in ("csv", "case", "positions", "order", "program", "threads", "run", "scan", "begin", "end", "time",
@@ -43,8 +50,12 @@ def main():
         parser.add_argument("--" + name, required=True)
     given = parser.parse_args()
 
-    is_peer = given.program not in ("lacuna", "against")
-    points, memory_limit, phases, peak, untimed = read_printed(given.printed) if is_peer else read_report(given.report)
+    if given.program in ("lacuna", "against"):
+        points, memory_limit, phases, peak, untimed = read_report(given.report)
+    elif given.program == "kernel":
+        points, memory_limit, phases, peak, untimed = read_kernel(given.scan)
+    else:
+        points, memory_limit, phases, peak, untimed = read_printed(given.printed)
     total = float(given.end) - float(given.begin) - untimed
     rows = [(name, seconds, peak) for name, seconds in phases.items()]
     rows.append(("rest", max(total - sum(phases.values()), 0), ""))  # starting, writing the results, ending

@@ -110,16 +110,18 @@ def print_phases(configurations):
 def print_readme(configurations):
     """A row for each scan, order, number of threads and limit: random positions, then jittered ones, then real scans as
     they come."""
-    print("| scan | points | order | memory limit | seconds | spread % | M points/s | peak MiB | times as fast as PCL |")
-    print("|---|---|---|---|---|---|---|---|---|")
+    print("| scan | points | order | memory limit | seconds | spread % | M points/s a core | peak MiB | "
+          "times as fast as PCL | times the kernel |")
+    print("|---|---|---|---|---|---|---|---|---|---|")
     ours = [key for key in configurations if key.program == "lacuna" and key.points >= LEAST_POINTS]
     for key in sorted(ours, key=lambda key: ("random", "jittered", "file").index(key.positions)):
         phases = configurations[key]
         total = seconds(phases)
-        pcl = times_of("pcl", key, configurations)
+        pcl, kernel = (times_of(program, key, configurations) for program in ("pcl", "kernel"))
         name = KINDS.get(key.positions) or REAL.get(key.case, key.case)
         print(f"| {name} | {key.points / 1e6:.1f} M | {key.order} | {limit_in_words(key.limit)} | {total:#.3g} | "
-              f"{spread(phases):.0f} | {key.points / total / 1e6:.2f} | {mebibytes(peak(phases))} | {f'{pcl / total:.1f}' if pcl else '-'} |")
+              f"{spread(phases):.0f} | {key.points / total / key.threads / 1e6:.2f} | {mebibytes(peak(phases))} | "
+              f"{f'{pcl / total:.1f}' if pcl else '-'} | {f'{total / kernel:.1f}' if kernel else '-'} |")
 
 
 def print_plot(configurations):

@@ -25,6 +25,7 @@ bench/results/DATE.csv with a table of medians (DATE.txt), the README's table (D
   --peer-points N       largest synthetic scan that peers get, millions of points    default 4
   --timeout SECONDS     for one run; what takes longer is left out    default 3600
   --against PROGRAM     another build of lacuna in turns with this one, called "against"
+  --kernel PROGRAM      one that finds 15 exact nearest neighbours and does nothing else: PROGRAM SCAN THREADS hilbert
   --build DIR           default build-bench
   --work DIR            scans and results of runs; scans are kept     default bench/work
   -h, --help
@@ -47,6 +48,7 @@ peer_programs=(pcl open3d)
 peer_points=4
 timeout=3600
 against=
+kernel=
 build=$root/build-bench
 work=$root/bench/work
 detect_options=()
@@ -64,7 +66,7 @@ done
 for number in "${threads[@]}" "$runs" "$timeout"; do
   [[ $number =~ ^[1-9][0-9]*$ ]] || fail "\"$number\" is not a whole number from 1 on" 2
 done
-[[ -z $against || -x $against ]] || fail "$against is no program"
+for program in "$against" "$kernel"; do [[ -z $program || -x $program ]] || fail "$program is no program"; done
 
 # ---- programs
 
@@ -118,6 +120,7 @@ run_once() {
       [[ $limit == default ]] || command+=(--memory-limit "$limit")
       command+=("${detect_options[@]}")
       ;;
+    kernel) command=("$kernel" "$scan" "$thread_count" hilbert) ;;
     *) command=("$build/peers/${program}_boundary" "$scan" "$thread_count") ;;
   esac
   rm -rf "$work/out"
@@ -150,6 +153,7 @@ run_case() {
     turns+=("lacuna $limit")
     [[ -z $against ]] || turns+=("against $limit")
   done
+  [[ -z $kernel ]] || turns+=("kernel default")
   if ((with_peers && peers)); then
     for program in "${peer_programs[@]}"; do turns+=("$program default"); done
   fi

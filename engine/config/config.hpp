@@ -115,6 +115,8 @@ struct ResultsConfig {
   std::int64_t sample_points = 1000000;  // of an even sample of the scan, at most; 0: none
 };
 
+inline constexpr std::uint64_t kLeastMemoryLimit = std::uint64_t{64} << 20;
+
 struct RunConfig {
   std::int64_t threads = 0;        // 0: one per core
   std::uint64_t memory_limit = 0;  // bytes; 0: half of the machine's memory

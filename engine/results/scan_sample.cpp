@@ -43,12 +43,26 @@ std::uint32_t bin_of(double key) {
 
 }  // namespace
 
-void ScanSample::KeyBins::add(const std::map<std::uint32_t, std::uint64_t>& points,
-                              std::uint64_t most_points) {
-  for (const auto& [bin, count] : points) {
+// In ascending bin.
+std::vector<ScanSample::BinCount> ScanSample::count_bins(std::span<const double> keys) {
+  std::vector<std::uint32_t> points;  // of each bin
+  for (const double key : keys) {
+    const std::uint32_t bin = bin_of(key);
+    if (bin >= points.size()) points.resize(bin + 1);
+    ++points[bin];
+  }
+  std::vector<BinCount> bins;
+  for (std::uint32_t bin = 0; bin < points.size(); ++bin) {
+    if (points[bin] > 0) bins.push_back({bin, points[bin]});
+  }
+  return bins;
+}
+
+void ScanSample::KeyBins::add(std::span<const BinCount> bins, std::uint64_t most_points) {
+  for (const auto& [bin, points] : bins) {
     if (bin > last) break;
-    counts[bin] += count;
-    keys += count;
+    counts[bin] += points;
+    keys += points;
   }
   // A bin is removed where the bins before it are enough.
   while (!counts.empty() && keys - counts.rbegin()->second >= most_points) {
@@ -59,41 +73,31 @@ void ScanSample::KeyBins::add(const std::map<std::uint32_t, std::uint64_t>& poin
 }
 
 void ScanSample::emit(const EvaluatedTile& tile, TileOutput& output) {
-  std::vector<double> keys;
-  std::map<std::uint32_t, std::uint64_t> points;
-  keys.reserve(tile.points.owned);
-  for (LocalIndex p = 0; p < tile.points.owned; ++p) {
-    keys.push_back(key_of(tile.points.ids[p], tile.evaluations[p]));
-    ++points[bin_of(keys.back())];
-  }
+  std::vector<double> keys(tile.points.owned);
+  for (LocalIndex p = 0; p < tile.points.owned; ++p)
+    keys[p] = key_of(tile.points.ids[p], tile.evaluations[p]);
+  std::vector<BinCount> bins = count_bins(keys);
   std::uint32_t last = 0;
   {
     const std::lock_guard lock(mutex_);
-    bins_.add(points, most_points_);
+    bins_.add(bins, most_points_);
     last = bins_.last;
   }
   std::vector<DrawnPoint> drawn;
-  std::vector<BinCount> counts;
   for (LocalIndex p = 0; p < tile.points.owned; ++p) {
     if (bin_of(keys[p]) > last) continue;
     const Eigen::Vector3f normal = tile.evaluations[p].normal.cast<float>();
     drawn.push_back({keys[p], {tile.point(p), tile.probability(p), {normal.x(), normal.y(), normal.z()}}});
   }
-  for (const auto& [bin, count] : points) {
-    if (bin <= last) counts.push_back({bin, static_cast<std::uint32_t>(count)});
-  }
+  std::erase_if(bins, [&](const BinCount& count) { return count.bin > last; });
   output.add(kDrawnPoints, std::move(drawn));
-  output.add(kBinCounts, std::move(counts));
+  output.add(kBinCounts, std::move(bins));
 }
 
 ScanSample::KeyBins ScanSample::bins_of(const TileOutputs& outputs, std::size_t tiles) const {
   KeyBins bins;
-  for (std::size_t t = 0; t < tiles; ++t) {
-    std::map<std::uint32_t, std::uint64_t> points;
-    for (const BinCount& count : outputs.read(kBinCounts, static_cast<TileIndex>(t)))
-      points.emplace(count.bin, count.points);
-    bins.add(points, most_points_);
-  }
+  for (std::size_t t = 0; t < tiles; ++t)
+    bins.add(outputs.read(kBinCounts, static_cast<TileIndex>(t)), most_points_);
   return bins;
 }
 

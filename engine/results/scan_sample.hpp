@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <span>
 #include <vector>
 
 namespace lacuna {
@@ -52,8 +53,9 @@ class ScanSample {
     std::uint64_t keys = 0;  // in all bins
 
     // Adds points. Bins that are then behind the last one go.
-    void add(const std::map<std::uint32_t, std::uint64_t>& points, std::uint64_t most_points);
+    void add(std::span<const BinCount> bins, std::uint64_t most_points);
   };
+  static std::vector<BinCount> count_bins(std::span<const double> keys);
   // Returns the bins of all tiles.
   KeyBins bins_of(const TileOutputs& outputs, std::size_t tiles) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a run in another program's process keeps temporary data that does not fit in its memory.
+// Where a run keeps its temporary data: in files in memory, or on a disk.
 #pragma once
 
 #include "engine/config/config.hpp"
@@ -11,11 +11,15 @@
 
 namespace lacuna {
 
-// Uses files in memory, where they fit within half of the limit. Else it uses a folder in `run.scratch`, or
-// in the system's folder for temporary files. The folder is removed with this object.
+// Returns whether all temporary files of a run fit within half of the memory limit, where no `run.scratch` is
+// set. Then it takes them from `run.memory_limit`.
+bool take_files_into_memory(const PointSource& scan, RunConfig& run);
+
+// Of a run in another program's process. Uses files in memory where they fit. Else it uses a folder in
+// `run.scratch`, or in the system's folder for temporary files. The folder is removed with this object.
 class TemporaryStorage {
  public:
-  // Files in memory are taken from `run.memory_limit`. Throws `Error`.
+  // Throws `Error`.
   TemporaryStorage(const PointSource& scan, RunConfig& run);
 
   std::filesystem::path path() const { return folder_ ? folder_->path() : std::filesystem::path(); }

@@ -111,14 +111,17 @@ TEST_CASE("points of any type and stride are the same to the library", "[library
 TEST_CASE("points in memory need no folder where their files fit in memory", "[library]") {
   const Cloud cloud = punched_sheet();
   PointsInMemory scan(cloud.positions, {});
-  RunConfig run{.memory_limit = std::uint64_t{64} << 20};
+  RunConfig run{.memory_limit = 2 * kLeastMemoryLimit};
   CHECK(TemporaryStorage(scan, run).path().empty());
-  CHECK(run.memory_limit < std::uint64_t{64} << 20);
+  CHECK(run.memory_limit < 2 * kLeastMemoryLimit);
+  CHECK(run.memory_limit >= kLeastMemoryLimit);
+  run.memory_limit = kLeastMemoryLimit;
+  CHECK_FALSE(TemporaryStorage(scan, run).path().empty());
   const std::vector<Eigen::Vector3d> many(300'000, Eigen::Vector3d::Zero());
   PointsInMemory large(many, {});
-  run.memory_limit = std::uint64_t{64} << 20;
+  run.memory_limit = 2 * kLeastMemoryLimit;
   CHECK_FALSE(TemporaryStorage(large, run).path().empty());
-  CHECK(run.memory_limit == std::uint64_t{64} << 20);
+  CHECK(run.memory_limit == 2 * kLeastMemoryLimit);
 }
 
 // Ends the run at its n-th call.
