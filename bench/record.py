@@ -37,7 +37,7 @@ def read_printed(printed_file):
 
 
 def read_kernel(scan_file):
-    """Of the program that only finds neighbours, nothing but its total counts."""
+    """The program that only finds neighbours has nothing but a total."""
     with open(scan_file, "rb") as lines:
         points = next(int(line.split()[2]) for line in lines if line.startswith(b"element vertex "))
     return points, "", {}, "", 0.0

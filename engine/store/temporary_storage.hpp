@@ -15,7 +15,7 @@ namespace lacuna {
 // set. Then it takes them from `run.memory_limit`.
 bool take_files_into_memory(const PointSource& scan, RunConfig& run);
 
-// Of a run in another program's process. Uses files in memory where they fit. Else it uses a folder in
+// Serves a run in another program's process. It uses files in memory where they fit. Else it uses a folder in
 // `run.scratch`, or in the system's folder for temporary files. The folder is removed with this object.
 class TemporaryStorage {
  public:
