@@ -2,8 +2,8 @@
 // How many true holes are found, by their width: how small a hole a program finds.
 #pragma once
 
-#include "bench/evaluation/point_tree.hpp"
 #include "tools/matching/match_loops.hpp"
+#include "tools/matching/point_tree.hpp"
 
 #include <array>
 #include <cstddef>
@@ -13,6 +13,8 @@
 #include <Eigen/Core>
 
 namespace lacuna::evaluation {
+
+using matching::PointTree;
 using namespace matching;
 
 // Returns the width of a hole, 2 area / perimeter, in local spacings: the mean of spacing_at() over its

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "bench/evaluation/loops_reader.hpp"
-#include "bench/evaluation/point_tree.hpp"
 #include "engine/model/loop.hpp"
+#include "tools/matching/point_tree.hpp"
 
 #include <optional>
 #include <span>
@@ -12,6 +12,8 @@
 #include <Eigen/Core>
 
 namespace lacuna::evaluation {
+
+using matching::PointTree;
 
 // Uses the rule for found loops (engine/loops/measure_loop.hpp): the surface is where the means of the 15
 // nearest points are. `points` are the points of the tree, and ids are places in `positions`. Returns nothing

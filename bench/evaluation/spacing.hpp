@@ -2,13 +2,15 @@
 // Computes how far apart the points of a scan are.
 #pragma once
 
-#include "bench/evaluation/point_tree.hpp"
+#include "tools/matching/point_tree.hpp"
 
 #include <span>
 
 #include <Eigen/Core>
 
 namespace lacuna::evaluation {
+
+using matching::PointTree;
 
 // Returns the mean distance to the 4 nearest other points, or to all if there are fewer; 0 for a single
 // point. The place is a point of the tree, whose points are distinct.

@@ -2,9 +2,9 @@
 #include "bench/evaluation/unsampled.hpp"
 
 #include "bench/evaluation/outline.hpp"
-#include "bench/evaluation/point_tree.hpp"
 #include "bench/evaluation/spacing.hpp"
 #include "tools/matching/edge_tree.hpp"
+#include "tools/matching/point_tree.hpp"
 
 #include <algorithm>
 #include <array>

@@ -74,6 +74,7 @@ struct Summary {
   double mean_edge_length = 0;      // over the edges of G
   double median_distance = 0;       // median over points of the mean distance to their neighbours; within 1 %
   double surface_area = 0;          // sampled; the median over levels of their estimates
+  double hole_area = 0;             // of the reported holes, each place once
   double eps = 0;                   // in effect
   std::int64_t e = 0;               // in effect; 0: method tangential
   std::uint64_t tiles = 0;

@@ -165,6 +165,7 @@ Json report_of(const Scene& scene) {
           {"resolution", holes.at("resolution")},
           {"median_distance", holes.at("median_distance")},
           {"surface_area", holes.value("surface_area", 0.0)},
+          {"hole_area", holes.value("hole_area", 0.0)},
           {"stations", holes.value("stations", Json::array())},
           {"next_stations", scene.next_stations},
           {"area", scene.area},

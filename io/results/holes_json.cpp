@@ -101,6 +101,7 @@ Json head(const ExplainedDetection& detection, const FileScan& scan, const Files
   json["median_distance"] = summary.median_distance;
   json["stations"] = stations_json(detection.stations);
   json["surface_area"] = summary.surface_area;
+  json["hole_area"] = summary.hole_area;
   json["eps"] = summary.eps;
   json["e"] = summary.e;
   return json;

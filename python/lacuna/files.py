@@ -63,7 +63,7 @@ def evaluate(
 
 
 def compare(before: Result, after: Result, *, tolerance: float = 0.0) -> dict[str, Any]:
-    """Says which holes of two results are closed, new, changed or the same, as `lacuna compare` does. Returns
+    """Says which holes of two results are closed, opened, changed or the same, as `lacuna compare` does. Returns
     its JSON. tolerance: how far apart curves of one hole may be; 0: twice the larger spacing."""
     with _folder_of(before) as first, _folder_of(after) as second:
         return json.loads(_core.compare(first, second, tolerance))

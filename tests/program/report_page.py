@@ -99,6 +99,18 @@ def check_flight(driver):
     require(driver.execute_script("return lacuna.selected()") is None, "Escape deselects")
 
 
+def check_seen(driver):
+    """A click shows the hole, whatever stands before it; in the order of the table, each from where the last one ended."""
+    kinds = driver.execute_script("return Array.from(document.querySelectorAll('#body tr'), (row) => row.textContent.includes('hole'))")
+    for row in [i for i, is_hole in enumerate(kinds) if is_hole][:12]:
+        driver.execute_script(f"document.querySelectorAll('#body tr')[{row}].click()")
+        still(driver)
+        share = driver.execute_script("return lacuna.seen()")
+        require(share > 0.5, f"row {row + 1}: {100 * share:.0f} % of the loop is seen after a click")
+    press(driver, Keys.ESCAPE)
+    still(driver)
+
+
 def check_keys(driver):
     press(driver, "n")
     still(driver)
@@ -218,6 +230,7 @@ def run(driver, arguments):
                 check_typed(driver, count)
                 check_place(driver)
                 check_flight(driver)
+                check_seen(driver)
                 check_keys(driver)
                 report_marks.check(driver, count)
                 report_print.check(driver)

@@ -152,7 +152,16 @@ def check_keyboard(driver, low, high):
     require(not driver.find_element(By.ID, "reset").is_enabled(), "there is nothing to reset")
 
 
+def check_roof(driver):
+    """A page begins without the roof that hides all else from above, if there is one; all heights are there after a reset."""
+    begin = limits(driver)
+    if driver.find_element(By.ID, "reset").is_enabled():
+        reset(driver)
+        require(limits(driver)[0] > begin[0] and limits(driver)[1] == begin[1], f"a roof above {begin[0]} was hidden at first")
+
+
 def check(driver, count):
+    check_roof(driver)
     high, low = limits(driver)
     if low == high:
         require(not driver.find_element(By.ID, "above-slider").is_enabled(), "a flat scan has no section")

@@ -35,8 +35,11 @@ struct CompareArguments {
   bool json = false;
 };
 
-std::string name_of_loop(const std::optional<std::size_t>& loop) {
-  return loop ? "loop " + std::to_string(*loop) : "-";
+// Returns "12, 14".
+std::string names_of(const std::vector<std::size_t>& loops) {
+  std::string text;
+  for (const std::size_t loop : loops) text += (text.empty() ? "" : ", ") + std::to_string(loop);
+  return text.empty() ? "-" : text;
 }
 
 void run_compare(const CompareArguments& arguments) {
@@ -58,16 +61,20 @@ void run_compare(const CompareArguments& arguments) {
 ComparedResult read_result(const fs::path& folder) {
   constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max() / 8;
   const io::Scene scene = io::read_scene(folder, {.positions = kAll, .loops = kAll});
+  const auto place_of = [&](const Eigen::Vector3f& p) -> Eigen::Vector3d {
+    return scene.origin + p.cast<double>();
+  };
   ComparedResult result{
-      .loops = {},
-      .spacing = scene.holes.at("median_distance").get<double>(),
+      .scan = {.loops = {}, .sample = {}, .spacing = scene.points.spacing},
+      .median_distance = scene.holes.at("median_distance").get<double>(),
       .extent = scene.bounds.isEmpty() ? 0 : scene.bounds.diagonal().norm(),
       .unit = scene.holes.at("unit").is_string() ? scene.holes.at("unit").get<std::string>() : ""};
+  for (const Eigen::Vector3f& p : scene.points.positions) result.scan.sample.push_back(place_of(p));
   for (std::size_t i = 0; i < scene.loops.measures.size(); ++i) {
-    ComparedLoop& loop = result.loops.emplace_back();
+    ComparedLoop& loop = result.scan.loops.emplace_back();
     loop.measures = scene.loops.measures[i];
     for (std::size_t v = scene.loops.first[i]; v < scene.loops.first[i + 1]; ++v)
-      loop.points.push_back(scene.origin + scene.loops.vertices[v].cast<double>());
+      loop.points.push_back(place_of(scene.loops.vertices[v]));
   }
   return result;
 }
@@ -75,21 +82,23 @@ ComparedResult read_result(const fs::path& folder) {
 Comparison::Comparison(ComparedResult first, ComparedResult second, double length)
     : before(std::move(first)), after(std::move(second)), tolerance(length) {
   constexpr double kDistances = 2;
-  if (tolerance == 0) tolerance = kDistances * std::max(before.spacing, after.spacing);
-  changes = compare_loops(before.loops, after.loops, tolerance);
+  if (tolerance == 0) tolerance = kDistances * std::max(before.median_distance, after.median_distance);
+  changes = compare_loops(before.scan, after.scan, tolerance);
 }
 
 std::string Comparison::print_counts() const {
   std::map<Change, std::size_t> counts;
   for (const LoopChange& change : changes) ++counts[change.change];
-  return print_count(counts[Change::kClosed]) + " closed, " + print_count(counts[Change::kNew]) + " new, " +
-         print_count(counts[Change::kChanged]) + " changed, " + print_count(counts[Change::kSame]) +
-         " same; curves of one hole are at most " + print_length(tolerance, after.unit) + " apart";
+  std::string text;
+  for (const auto& [change, count] : counts)
+    text += (text.empty() ? "" : ", ") + print_count(count) + " " + std::string(name_of(change));
+  return (text.empty() ? "no loops" : text) + "; curves of one hole are at most " +
+         print_length(tolerance, after.unit) + " apart";
 }
 
 std::string Comparison::print_table() const {
   const auto loop_of = [&](const LoopChange& c) -> const LoopMeasures& {
-    return c.after ? after.loops[*c.after].measures : before.loops[*c.before].measures;
+    return c.after.empty() ? before.scan.loops[c.before[0]].measures : after.scan.loops[c.after[0]].measures;
   };
   std::vector<LoopChange> shown = changes;
   std::erase_if(shown, [](const LoopChange& c) { return c.change == Change::kSame; });
@@ -98,13 +107,15 @@ std::string Comparison::print_table() const {
     return loop_of(a).area > loop_of(b).area;
   });
   std::vector<std::vector<std::string>> rows = {
-      {"change", "before", "after", "area before", "after", "centre"}};
+      {"change", "kind", "before", "after", "area before", "after", "centre"}};
   for (const LoopChange& c : shown) {
-    const auto area = [&](const std::optional<std::size_t>& loop, const ComparedResult& result) {
-      return loop ? print_area(result.loops[*loop].measures.area, result.unit) : "-";
+    const auto area = [&](const std::vector<std::size_t>& loops, const ComparedResult& result) {
+      double sum = 0;
+      for (const std::size_t loop : loops) sum += result.scan.loops[loop].measures.area;
+      return loops.empty() ? "-" : print_area(sum, result.unit);
     };
-    rows.push_back({std::string(name_of(c.change)), name_of_loop(c.before), name_of_loop(c.after),
-                    area(c.before, before), area(c.after, after),
+    rows.push_back({std::string(name_of(c.change)), lacuna::name_of(loop_of(c).kind), names_of(c.before),
+                    names_of(c.after), area(c.before, before), area(c.after, after),
                     print_place(loop_of(c).centroid, after.extent)});
   }
   return "\n" + tools::print_table(rows);
@@ -112,18 +123,14 @@ std::string Comparison::print_table() const {
 
 ordered_json Comparison::json() const {
   ordered_json json{{"tolerance", tolerance}, {"changes", ordered_json::array()}};
-  const auto index = [](const std::optional<std::size_t>& loop) {
-    return loop ? ordered_json(*loop) : ordered_json();
-  };
   for (const LoopChange& c : changes)
-    json["changes"].push_back(
-        {{"change", name_of(c.change)}, {"before", index(c.before)}, {"after", index(c.after)}});
+    json["changes"].push_back({{"change", name_of(c.change)}, {"before", c.before}, {"after", c.after}});
   return json;
 }
 
 void add_compare_command(const Command& program) {
-  const Command command =
-      program.add_command("compare", "Say which holes of two results are closed, new, changed or the same");
+  const Command command = program.add_command(
+      "compare", "Say which holes of two results are closed, opened, changed or the same");
   const auto arguments = std::make_shared<CompareArguments>();
   command.add_option("BEFORE", arguments->before, "Output folder of lacuna detect").required().type("DIR");
   command.add_option("AFTER", arguments->after, "Output folder of a later run on the same place")

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// `lacuna compare`: finds which holes of two results are closed, new, changed or the same.
+// `lacuna compare`: finds which holes of two results are closed, opened, changed or the same.
 #pragma once
 
 #include "tools/matching/compare_loops.hpp"
 
-#include <cstddef>
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -16,8 +14,8 @@ namespace lacuna::tools {
 
 // The parts of a result that are compared.
 struct ComparedResult {
-  std::vector<matching::ComparedLoop> loops;
-  double spacing = 0;  // median distance of neighbours
+  matching::ComparedScan scan;
+  double median_distance = 0;  // of neighbours
   double extent = 0;
   std::string unit;
 };
@@ -25,10 +23,11 @@ struct ComparedResult {
 ComparedResult read_result(const std::filesystem::path& folder);
 
 struct Comparison {
-  // `tolerance` is how far apart the curves of one hole may be; 0 means twice the larger spacing.
+  // `tolerance` is how far apart the curves of one hole may be; 0 means twice the larger
+  // median distance of neighbours.
   Comparison(ComparedResult before, ComparedResult after, double tolerance = 0);
 
-  // Returns "2 closed, 1 new, 0 changed, 14 same; curves of one hole are at most 2 cm apart".
+  // Returns "2 closed, 1 opened, 14 same; curves of one hole are at most 2 cm apart".
   std::string print_counts() const;
   std::string print_table() const;  // of all but the same holes; empty without any
   nlohmann::ordered_json json() const;

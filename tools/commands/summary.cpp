@@ -225,7 +225,7 @@ std::string print_summary(const ExplainedDetection& detection, const FileScan& s
   }
   if (!causes.empty()) facts.emplace_back("causes", causes);
   if (summary.surface_area > 0)
-    facts.emplace_back("surface", print_surface(summary.surface_area, holes.area, unit));
+    facts.emplace_back("surface", print_surface(summary.surface_area, summary.hole_area, unit));
   facts.emplace_back("peak memory", print_size(peak_memory()) + " of " + print_size(summary.memory_limit));
   facts.emplace_back("time", print_duration(total_seconds) + " with " +
                                  counted(summary.threads, "thread", "threads") + ", " +

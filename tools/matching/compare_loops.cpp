@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/matching/compare_loops.hpp"
 
+#include "engine/loops/loop_plane.hpp"
+#include "engine/loops/places_within.hpp"
+#include "engine/stitch/union_find.hpp"
 #include "tools/matching/match_loops.hpp"
+#include "tools/matching/point_tree.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
 
 namespace lacuna::matching {
 namespace {
@@ -35,45 +42,165 @@ bool is_as_large(const LoopMeasures& a, const LoopMeasures& b) {
   return std::abs(a.area - b.area) <= kTenth * std::max(a.area, b.area);
 }
 
+// The surface of the other scan where one result alone has a loop.
+enum class Surface { kThere, kEmpty, kUnknown };
+
+// Newell's normal, which a loop that is not flat has, too.
+Eigen::Vector3d normal_of(std::span<const Eigen::Vector3d> loop) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    sum += (loop[i] - loop[0]).cross(loop[(i + 1) % loop.size()] - loop[0]);
+  return sum;
+}
+
+// A loop in the plane of its normal.
+struct FlatLoop {
+  LoopPlane plane;
+  std::vector<Eigen::Vector2d> polygon;
+  std::vector<double> heights;  // over the plane
+};
+
+std::optional<FlatLoop> flattened(std::span<const Eigen::Vector3d> loop) {
+  const Eigen::Vector3d normal = normal_of(loop).stableNormalized();
+  if (!(normal.norm() > 0.5)) return std::nullopt;
+  FlatLoop flat{LoopPlane(loop[0], normal, normal.unitOrthogonal()), {}, {}};
+  for (const Eigen::Vector3d& point : loop) {
+    const Eigen::Vector3d at = flat.plane(point);
+    flat.polygon.push_back(at.head<2>());
+    flat.heights.push_back(at.z());
+  }
+  return flat;
+}
+
+// Returns places over the loop at its height, weighted by the inverse squared distance.
+std::vector<Eigen::Vector3d> places_over(const FlatLoop& loop) {
+  constexpr std::size_t kMost = 64;
+  constexpr double kLeast = 1e-300;
+  std::vector<Eigen::Vector3d> places;
+  for (const Eigen::Vector2d& place : places_within(loop.polygon, kMost)) {
+    double weights = 0, sum = 0;
+    for (std::size_t i = 0; i < loop.polygon.size(); ++i) {
+      const double weight = 1 / std::max((loop.polygon[i] - place).squaredNorm(), kLeast);
+      weights += weight;
+      sum += weight * loop.heights[i];
+    }
+    places.push_back(loop.plane.point_at({place.x(), place.y(), sum / weights}));
+  }
+  return places;
+}
+
+// Returns places outside of the loop: one for each of its edges, at a distance.
+std::vector<Eigen::Vector3d> places_beyond(const FlatLoop& loop, double distance) {
+  std::vector<Eigen::Vector3d> places;
+  for (std::size_t i = 0; i < loop.polygon.size(); ++i) {
+    const Eigen::Vector2d& a = loop.polygon[i];
+    const Eigen::Vector2d along = loop.polygon[(i + 1) % loop.polygon.size()] - a;
+    const Eigen::Vector2d aside = distance * Eigen::Vector2d(along.y(), -along.x()).stableNormalized();
+    for (const Eigen::Vector2d& place : {Eigen::Vector2d(a + aside), Eigen::Vector2d(a - aside)}) {
+      if (!is_inside(loop.polygon, place))
+        places.push_back(loop.plane.point_at({place.x(), place.y(), loop.heights[i]}));
+    }
+  }
+  return places;
+}
+
+double share_within(std::span<const Eigen::Vector3d> places, const PointTree& points, double reach) {
+  const auto near = std::count_if(places.begin(), places.end(), [&](const Eigen::Vector3d& place) {
+    return points.nearest_distance(place) <= reach;
+  });
+  return static_cast<double>(near) / static_cast<double>(places.size());
+}
+
+// `sample`: the points of `other`.
+Surface surface_over(const ComparedLoop& loop, const ComparedScan& other, const PointTree& sample) {
+  constexpr double kHalf = 0.5, kReach = 1.5;  // spacings
+  const double reach = kReach * other.spacing;
+  if (other.sample.empty() || loop.points.empty() || share_within(loop.points, sample, 2 * reach) < kHalf)
+    return Surface::kUnknown;
+  const PointTree rim(loop.points);
+  const std::optional<FlatLoop> flat = flattened(loop.points);
+  if (!flat) return Surface::kUnknown;
+  std::vector<Eigen::Vector3d> places =
+      loop.measures.kind == LoopKind::kHole ? places_over(*flat) : places_beyond(*flat, 2 * reach);
+  std::erase_if(places, [&](const Eigen::Vector3d& place) { return rim.nearest_distance(place) <= reach; });
+  if (places.empty()) return Surface::kUnknown;
+  return share_within(places, sample, reach) >= kHalf ? Surface::kThere : Surface::kEmpty;
+}
+
+// Sets of loops of both results that belong together: those of `before` first, then those of `after`.
+class Related {
+ public:
+  Related(std::size_t before, std::size_t after) : before_(before), links_(before + after), sets_(links_) {}
+
+  void unite(std::size_t before, std::size_t after) {
+    sets_.unite(static_cast<LocalIndex>(before), static_cast<LocalIndex>(before_ + after));
+  }
+  // Returns the sets in the order of their first loop of the second result, then of the first one.
+  std::vector<LoopChange> changes() {
+    std::vector<LoopChange> changes;
+    std::map<LocalIndex, std::size_t> place_of;
+    const auto change_of = [&](std::size_t loop) -> LoopChange& {
+      const auto [at, is_new] = place_of.emplace(sets_.find(static_cast<LocalIndex>(loop)), changes.size());
+      return is_new ? changes.emplace_back() : changes[at->second];
+    };
+    for (std::size_t i = before_; i < links_.size(); ++i) change_of(i).after.push_back(i - before_);
+    for (std::size_t i = 0; i < before_; ++i) change_of(i).before.push_back(i);
+    return changes;
+  }
+
+ private:
+  std::size_t before_;
+  std::vector<LocalIndex> links_;
+  UnionFind sets_;
+};
+
 }  // namespace
 
 std::string_view name_of(Change change) {
-  constexpr std::string_view kNames[] = {"same", "changed", "closed", "new"};
+  constexpr std::string_view kNames[] = {"same",   "changed",   "closed",        "not found now",
+                                         "opened", "found now", "not comparable"};
   return kNames[static_cast<std::size_t>(change)];
 }
 
-std::vector<LoopChange> compare_loops(std::span<const ComparedLoop> before,
-                                      std::span<const ComparedLoop> after, double tolerance) {
+std::vector<LoopChange> compare_loops(const ComparedScan& before, const ComparedScan& after,
+                                      double tolerance) {
   std::vector<Eigen::Vector3d> positions;
-  const std::vector<LoopIds> first = place(before, positions), second = place(after, positions);
+  const std::vector<LoopIds> first = place(before.loops, positions), second = place(after.loops, positions);
   const MatchRule rule{.tolerance = tolerance, .min_vertices = 0};
   const std::vector<std::uint64_t> same_places = stand_ins(positions);
   const auto matches = [&](std::span<const LoopIds> loops, std::span<const LoopIds> others) {
     const std::vector<TrueLoop> truth = loops_through(others, same_places);
     return match_loops(loops, truth, positions, rule).loops;
   };
-  std::vector<LoopChange> changes;
-  std::vector<bool> is_listed(before.size());
   const std::vector<LoopMatch> onto_before = matches(second, first), onto_after = matches(first, second);
-  for (std::size_t i = 0; i < after.size(); ++i) {
-    const LoopMatch& match = onto_before[i];
-    if (!is_related(match)) {
-      changes.push_back({Change::kNew, {}, i});
-      continue;
-    }
-    const std::size_t b = *match.true_loop;
-    is_listed[b] = true;
-    const bool is_match = match.verdict == EdgeDecision::kFound || match.verdict == EdgeDecision::kRepeated;
-    const bool is_same = is_match && is_as_large(before[b].measures, after[i].measures);
-    changes.push_back({is_same ? Change::kSame : Change::kChanged, b, i});
+  Related related(first.size(), second.size());
+  for (std::size_t a = 0; a < second.size(); ++a) {
+    if (is_related(onto_before[a])) related.unite(*onto_before[a].true_loop, a);
   }
-  for (std::size_t b = 0; b < before.size(); ++b) {
-    if (is_listed[b]) continue;
-    const LoopMatch& match = onto_after[b];
-    if (is_related(match)) {
-      changes.push_back({Change::kChanged, b, match.true_loop});
+  for (std::size_t b = 0; b < first.size(); ++b) {
+    if (is_related(onto_after[b])) related.unite(b, *onto_after[b].true_loop);
+  }
+
+  const PointTree sample_before(before.sample), sample_after(after.sample);
+  const auto is_same = [&](std::size_t b, std::size_t a) {
+    const EdgeDecision verdict = onto_before[a].verdict;
+    return (verdict == EdgeDecision::kFound || verdict == EdgeDecision::kRepeated) &&
+           is_as_large(before.loops[b].measures, after.loops[a].measures);
+  };
+  std::vector<LoopChange> changes = related.changes();
+  for (LoopChange& c : changes) {
+    const auto alone = [&](Surface surface, Change there, Change empty) {
+      return surface == Surface::kThere ? there : surface == Surface::kEmpty ? empty : Change::kNotComparable;
+    };
+    if (c.before.empty()) {
+      c.change = alone(surface_over(after.loops[c.after[0]], before, sample_before), Change::kOpened,
+                       Change::kFoundNow);
+    } else if (c.after.empty()) {
+      c.change = alone(surface_over(before.loops[c.before[0]], after, sample_after), Change::kClosed,
+                       Change::kNotFoundNow);
     } else {
-      changes.push_back({Change::kClosed, b, {}});
+      const bool is_pair = c.before.size() == 1 && c.after.size() == 1;
+      c.change = is_pair && is_same(c.before[0], c.after[0]) ? Change::kSame : Change::kChanged;
     }
   }
   return changes;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which loops of two results of one place are of the same hole, such as before and after a scan was
-// completed.
+// completed, and why one result alone has the others.
 #pragma once
 
 #include "engine/model/loop.hpp"
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -20,24 +19,37 @@ struct ComparedLoop {
   std::vector<Eigen::Vector3d> points;
 };
 
+struct ComparedScan {
+  std::vector<ComparedLoop> loops;
+  std::vector<Eigen::Vector3d> sample;  // even, of the scan
+  double spacing = 0;                   // typical distance of neighbours in the sample
+};
+
 enum class Change {
-  kSame,     // it matches, and its area has changed by a tenth or less
-  kChanged,  // it matches with another area, or runs along a part of a loop of the other result
-  kClosed,   // of the first result alone
-  kNew,      // of the second result alone
+  kSame,           // it matches, and its area has changed by a tenth or less
+  kChanged,        // it matches with another area, was divided or joined, or runs along a part of another
+  kClosed,         // of the first result alone: the second scan has surface there
+  kNotFoundNow,    // of the first result alone: the second scan is empty there, too
+  kOpened,         // of the second result alone: the first scan has surface there
+  kFoundNow,       // of the second result alone: the first scan is empty there, too
+  kNotComparable,  // the other scan does not reach the loop, or its sample is too coarse for it
 };
 std::string_view name_of(Change change);
 
-// Places in the two results; at least one is there.
+// Places in the two results; at least one is there. Both lists ascend.
 struct LoopChange {
   Change change = Change::kSame;
-  std::optional<std::size_t> before, after;
+  std::vector<std::size_t> before, after;
 };
 
-// Each loop of both results is in at least one change. Changes with an `after` come first, in its order, then
-// the closed ones. `tolerance` is the length up to which two curves of one hole may be apart. `match_loops`
-// has the rule of a match. Loops of a hole that was parted, or of holes that were joined, are changed.
-std::vector<LoopChange> compare_loops(std::span<const ComparedLoop> before,
-                                      std::span<const ComparedLoop> after, double tolerance);
+// Each loop of both results is in one change. Loops of a hole that was divided, or of holes that were joined,
+// share one. Changes with loops of the second result come first, in its order. `tolerance` is the length up
+// to which two curves of one hole may be apart. `match_loops` has the rule of a match.
+//
+// Surface is where half of up to 64 places over the loop have a point of the other sample within 1.5 of its
+// spacings; of an outer curve, places beyond it. Places nearer than that to the loop do not count. The other
+// scan reaches a loop if half of the loop's points have one of its points within twice that distance.
+std::vector<LoopChange> compare_loops(const ComparedScan& before, const ComparedScan& after,
+                                      double tolerance);
 
 }  // namespace lacuna::matching

@@ -53,7 +53,6 @@ class Details {
       ["Found at scales", scales(loops, index, units)],
       ...cause_rows(this.data, index, this.decimals),
       ["Planarity", format_fraction(loops.planarity[index])],
-      ["Mean boundary probability", format_fraction(loops.mean_probability[index])],
       ["Points", format_count(loops.points[index])],
       [`Centroid${units.name ? ", " + units.name : ""}`, axes(this.vector(loops.centroid, index, this.decimals)), "wide"],
       ["Normal", axes(this.vector(loops.normal, index, 4)), "wide"],

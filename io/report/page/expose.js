@@ -22,6 +22,21 @@ function expose(page) {
     unit: page.units.unit,
     crs: data.report.crs || null,
     short_place,
+    seen: () => {
+      const {passes} = view.scenes, {selected, selected_casing} = passes;
+      const core = css_rgb(style_value(loop_style(data.loops, page.selected, view.scenes.by_cause))).map((value) => Math.round(255 * value));
+      const count = (hidden) => {
+        selected.hidden.value = selected_casing.hidden.value = hidden;
+        const {pixels} = view.read_pixels();
+        let found = 0;
+        for (let i = 0; i < pixels.length; i += 4) if (core.every((value, k) => Math.abs(pixels[i + k] - value) <= 3)) ++found;
+        return found;
+      };
+      view.scenes.set_loops([]);
+      const [seen, all] = [count(0), count(1)];
+      view.scenes.set_loops(page.table.shown);
+      return all > 0 ? seen / all : 0;
+    },
     selected: () => (page.selected < 0 ? null : data.loops.id[page.selected]),
     loop_heights: (id) => {
       const {low, high} = loop_box(data.loops, data.loops.id.indexOf(id));

@@ -76,19 +76,14 @@ function file_list(inputs) {
 function result_facts(data, units) {
   const {report, loops} = data;
   const counts = report.counts || {};
-  const names = {holes: "Holes", outer: "Outer curves", loops: "Loops", boundary_points: "Boundary points",
-                 candidates: "Candidates", coherent: "Coherent"};
+  // "Candidates" and "Coherent" are words of the paper: holes.json has them.
+  const names = {holes: "Holes", outer: "Outer curves", loops: "Loops", boundary_points: "Boundary points"};
   const rows = Object.keys(names).filter((key) => is_number(counts[key])).map((key) => [names[key], format_count(counts[key])]);
-  let area = 0, has_area = false;
-  for (let i = 0; i < loops.count; ++i) {
-    if (loops.is_hole[i] && Number.isFinite(loops.area[i])) { area += loops.area[i]; has_area = true; }
-  }
-  if (has_area) {
-    rows.splice(1, 0, ["Area of all holes", units.area(area, 4)]);
-  }
+  const area = report.hole_area || 0;
+  if (area > 0) rows.splice(1, 0, ["Area of all holes", units.area(area, 4)]);
   if (report.surface_area > 0) {
     const share = 100 * area / (area + report.surface_area);
-    rows.splice(has_area ? 2 : 1, 0, ["Sampled surface, about", units.area(report.surface_area, 3)],
+    rows.splice(area > 0 ? 2 : 1, 0, ["Sampled surface, about", units.area(report.surface_area, 3)],
                 ["Share within holes", `${share.toPrecision(2)} %`]);
   }
   const made = facts_part("Result", description(rows));

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bar at the top: name and counts of the scan, help, theme.
 
-function write_header({report}) {
+// The area of all holes in words; nothing where there are none.
+function missing_area({hole_area, unit}, units) {
+  if (!(hole_area > 0)) return "";
+  return `${units.area(hole_area, 3)} missing${unit ? "" : " (unit not stated: --unit)"}`;
+}
+
+function write_header({report}, units) {
   const counts = report.counts || {};
   const title = report.title || "Scan";
   document.title = `${title} – Lacuna`;
@@ -9,6 +15,8 @@ function write_header({report}) {
   find("title").title = title;
   const parts = [];
   if (is_number(counts.holes)) parts.push(plural(counts.holes, "hole", "holes"));
+  const missing = missing_area(report, units);
+  if (missing) parts.push(missing);
   if (is_number(counts.outer)) parts.push(plural(counts.outer, "outer curve", "outer curves"));
   if (is_number(counts.points)) parts.push(plural(counts.points, "point", "points"));
   if (report.crs) parts.push(crs_name(report.crs));

@@ -10,10 +10,11 @@ class Page {
     this.units = new Units(report.unit);
     this.decimals = place_decimals(report.median_distance);
     this.theme = document.documentElement.dataset.theme;
-    this.colouring = "probability";
+    this.colouring = "height";
     this.selected = -1;
     this.former = null;  // pose before the flight to a loop
-    write_header(this.data);
+    this.cut = Infinity;  // how far before the middle of the picture what is shown begins
+    write_header(this.data, this.units);
     find("csv").disabled = loops.count === 0;
     this.marks = new Marks(this.data, () => this.apply_marks());
     connect_marks(this.marks, () => `${this.file_title()}_marks.json`);
@@ -54,6 +55,7 @@ class Page {
           draw_triad(view.navigation.camera);
           if (this.data.report.crs && this.data.frame.up === 2) draw_north(view.navigation.camera);
           if (this.sight) { this.sight.draw(); this.station_marks.draw(); }
+          if (this.names) this.names.draw(this.table.shown);
           if (this.measure) this.measure.draw();
         },
         on_pick: (x, y) => {
@@ -61,7 +63,7 @@ class Page {
           this.measure.pick(x, y);
           return true;
         },
-        on_loop: (index) => this.click_loop(index),
+        on_loop: (index, x, y) => this.click_loop(index >= 0 ? index : hole_around(this.view, this.data.loops, this.table.shown, x, y)),
         on_hover: (index, x, y) => this.hover(index, x, y),
       });
     } catch (error) {
@@ -74,7 +76,8 @@ class Page {
       find("colouring").disabled = true;
     }
     const scanned = find("colouring").querySelector("[value=colour]");
-    if (!this.data.points.colours) scanned.remove();
+    if (!this.data.points.colours) scanned.remove(); else if (are_colourful(this.data.points)) this.colouring = "colour";
+    find("colouring").value = this.colouring;
   }
 
   connect() {
@@ -111,10 +114,13 @@ class Page {
     connect_shown(this.view.scenes);
     this.station_marks = new StationMarks(this.view, this.data);
     this.sight = new SightLine(this.view, this.data, this.station_marks);
+    this.names = new LoopNames(this.view, this.data.loops);
     find("show-stations").addEventListener("change", () => this.update_legend());
+    find("cut").addEventListener("change", () => this.apply_cut());
     find("loop-colouring").addEventListener("change", () => this.set_by_cause(find("loop-colouring").value === "cause"));
     find("up-axis").addEventListener("change", () => this.turn_up(Number(find("up-axis").value)));
     this.section = new Section(this.data, this.view.bounds, this.units, (low, high) => this.apply_section(low, high));
+    this.section.open_roof(roof_height(this.data.points, this.view.bounds.box, this.data.frame.up));
     for (const button of document.querySelectorAll("[data-side]")) {
       button.addEventListener("click", () => this.fly_to_side(button.dataset.side));
     }
@@ -126,6 +132,7 @@ class Page {
     this.former = null;
     find("north").setAttribute("hidden", "");
     this.view.turn_up();
+    this.end_cut();
     this.section.turn_up();
     this.update_chip();
   }
@@ -134,6 +141,7 @@ class Page {
     if (!this.view) return;
     const {navigation} = this.view;
     navigation.fly(navigation.side_pose(name));
+    this.end_cut();
   }
 
   save_csv() {
@@ -251,7 +259,10 @@ class Page {
       if (is_flight) {
         const {navigation} = this.view;
         if (!this.former) this.former = navigation.flight ? navigation.flight.to : navigation.pose();
-        navigation.fly(navigation.loop_pose(index));
+        const pose = navigation.loop_pose(index);
+        navigation.fly(pose);
+        this.cut = loop_box(this.data.loops, index) ? navigation.loop_cut(index, pose) : Infinity;
+        this.apply_cut();
         this.section.open_for(loop_box(this.data.loops, index));
       }
     }
@@ -288,6 +299,14 @@ class Page {
     if (!is_flight && this.view) this.view.navigation.end_flight();
   }
 
+  end_cut() {
+    this.cut = Infinity;
+    this.apply_cut();
+  }
+
+  // Cuts away what hides the loop of the last flight, unless the reader wants to see it.
+  apply_cut() { this.view.set_cut(find("cut").checked ? this.cut : Infinity); }
+
   // Ends a measurement; else deselects, and goes back to the view and the section before the flight.
   escape() {
     if (this.measure && this.measure.is_on) {
@@ -296,6 +315,7 @@ class Page {
     }
     if (this.former && this.view) {
       this.view.navigation.fly(this.former);
+      this.end_cut();
       this.section.close_again();
     }
     this.former = null;

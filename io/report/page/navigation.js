@@ -69,8 +69,8 @@ class Navigation {
     return pose_along(normal, target, distance, now);
   }
 
-  // How far from the eye of loop_pose() what is shown begins: shortly before the loop, so that no ceiling or wall hides it.
-  loop_front(index, pose) {
+  // How far before the loop what is shown begins, seen from loop_pose(): so near that no ceiling or wall hides it.
+  loop_cut(index, pose) {
     const {first, vertices} = this.data.loops;
     const direction = pose_direction(pose);
     const size = Math.max(loop_radius(vertices, first[index], first[index + 1]), 3 * this.spacing);
@@ -78,7 +78,7 @@ class Navigation {
     for (let i = first[index]; i < first[index + 1]; ++i) {
       before = Math.max(before, direction.reduce((sum, value, k) => sum + value * (vertices[3 * i + k] - pose.target[k]), 0));
     }
-    return Math.max(0, pose.distance - Math.max(0.9 * size, 1.2 * before));
+    return Math.max(0.9 * size, 1.2 * before);
   }
 
   // ---- Movements

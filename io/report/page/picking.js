@@ -41,14 +41,14 @@ class LoopPicker {
 }
 
 // {place, distance} of the point nearest to the eye among those close to the ray; null without any.
-// `tangent`: of the angle that is still close; `section`: lowest and highest height that is shown, along the axis `up`.
-function point_along({positions, count}, eye, ray, tangent, spacing, section, up) {
+// `tangent`: of the angle that is still close; `from`: the least distance that is shown; `section`: lowest and highest height that is shown, along the axis `up`.
+function point_along({positions, count}, eye, ray, tangent, spacing, from, section, up) {
   let best = -1, nearest = Infinity;
   for (let i = 0; i < count; ++i) {
     if (positions[3 * i + up] < section.x || positions[3 * i + up] > section.y) continue;
     const px = positions[3 * i] - eye[0], py = positions[3 * i + 1] - eye[1], pz = positions[3 * i + 2] - eye[2];
     const along = px * ray[0] + py * ray[1] + pz * ray[2];
-    if (along <= 0 || along >= nearest) continue;
+    if (along <= from || along >= nearest) continue;
     const aside = Math.sqrt(Math.max(0, px * px + py * py + pz * pz - along * along));
     if (aside < along * tangent + spacing * 0.6) { nearest = along; best = i; }
   }

@@ -10,6 +10,17 @@ function sample_spacing({report, frame, points}) {
   return spacing > 0 ? spacing : 1 / Math.sqrt(Math.max(16, points.count));
 }
 
+// Whether the scan has colours, not intensities alone.
+function are_colourful({count, colours}) {
+  const step = Math.max(1, Math.floor(count / 1000));
+  let grey = 0, all = 0;
+  for (let i = 0; i < count; i += step, ++all) {
+    const [red, green, blue] = colours.subarray(4 * i, 4 * i + 3);
+    if (Math.max(red, green, blue) - Math.min(red, green, blue) < 8) ++grey;
+  }
+  return grey < 0.9 * all;
+}
+
 class PointCloud {
   // `data` of read_data(); `spacing` of sample_spacing().
   constructor(data, spacing, camera_uniforms) {

@@ -102,7 +102,7 @@ class PrintPages {
         if (!loop_box(data.loops, index)) continue;
         view.scenes.set_selected(index);
         const pose = navigation.loop_pose(index, navigation.fit_pose(kHomePolar, kHomeAzimuth));
-        made.of.set(index, picture(pose, navigation.loop_front(index, pose), units));
+        made.of.set(index, picture(pose, Math.max(0, pose.distance - navigation.loop_cut(index, pose)), units));
       }
     });
     view.scenes.set_selected(selected);
@@ -120,14 +120,13 @@ class PrintPages {
     const {data, units, filter, marks, view} = this.page;
     const {report, loops} = data;
     const counts = report.counts || {};
-    const sum = all.reduce((area, i) => area + (loops.area[i] || 0), 0);
     const pages = shown.length === all.length
         ? `The pages that follow show ${all.length === 0 ? "none" : "all"} of them.`
         : `The pages that follow show the ${format_count(shown.length)} largest of them.`;
     const words = filter.words(units);
     const rows = [["Points", format_count(counts.points)], ["Holes", format_count(counts.holes)],
                   ["Outer curves", format_count(counts.outer)],
-                  [`Area of the ${this.name(2)} here`, units.area(sum, 4)]];
+                  ["Area of all holes", report.hole_area > 0 ? units.area(report.hole_area, 4) : kMissing]];
     if (report.bounds) {
       const {min, max} = report.bounds;
       rows.push(["Extent", [0, 1, 2].map((k) => units.length(max[k] - min[k])).join(" × ")]);
@@ -141,6 +140,7 @@ class PrintPages {
                                                   format_count(all.filter((i) => marks.mark[i] === name).length)]);
     return element("section", {class: "print-page print-summary"},
         this.head(report.title || "Scan", `Lacuna report, ${new Date().toISOString().slice(0, 10)}`),
+        find("print-words").value ? element("p", {class: "print-words"}, find("print-words").value) : "",
         pictures.summary ? element("img", {src: pictures.summary, class: "print-picture", alt: ""}) : plan.figure(-1),
         view && view.scenes.by_cause ? element("p", {class: "legend-lines"}, ...cause_legend(loops)) : "",
         element("p", {class: "print-words"},

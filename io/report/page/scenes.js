@@ -4,7 +4,7 @@
 class Scenes {
   constructor(data, spacing, uniforms, on_change) {
     Object.assign(this, {data, uniforms, on_change});
-    this.through = false;
+    this.through = true;
     this.selected = -1;
     this.by_cause = false;  // colours of loops; else by kind
     this.are_loops_shown = true;
@@ -38,8 +38,8 @@ class Scenes {
       outer: add("outer", {width: 2, order: 2}),
       hole_casing: add("hole", {width: 5.2, order: 3, opacity: 0.85}),
       hole: add("hole", {width: 3.2, order: 4}),
-      selected_casing: add("selected", {width: 8, order: 5}),
-      selected: add("selected", {width: 3, order: 6}),
+      selected_casing: add("selected", {width: 9, order: 5}),
+      selected: add("selected", {width: 4.6, order: 6}),
     };
     const rows = Math.max(1, Math.ceil(loops.count / 256));
     this.loop_colours = new THREE.DataTexture(new Uint8Array(1024 * rows), 256, rows, THREE.RGBAFormat);
@@ -84,9 +84,9 @@ class Scenes {
 
   update_lines() {
     for (const line of Object.values(this.lines)) line.set_visible(this.are_loops_shown);
-    const hidden = this.through ? 0.55 : 0;
+    const hidden = this.through ? 0.3 : 0;
     for (const name of Object.keys(this.passes)) this.passes[name].hidden.value = hidden;
-    this.passes.selected.hidden.value = this.passes.selected_casing.hidden.value = Math.max(hidden, 0.35);
+    this.passes.selected.hidden.value = this.passes.selected_casing.hidden.value = Math.max(hidden, 0.5);
     for (const pick of this.picks) pick.hidden.value = this.through ? 1 : 0;
     this.on_change();
   }
@@ -111,8 +111,8 @@ class Scenes {
     if (this.by_cause) this.write_cause_colours(loops);
     set("hole_casing", "--casing");
     set("outer_casing", "--casing");
-    set("selected_casing", this.selected < 0 ? "--hole" : loop_style(loops, this.selected, this.by_cause));
-    set("selected", "--marked");
+    set("selected_casing", "--marked");
+    set("selected", this.selected < 0 ? "--hole" : loop_style(loops, this.selected, this.by_cause));
     this.on_change();
   }
 

@@ -4,7 +4,7 @@
 const kPrintRatio = 1.5;  // of pixels in pictures for paper: lines and points as thick as these
 
 class View {
-  // `on_frame(view)` after each picture, `on_loop(index or -1)` for a click, `on_hover(index or -1, x, y)`.
+  // `on_frame(view)` after each picture, `on_loop(index or -1, x, y)` for a click, `on_hover(index or -1, x, y)`.
   // `on_pick(x, y)` may take a click before the loops: then it returns true.
   constructor(canvas, context, data, {on_frame, on_loop, on_hover, on_pick}) {
     Object.assign(this, {canvas, data, on_frame});
@@ -17,9 +17,10 @@ class View {
     this.bounds = scene_bounds(data);
     this.navigation = new Navigation(canvas, data, this.bounds, this.spacing, this.frames);
     this.picker = new LoopPicker(this.renderer, this.scenes.pick);
+    this.cut = Infinity;
     connect_pointer(canvas, {
       zoom: (factor, x, y) => this.navigation.zoom(factor, x, y),
-      click: (x, y) => { if (!on_pick(x, y)) on_loop(this.loop_at(x, y)); },
+      click: (x, y) => { if (!on_pick(x, y)) on_loop(this.loop_at(x, y), x, y); },
       double_click: (x, y) => this.centre_at(x, y),
       hover: (x, y) => on_hover(this.loop_at(x, y), x, y),
       leave: () => on_hover(-1, 0, 0),
@@ -58,7 +59,7 @@ class View {
     const {navigation} = this;
     const tangent = (2 * 6 * Math.tan((kFieldOfView * Math.PI) / 360)) / this.canvas.clientHeight;
     return point_along(this.data.points, navigation.camera.position.toArray(), navigation.ray_at(x, y).toArray(),
-                       tangent, this.spacing, this.uniforms.section.value, this.data.frame.up);
+                       tangent, this.spacing, this.nearest(), this.uniforms.section.value, this.data.frame.up);
   }
 
   // Turns about the nearest point under the pointer from now on.
@@ -69,6 +70,15 @@ class View {
     const pose = navigation.pose();
     navigation.fly({...pose, target: found.place, distance: Math.min(pose.distance, found.distance)});
   }
+
+  // Leaves out what is more than `before` nearer than the middle of the picture, in scene coordinates.
+  set_cut(before) {
+    this.cut = before;
+    this.frames.changed();
+  }
+
+  // The distance from the eye at which what is shown begins.
+  nearest() { return Math.max(0, this.navigation.target_distance() - this.cut); }
 
   // Hides what lies below and above, in scene coordinates.
   set_section(low, high) {
@@ -131,7 +141,7 @@ class View {
   draw(count = this.data.points.count) {
     if (!this.target) return;
     this.frames.is_begun = true;
-    this.render(count, 0);
+    this.render(count, this.nearest());
     this.on_frame(this);
   }
 

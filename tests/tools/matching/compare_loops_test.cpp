@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holes of two results: closed, new, changed or the same.
+// Holes of two results: closed, opened, changed or the same.
 #include "tools/matching/compare_loops.hpp"
 
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -41,33 +40,73 @@ ComparedLoop half(double x, double radius, double side) {
   return loop;
 }
 
+// An even plane from -5 to 30, without the points that `is_empty` is true for.
+template <class Empty>
+std::vector<Eigen::Vector3d> plane(Empty&& is_empty) {
+  constexpr double kSpacing = 0.2;
+  std::vector<Eigen::Vector3d> points;
+  for (double x = -5; x <= 30; x += kSpacing) {
+    for (double y = -5; y <= 5; y += kSpacing) {
+      if (!is_empty(x, y)) points.emplace_back(x, y, 0);
+    }
+  }
+  return points;
+}
+
+std::vector<Eigen::Vector3d> whole_plane() {
+  return plane([](double, double) { return false; });
+}
+
 using Changes = std::vector<LoopChange>;
 
-Changes compared(const std::vector<ComparedLoop>& before, const std::vector<ComparedLoop>& after) {
-  return compare_loops(before, after, 0.2);
+Changes compared(const std::vector<ComparedLoop>& before, const std::vector<ComparedLoop>& after,
+                 const std::vector<Eigen::Vector3d>& sample_before = whole_plane(),
+                 const std::vector<Eigen::Vector3d>& sample_after = whole_plane()) {
+  return compare_loops({before, sample_before, 0.2}, {after, sample_after, 0.2}, 0.2);
 }
 
 TEST_CASE("a result compared with itself has the same holes, whichever points the curves take") {
   const std::vector<ComparedLoop> loops = {circle(0, 1), circle(5, 2), circle(20, 1)};
-  const Changes same = {{Change::kSame, 0, 0}, {Change::kSame, 1, 1}, {Change::kSame, 2, 2}};
+  const Changes same = {{Change::kSame, {0}, {0}}, {Change::kSame, {1}, {1}}, {Change::kSame, {2}, {2}}};
   CHECK(compared(loops, loops) == same);
   CHECK(compared(loops, {circle(0, 1, 0.03), circle(5, 2, 0.1), circle(20.05, 1)}) == same);
   CHECK(compared({}, {}).empty());
 }
 
-TEST_CASE("a hole that only one result has is closed or new") {
+TEST_CASE("a hole that one result has is closed or opened where the other scan has surface") {
   CHECK(compared({circle(0, 1), circle(5, 1)}, {circle(5, 1), circle(9, 1)}) ==
-        Changes{{Change::kSame, 1, 0}, {Change::kNew, {}, 1}, {Change::kClosed, 0, {}}});
+        Changes{{Change::kSame, {1}, {0}}, {Change::kOpened, {}, {1}}, {Change::kClosed, {0}, {}}});
+}
+
+TEST_CASE("a hole that both scans have, but one result alone found, is neither closed nor opened") {
+  const auto punched = plane([](double x, double y) { return x * x + y * y < 1; });
+  CHECK(compared({circle(0, 1)}, {}, punched, punched) == Changes{{Change::kNotFoundNow, {0}, {}}});
+  CHECK(compared({}, {circle(0, 1)}, punched, punched) == Changes{{Change::kFoundNow, {}, {0}}});
+}
+
+TEST_CASE("a hole is not comparable where the other scan does not reach it, or its sample is too coarse") {
+  CHECK(compared({circle(50, 1)}, {circle(5, 1)}) ==
+        Changes{{Change::kOpened, {}, {0}}, {Change::kNotComparable, {0}, {}}});
+  CHECK(compared({circle(0, 0.25)}, {}) == Changes{{Change::kNotComparable, {0}, {}}});
+  CHECK(compared({circle(0, 1)}, {}, {}, {}) == Changes{{Change::kNotComparable, {0}, {}}});
+}
+
+TEST_CASE("an outer curve is closed where the other scan goes on beyond it") {
+  ComparedLoop outer = circle(0, 1);
+  outer.measures.kind = LoopKind::kOuter;
+  const auto disc = plane([](double x, double y) { return x * x + y * y > 1; });
+  CHECK(compared({outer}, {}, disc) == Changes{{Change::kClosed, {0}, {}}});
+  CHECK(compared({outer}, {}, disc, disc) == Changes{{Change::kNotFoundNow, {0}, {}}});
 }
 
 TEST_CASE("a hole with another area has changed") {
-  CHECK(compared({circle(0, 1)}, {circle(0, 1.15)}) == Changes{{Change::kChanged, 0, 0}});
+  CHECK(compared({circle(0, 1)}, {circle(0, 1.15)}) == Changes{{Change::kChanged, {0}, {0}}});
 }
 
-TEST_CASE("a hole that was divided has changed into each of its parts, and so have parts that were joined") {
+TEST_CASE("a hole that was divided has one line with its parts, and so have parts that were joined") {
   const std::vector<ComparedLoop> whole = {circle(0, 3)}, halves = {half(0, 3, -1), half(0, 3, 1)};
-  CHECK(compared(whole, halves) == Changes{{Change::kChanged, 0, 0}, {Change::kChanged, 0, 1}});
-  CHECK(compared(halves, whole) == Changes{{Change::kChanged, 0, 0}, {Change::kChanged, 1, 0}});
+  CHECK(compared(whole, halves) == Changes{{Change::kChanged, {0}, {0, 1}}});
+  CHECK(compared(halves, whole) == Changes{{Change::kChanged, {0, 1}, {0}}});
 }
 
 }  // namespace

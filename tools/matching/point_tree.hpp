@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-namespace lacuna::evaluation {
+namespace lacuna::matching {
 
 // A tree over the caller's points, which are finite. Building it costs n log n; a query costs log n.
 class PointTree {
@@ -32,4 +32,4 @@ class PointTree {
   std::unique_ptr<Tree> tree_;
 };
 
-}  // namespace lacuna::evaluation
+}  // namespace lacuna::matching

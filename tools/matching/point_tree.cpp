@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/evaluation/point_tree.hpp"
+#include "tools/matching/point_tree.hpp"
 
-#include "bench/evaluation/nanoflann_tree.hpp"
+#include "tools/matching/nanoflann_tree.hpp"
 
 #include <cmath>
 #include <limits>
 
-namespace lacuna::evaluation {
+namespace lacuna::matching {
 
 struct PointTree::Tree : NanoflannTree<std::size_t> {
   using NanoflannTree::NanoflannTree;
@@ -37,4 +37,4 @@ double PointTree::nearest_distance(const Eigen::Vector3d& place) const {
   return found ? std::sqrt(square) : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace lacuna::evaluation
+}  // namespace lacuna::matching

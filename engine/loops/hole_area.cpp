@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/loops/hole_area.hpp"
+
+#include "engine/loops/centroids.hpp"
+#include "engine/loops/loop_plane.hpp"
+#include "engine/loops/places_within.hpp"
+#include "engine/store/scratch.hpp"
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+namespace lacuna {
+namespace {
+
+constexpr std::size_t kPlaces = 32;  // of a hole
+
+// A place of a hole.
+struct Place {
+  std::array<double, 3> at;
+  std::uint8_t is_within, is_shared;
+};
+
+LoopPlane plane_of(const LoopMeasures& loop) {
+  return {loop.centroid, loop.normal, loop.normal.unitOrthogonal()};
+}
+
+std::vector<Eigen::Vector2d> polygon_of(std::span<const LoopPoint> loop, const LoopPlane& plane) {
+  std::vector<Eigen::Vector2d> polygon;
+  for (const LoopPoint& p : loop) polygon.push_back(plane(p.position()).head<2>());
+  return polygon;
+}
+
+bool is_countable(const LoopMeasures& loop) {
+  return loop.kind == LoopKind::kHole && loop.area > 0 && std::isfinite(loop.area);
+}
+
+}  // namespace
+
+double hole_area(const MeasuredLoops& loops, std::span<const std::size_t> selected, Job& job) {
+  const std::vector<LoopMeasures>& measures = loops.measures;
+  std::vector<std::uint8_t> counts(measures.size());
+  for (const std::size_t i : selected) counts[i] = is_countable(measures[i]);
+  const MemoryLedger::Lease placing = job.ledger.take(job.memory.work / 4);
+  Scratch scratch(job.temporary, placing.bytes());
+  const std::span<Place> places = scratch.array<Place>(kPlaces * measures.size());
+  for_each_loop(loops.loops, job, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch&) {
+    if (counts[i] == 0) return;
+    const LoopPlane plane = plane_of(measures[i]);
+    std::size_t next = kPlaces * i;
+    for (const Eigen::Vector2d& place : places_within(polygon_of(loop, plane), kPlaces)) {
+      const Eigen::Vector3d at = plane.point_at({place.x(), place.y(), 0});
+      places[next++] = {{at.x(), at.y(), at.z()}, 1, 0};
+    }
+  });
+
+  const Centroids centroids(measures);
+  for_each_loop(loops.loops, job, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch&) {
+    if (counts[i] == 0) return;
+    constexpr double kLeastCosine = 0.5, kNear = 0.25;
+    const LoopMeasures& larger = measures[i];
+    const LoopPlane plane = plane_of(larger);
+    std::vector<Eigen::Vector2d> polygon;
+    centroids.for_each_near(larger.centroid, larger.diameter, [&](std::size_t other) {
+      const LoopMeasures& hole = measures[other];
+      if (counts[other] == 0 || std::tie(hole.area, other) >= std::tie(larger.area, i)) return;
+      if (std::abs(hole.normal.dot(larger.normal)) < kLeastCosine) return;
+      if (polygon.empty()) polygon = polygon_of(loop, plane);
+      for (Place& place : places.subspan(kPlaces * other, kPlaces)) {
+        if (place.is_within == 0) break;
+        const Eigen::Vector3d at = plane(Eigen::Vector3d(place.at[0], place.at[1], place.at[2]));
+        if (std::abs(at.z()) <= kNear * std::sqrt(hole.area) && is_inside(polygon, at.head<2>()))
+          std::atomic_ref(place.is_shared).store(1, std::memory_order_relaxed);
+      }
+    });
+  });
+
+  double area = 0;
+  for (std::size_t i = 0; i < measures.size(); ++i) {
+    if (counts[i] == 0) continue;
+    int within = 0, shared = 0;
+    for (const Place& place : places.subspan(kPlaces * i, kPlaces)) {
+      within += place.is_within;
+      shared += place.is_shared;
+    }
+    area += within > 0 ? measures[i].area * (within - shared) / within : measures[i].area;
+  }
+  return area;
+}
+
+}  // namespace lacuna

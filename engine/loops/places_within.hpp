@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Places that are spread evenly over a polygon.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+namespace lacuna {
+
+// Whether an odd number of edges lies to the right of the place. `polygon`: closed, at least one point.
+inline bool is_inside(std::span<const Eigen::Vector2d> polygon, const Eigen::Vector2d& place) {
+  bool inside = false;
+  Eigen::Vector2d a = polygon.back();
+  for (const Eigen::Vector2d& b : polygon) {
+    if ((a.y() > place.y()) != (b.y() > place.y()) &&
+        place.x() < a.x() + (place.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+      inside = !inside;
+    a = b;
+  }
+  return inside;
+}
+
+// Returns `most` places within the polygon, or fewer where it fills less than a sixteenth of its box. They
+// follow the additive recurrence with the plastic number (Roberts, 2018). Cost: edges times places.
+inline std::vector<Eigen::Vector2d> places_within(std::span<const Eigen::Vector2d> polygon,
+                                                  std::size_t most) {
+  constexpr double kFirst = 0.7548776662466927, kSecond = 0.5698402909980532;
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& p : polygon) box.extend(p);
+  std::vector<Eigen::Vector2d> places;
+  Eigen::Vector2d part(0.5, 0.5);
+  for (std::size_t i = 0; i < 16 * most && places.size() < most; ++i) {
+    part += Eigen::Vector2d(kFirst, kSecond);
+    part -= part.array().floor().matrix();
+    const Eigen::Vector2d place = box.min() + part.cwiseProduct(box.sizes());
+    if (is_inside(polygon, place)) places.push_back(place);
+  }
+  return places;
+}
+
+}  // namespace lacuna

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ids of holes over the view, and the hole that a place of the view lies in.
+
+const kMostNames = 60, kLeastPixels = 24;  // of a hole on the screen that has its id
+
+// The pixels of a loop's vertices; null where one is behind the eye.
+function pixels_of_loop(view, {first, vertices}, index) {
+  const pixels = view_pixels(view), {camera} = view.navigation;
+  const places = [];
+  for (let i = first[index]; i < first[index + 1]; ++i) {
+    const seen = seen_from(camera, vertices.subarray(3 * i, 3 * i + 3));
+    if (!(seen[2] > 0)) return null;
+    places.push(to_pixel(pixels, seen));
+  }
+  return places;
+}
+
+// Twice the area of a polygon.
+function doubled_area(places) {
+  return Math.abs(places.reduce((sum, [x, y], i) => {
+    const [next_x, next_y] = places[(i + 1) % places.length];
+    return sum + x * next_y - next_x * y;
+  }, 0));
+}
+
+function is_inside(places, x, y) {
+  let inside = false;
+  places.forEach(([ax, ay], i) => {
+    const [bx, by] = places[(i + 1) % places.length];
+    if (ay > y !== by > y && x < ax + ((y - ay) / (by - ay)) * (bx - ax)) inside = !inside;
+  });
+  return inside;
+}
+
+// The hole of `shown` that looks smallest around a place of the window; -1 without any.
+function hole_around(view, loops, shown, x, y) {
+  const box = view.canvas.getBoundingClientRect();
+  let best = -1, least = Infinity;
+  for (const index of shown) {
+    if (!loops.is_hole[index]) continue;
+    const places = pixels_of_loop(view, loops, index);
+    if (!places || !is_inside(places, x - box.left, y - box.top)) continue;
+    const area = doubled_area(places);
+    if (area < least) { least = area; best = index; }
+  }
+  return best;
+}
+
+class LoopNames {
+  constructor(view, loops) {
+    Object.assign(this, {view, loops});
+    const size = (i) => (loops.diameter[i] >= 0 ? loops.diameter[i] : -1);
+    this.largest = Array.from(loops.id.keys()).filter((i) => loops.is_hole[i]).sort((a, b) => size(b) - size(a)).slice(0, kMostNames);
+    const middle = (i) => {
+      const box = loop_box(loops, i);
+      return box ? box.low.map((value, axis) => (value + box.high[axis]) / 2) : null;
+    };
+    this.middles = this.largest.map(middle);
+    this.nodes = this.largest.map((i) => drawing("text", {}, String(loops.id[i])));
+    find("names-over").replaceChildren(...this.nodes);
+  }
+
+  // After each picture.
+  draw(shown) {
+    const is_shown = new Set(find("show-loops").checked ? shown : []);
+    const {focal} = view_pixels(this.view), {camera} = this.view.navigation;
+    this.largest.forEach((index, k) => {
+      const place = this.middles[k] && is_shown.has(index) ? this.middles[k] : null;
+      const ahead = place ? seen_from(camera, place)[2] : 0;
+      const radius = loop_radius(this.loops.vertices, this.loops.first[index], this.loops.first[index + 1]);
+      const is_large = ahead > this.view.nearest() && (2 * radius * focal) / ahead >= kLeastPixels;
+      const at = is_large ? pixel_of(this.view, place, 0) : null;
+      this.nodes[k].toggleAttribute("hidden", !at);
+      if (at) this.nodes[k].setAttribute("transform", `translate(${at[0].toFixed(1)} ${at[1].toFixed(1)})`);
+    });
+  }
+}
