@@ -21,7 +21,7 @@ run() {
 
 mkdir -p demo
 run build/lacuna-bench synth scan demo/scan.ply --stations 1 --points 400000 --seed 2
-run build/lacuna detect demo/scan.ply --out demo/holes --points --report
+run build/lacuna detect demo/scan.ply --out demo/holes --stations demo/scan.stations.txt --points --report
 run build/lacuna-bench evaluate demo/holes demo/scan.loops.txt
 
 cat <<END
