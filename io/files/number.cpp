@@ -2,6 +2,7 @@
 #include "io/files/number.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 
@@ -29,6 +30,18 @@ double parse_extreme(std::string_view text, double) {
 
 std::string describe_whole_number(std::int64_t least, std::uint64_t most) {
   return "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+}
+
+double reread(double value, std::chars_format format, int digits) {
+  if (!std::isfinite(value)) return value;
+  std::array<char, 800> text;
+  const char* const end = std::to_chars(text.data(), text.data() + text.size(), value, format, digits).ptr;
+  parse_number({text.data(), end}, value);
+  return value;
+}
+
+int place_decimals(double distance) {
+  return distance > 0 ? static_cast<int>(std::clamp(std::ceil(3 - std::log10(distance)), 0.0, 300.0)) : 17;
 }
 
 void append_shortest(std::string& text, double value) {

@@ -43,6 +43,13 @@ void append_shortest(std::string& text, double value);
 // 1e-15 and from 1e15 on there is one.
 void append_plain(std::string& text, double value);
 
+// Returns the number that reads as so many digits of the value. Arithmetic would round 0.1 + 0.2 to
+// 0.30000000000000004. A number that is not finite stays as it is.
+double reread(double value, std::chars_format format, int digits);
+
+// Returns the decimals of places, down to a thousandth of the distance of neighbours; 17 where it is 0.
+int place_decimals(double distance);
+
 // Names what `parse_number<T>` takes, for error messages.
 std::string describe_whole_number(std::int64_t least, std::uint64_t most);
 template <class T>

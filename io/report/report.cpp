@@ -100,23 +100,9 @@ Json run_of(const Json& run) {
           {"seconds", run.at("total_seconds")}};
 }
 
-// The number of the shortest digits: 0.1 + 0.2 rounded by arithmetic would be 0.30000000000000004.
-double reread(double value, std::chars_format format, int digits) {
-  std::array<char, 800> text;
-  const char* const end = std::to_chars(text.data(), text.data() + text.size(), value, format, digits).ptr;
-  parse_number({text.data(), end}, value);
-  return value;
-}
-
 // Six digits are more than a reader wants, and keep the page small.
 double rounded(double value) {
-  return std::isfinite(value) ? reread(value, std::chars_format::general, 6) : value;
-}
-
-// Returns the decimals of places, down to a thousandth of the distance of neighbours.
-int place_decimals(const Json& holes) {
-  const double distance = holes.at("median_distance").get<double>();
-  return distance > 0 ? static_cast<int>(std::clamp(std::ceil(3 - std::log10(distance)), 0.0, 300.0)) : 17;
+  return reread(value, std::chars_format::general, 6);
 }
 
 Json loops_of(const Scene::Loops& loops, int decimals) {
@@ -133,9 +119,8 @@ Json loops_of(const Scene::Loops& loops, int decimals) {
                                                       : Json(rounded(value));
     });
   add("centroid", [decimals](const ExplainedLoop& loop) {
-    return list(loop.centroid.unaryExpr([decimals](double value) {
-      return std::isfinite(value) ? reread(value, std::chars_format::fixed, decimals) : value;
-    }));
+    return list(loop.centroid.unaryExpr(
+        [decimals](double value) { return reread(value, std::chars_format::fixed, decimals); }));
   });
   add("normal", [](const ExplainedLoop& loop) { return list(loop.normal.unaryExpr(&rounded)); });
   add("cause",
@@ -181,7 +166,7 @@ Json report_of(const Scene& scene) {
             {"spacing", points.spacing},
             {"has_normals", true},
             {"has_colours", !points.colours.empty()}}},
-          {"loops", loops_of(scene.loops, place_decimals(holes))}};
+          {"loops", loops_of(scene.loops, place_decimals(holes.at("median_distance").get<double>()))}};
 }
 
 // The text never ends the element that it is in.

@@ -3,21 +3,23 @@
 #include "io/loops/loop_measures.hpp"
 #include "io/results/results.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
 #include <string>
+#include <tuple>
+#include <vector>
 
 namespace lacuna::io {
 namespace {
 
 // Writes an empty field if the value is not finite.
-void append(std::string& line, double value, bool is_count = false) {
+void append(std::string& line, double value) {
   line += ',';
-  if (!std::isfinite(value)) return;
-  if (is_count) {
-    line += std::to_string(static_cast<std::uint64_t>(value));
-  } else {
-    append_shortest(line, value);
-  }
+  if (std::isfinite(value)) append_shortest(line, value);
 }
 
 std::string table_header() {
@@ -26,19 +28,37 @@ std::string table_header() {
   return names + ",x,y,z,nx,ny,nz,cause,hidden_by_x,hidden_by_y,hidden_by_z\n";
 }
 
+// Holes before outer curves, each the largest first.
+std::vector<std::size_t> by_size(const std::vector<LoopMeasures>& loops) {
+  std::vector<std::size_t> order(loops.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto rank = [&](std::size_t id) {
+    const double area = std::isfinite(loops[id].area) ? loops[id].area : std::numeric_limits<double>::max();
+    return std::tuple(loops[id].kind, -area, id);
+  };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+  return order;
+}
+
 }  // namespace
 
 void write_table(const ExplainedDetection& detection, OutputFile& out) {
+  constexpr int kDigits = 7, kDigitsOfCount = 16;
+  const int decimals = place_decimals(detection.summary.median_distance);
+  const auto place = [decimals](double value) { return reread(value, std::chars_format::fixed, decimals); };
   out.write(table_header());
-  for (std::size_t id = 0; id < detection.loops.size(); ++id) {
+  for (const std::size_t id : by_size(detection.loops)) {
     const ExplainedLoop loop = detection.loop(id);
     std::string line = std::to_string(id) + "," + name_of(loop.kind);
-    for (const LoopMeasure& measure : kLoopMeasures) append(line, measure.of(loop), measure.is_count);
-    for (const Eigen::Vector3d& vector : {loop.centroid, loop.normal}) {
-      for (const double component : vector) append(line, component);
+    for (const LoopMeasure& measure : kLoopMeasures) {
+      const int digits = measure.is_count ? kDigitsOfCount : kDigits;
+      append(line, reread(measure.of(loop), std::chars_format::general, digits));
     }
+    for (const double coordinate : loop.centroid) append(line, place(coordinate));
+    for (const double component : loop.normal)
+      append(line, reread(component, std::chars_format::general, kDigits));
     line.append(",").append(loop.cause.name());
-    for (const double component : loop.cause.hidden_by) append(line, component);
+    for (const double coordinate : loop.cause.hidden_by) append(line, place(coordinate));
     out.write(line + "\n");
   }
 }

@@ -45,7 +45,10 @@ assert all(abs(2 * at - low - high) <= 1 for at, low, high in zip(local["offset"
 assert local["loops"] == one["loops"]
 with open(Path(sys.argv[2]).parent / "holes.csv", encoding="utf-8", newline="") as table:
     rows = list(csv.DictReader(table))
-assert [float(row["area"]) for row in rows] == [loop["area"] for loop in one["loops"]]
+assert sorted(int(row["id"]) for row in rows) == [loop["id"] for loop in one["loops"]]
+assert all(abs(float(row["area"]) - one["loops"][int(row["id"])]["area"]) <= 1e-6 * float(row["area"]) for row in rows)
+holes = [float(row["area"]) for row in rows if row["kind"] == "hole"]
+assert rows[0]["kind"] == "hole" and holes == sorted(holes, reverse=True)
 
 for break_it in (lambda r: r.pop("schema"), lambda r: r.pop("offset"), lambda r: r.update(offset=[0.5, 0, 0]),
                  lambda r: r.update(offset=[0, 0]), lambda r: r["loops"][0].update(kind="rim"), lambda r: r.update(tiles=4)):

@@ -91,14 +91,6 @@ fs::path scratch_parent(const RunConfig& run, const ResultFolder& out) {
   return run.workspace.empty() ? out.temporary() : fs::path(run.workspace);
 }
 
-// Returns an empty text if every program reads the file.
-std::string readers_note(const FileScan& scan, const OutputConfig& config) {
-  if (has_single_precision(scan) || config.local_coordinates) return "";
-  return "note: PCL takes the 64-bit coordinates of PLY files for 0 0 0; --local-coordinates helps, or "
-         "--points "
-         "--points-format csv\n";
-}
-
 }  // namespace
 
 RunArguments::RunArguments(const Command& command, ParameterScope scope) : parameters(command, scope) {
@@ -172,11 +164,9 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   const std::unique_ptr<StationViews> stations = watch_stations(scan, config.output, scratch.path());
   FilesConfig running = config;
   const bool is_in_memory = !stations && take_files_into_memory(scan, running.run);  // rays are files, too
-  ExplainedDetection detection{
-      *detect(scan, running, is_in_memory ? fs::path() : scratch.path(), *progress)};
+  ExplainedDetection detection{*detect(scan, running, is_in_memory ? fs::path() : scratch.path(), *progress)};
   if (stations) find_causes(*stations, scan, config.run, detection);
   if (area) detection.area = check_area(*area, scan, config, *progress);
-  const Clock::time_point writing = Clock::now();
   progress->begin("write", 0);
   const std::vector<fs::path> written = write_results(detection, scan, with_min_hole(config), out);
   note_complete_results();
@@ -185,12 +175,9 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   print_warnings(station_warnings(detection.stations));
   print_warnings(scan_warnings(scan, detection, config));
 
-  const auto seconds_since = [end = Clock::now()](Clock::time_point begin) {
-    return std::chrono::duration<double>(end - begin).count();
-  };
-  std::string summary = print_summary(detection, scan, seconds_since(writing), seconds_since(start));
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  std::string summary = print_summary(detection, scan, seconds);
   for (const fs::path& file : written) summary += "written: " + visible(file.string()) + "\n";
-  summary += readers_note(scan, config.output);
   if (workspace)
     summary += "kept: " + visible(config.run.workspace) +
                ", from which the same command goes on; lacuna clean removes it\n";

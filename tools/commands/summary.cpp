@@ -56,18 +56,15 @@ double extent_of(const Summary& summary) {
 // The loops of one kind, for one sentence.
 struct Kind {
   std::vector<std::size_t> loops;  // by area, the largest first
-  std::size_t long_ones = 0;       // with a larger perimeter than the bound
-  double perimeter = 0, area = 0;  // of all together
+  double perimeter = 0;            // of all together
 };
 
-Kind loops_of(const std::vector<LoopMeasures>& loops, LoopKind kind, double bound) {
+Kind loops_of(const std::vector<LoopMeasures>& loops, LoopKind kind) {
   Kind all;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (loops[i].kind != kind) continue;
     all.loops.push_back(i);
-    all.long_ones += loops[i].perimeter > bound;
     all.perimeter += loops[i].perimeter;
-    if (std::isfinite(loops[i].area)) all.area += loops[i].area;
   }
   std::stable_sort(all.loops.begin(), all.loops.end(),
                    [&](std::size_t a, std::size_t b) { return loops[a].area > loops[b].area; });
@@ -144,40 +141,15 @@ std::vector<std::pair<std::string, std::string>> findings(const Summary& summary
                                        print_length(summary.median_distance, unit) + " away (median)");
   if (counts.undefined_normals > 0)
     facts.emplace_back("normals", "none at " + counted(counts.undefined_normals, "point", "points"));
-  facts.emplace_back("boundary", counted(counts.boundary_points, "point", "points") + "; " +
-                                     counted(counts.candidates, "candidate", "candidates") + ", " +
-                                     print_count(counts.coherent) + " coherent");
+  facts.emplace_back("boundary", counted(counts.boundary_points, "point", "points"));
   if (summary.e > 0) {  // the method of the paper
     facts.emplace_back("graph", counted(counts.boundary_edges, "eligible edge", "eligible edges") + ", " +
                                     counted(counts.components, "component", "components") +
                                     "; loops of more than " + std::to_string(summary.e) + " edges");
   }
-  facts.emplace_back("loops", print_count(counts.raw_loops) + " before selection, at " +
-                                  counted(summary.levels.size(), "level", "levels"));
   facts.emplace_back("tiles", print_count(summary.tiles) + ", of at most " +
                                   counted(summary.tile_points, "point", "points"));
   return facts;
-}
-
-// Prints a row for each phase; phases of one name share a row with the sum of their times.
-std::string print_times(const Summary& summary, double write_seconds) {
-  std::vector<PhaseTime> phases;
-  const auto add = [&phases](const PhaseTime& phase) {
-    const auto same = std::ranges::find(phases, phase.name, &PhaseTime::name);
-    if (same == phases.end()) {
-      phases.push_back(phase);
-    } else {
-      same->seconds += phase.seconds;
-    }
-  };
-  for (const PhaseTime& phase : summary.phases) add(phase);
-  add({"write", write_seconds});
-  std::vector<std::vector<std::string>> rows;
-  for (const PhaseTime& phase : phases) {
-    rows.push_back(
-        {phase.name, print_duration(phase.seconds), print_rate(summary.counts.points, phase.seconds)});
-  }
-  return print_table(rows);
 }
 
 }  // namespace
@@ -193,32 +165,21 @@ std::string print_left_out(const Counts& counts, const FilteredOut& filtered) {
   return text;
 }
 
-double length_bound(double extent) {
-  return extent > 0 && std::isfinite(extent) ? std::pow(10, std::round(std::log10(extent / 20))) : 0;
-}
-
-std::string print_summary(const ExplainedDetection& detection, const FileScan& scan, double write_seconds,
-                          double total_seconds) {
+std::string print_summary(const ExplainedDetection& detection, const FileScan& scan, double seconds) {
   const std::string& unit = scan.length_unit();
   const Summary& summary = detection.summary;
   const std::vector<LoopMeasures>& loops = detection.loops;
   const double extent = extent_of(summary);
-  const double bound = length_bound(extent);
-  const Kind holes = loops_of(loops, LoopKind::kHole, bound);
-  const Kind outer = loops_of(loops, LoopKind::kOuter, bound);
+  const Kind holes = loops_of(loops, LoopKind::kHole);
+  const Kind outer = loops_of(loops, LoopKind::kOuter);
   const std::string causes = print_causes(detection.causes);
-  const std::string longer = " longer than " + print_power(bound, unit);
 
   std::string text = counted(holes.loops.size(), "hole", "holes") + ", " +
-                     counted(outer.loops.size(), "outer curve", "outer curves");
-  if (!loops.empty()) text += "; " + print_count(holes.long_ones + outer.long_ones) + longer;
-  text += "\n" + print_largest(loops, holes, extent, unit) + "\n";
-  if (!outer.loops.empty()) {
-    text += "  " + counted(outer.loops.size(), "outer curve", "outer curves") + ", " +
-            print_count(outer.long_ones) + longer + "; " + print_length(outer.perimeter, unit) +
-            " in all\n\n";
-  }
+                     counted(outer.loops.size(), "outer curve", "outer curves") + "\n" +
+                     print_largest(loops, holes, extent, unit) + "\n";
   auto facts = findings(summary, scan, unit);
+  if (!outer.loops.empty())
+    facts.emplace_back("outer curves", print_length(outer.perimeter, unit) + " long in all");
   if (detection.area) {
     facts.emplace_back("area", print_is_covered(*detection.area, unit));
     facts.emplace_back("", print_covered(*detection.area, unit));
@@ -227,10 +188,10 @@ std::string print_summary(const ExplainedDetection& detection, const FileScan& s
   if (summary.surface_area > 0)
     facts.emplace_back("surface", print_surface(summary.surface_area, summary.hole_area, unit));
   facts.emplace_back("peak memory", print_size(peak_memory()) + " of " + print_size(summary.memory_limit));
-  facts.emplace_back("time", print_duration(total_seconds) + " with " +
+  facts.emplace_back("time", print_duration(seconds) + " with " +
                                  counted(summary.threads, "thread", "threads") + ", " +
-                                 print_rate(summary.counts.points, total_seconds));
-  return text + print_facts(facts) + "\n" + print_times(summary, write_seconds) + "\n";
+                                 print_rate(summary.counts.points, seconds));
+  return text + print_facts(facts) + "\n";
 }
 
 }  // namespace lacuna::tools

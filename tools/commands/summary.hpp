@@ -10,13 +10,8 @@
 
 namespace lacuna::tools {
 
-// Returns the findings, the largest holes by area, outer curves as sums; then counts, and time per phase.
-std::string print_summary(const io::ExplainedDetection& detection, const io::FileScan& scan,
-                          double write_seconds, double total_seconds);
-
-// Returns the length that is "long" in a scan of this extent: the power of ten nearest to a twentieth of it.
-// Returns 0 without an extent.
-double length_bound(double extent);
+// Returns the counts of loops, the largest holes by area, and facts of the scan and of the run.
+std::string print_summary(const io::ExplainedDetection& detection, const io::FileScan& scan, double seconds);
 
 // Returns points that do not take part, by reason: "; 12 not finite, dropped; 3 outside of the bounds".
 std::string print_left_out(const Counts& counts, const io::FilteredOut& filtered);

@@ -10,7 +10,7 @@ namespace lacuna::tools {
 namespace {
 
 constexpr int kDigits = 3;
-constexpr double kLeastPlain = 1e-3, kMostPlain = 1e6;
+constexpr double kLeastPlain = 1e-3, kMostPlain = 1e15;
 
 std::string print_number(double value) {
   char buffer[64];
@@ -46,16 +46,6 @@ std::string print_area(double area, std::string_view unit) {
 
 std::string print_share(double share) {
   return with_unit(100 * share, "%", "");
-}
-
-std::string print_power(double power_of_ten, std::string_view unit) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%g", power_of_ten);
-  std::string text = power_of_ten >= 1 && power_of_ten < kMostPlain
-                         ? print_count(static_cast<std::uint64_t>(std::llround(power_of_ten)))
-                         : std::string(buffer);
-  if (!unit.empty()) text.append(" ").append(unit);
-  return text;
 }
 
 std::string print_place(const Eigen::Vector3d& place, double extent) {

@@ -19,7 +19,6 @@ std::string print_length(double length, std::string_view unit);
 std::string print_area(double area, std::string_view unit);  // "3.97 m²"
 std::string print_share(double share);                       // "100 %" for 1
 
-std::string print_power(double power_of_ten, std::string_view unit);  // "0.1 m", "1 m", "1,000 m"
 
 // Prints x y z, to a hundredth of the power of ten below `extent`, the size of the scan. So all places of one
 // scan have equally many decimals.

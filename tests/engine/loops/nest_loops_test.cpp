@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/loops/nest_loops.hpp"
 
-#include "engine/loops/measure_loop.hpp"
 #include "tests/support/detected.hpp"
-#include "tests/support/loop_points.hpp"
+#include "tests/support/measured_loops.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <algorithm>
@@ -19,22 +18,10 @@ using Eigen::Vector3d;
 using Parents = std::vector<std::int64_t>;
 using Line = std::vector<Vector3d>;
 
-struct DrawnLoop {
-  Line points;
-  LoopKind kind = LoopKind::kHole;
-};
+using test::DrawnLoop;
+using test::square;
 
 constexpr LoopKind kHole = LoopKind::kHole, kOuter = LoopKind::kOuter;
-
-DrawnLoop square(double half, LoopKind kind, const Vector3d& centre = {0, 0, 0}, int on_side = 5) {
-  DrawnLoop loop{.points = {}, .kind = kind};
-  const Line corners = {{-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0}};
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (int k = 0; k < on_side; ++k)
-      loop.points.push_back(centre + corners[i] + (corners[(i + 1) % 4] - corners[i]) * k / on_side);
-  }
-  return loop;
-}
 
 // `memory`: bytes for the step; 0: as many as the job gives it.
 std::vector<LoopMeasures> nested(const std::vector<DrawnLoop>& drawn, std::uint64_t memory = 0) {
@@ -43,17 +30,7 @@ std::vector<LoopMeasures> nested(const std::vector<DrawnLoop>& drawn, std::uint6
   const Config config;
   Job job(config, scratch.path(), progress);
   if (memory > 0) job.memory.work = memory;
-  MeasuredLoops loops;
-  Loops& level = loops.loops.levels.emplace_back(job.file("loops"));
-  std::uint64_t id = 0;
-  for (const DrawnLoop& loop : drawn) {
-    Loop points;
-    for (const Vector3d& at : loop.points) points.push_back(test::loop_point(id++, at));
-    level.add(points.size(), {}, [&](std::uint64_t i) { return points[i]; });
-    loops.loops.chosen.push_back({0, static_cast<std::uint32_t>(loops.measures.size())});
-    loops.measures.push_back(measure_loop(points, 1));
-    loops.measures.back().kind = loop.kind;
-  }
+  MeasuredLoops loops = test::measured(drawn, job);
   nest_loops(loops, job);
   return loops.measures;
 }

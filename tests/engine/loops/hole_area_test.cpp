@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much surface is missing: places of several holes count once.
+#include "engine/loops/hole_area.hpp"
+
+#include "tests/support/measured_loops.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <numeric>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+using test::DrawnLoop;
+using test::square;
+
+constexpr LoopKind kHole = LoopKind::kHole, kOuter = LoopKind::kOuter;
+
+double area_of(const std::vector<DrawnLoop>& drawn) {
+  const test::ScratchFolder scratch;
+  NoProgress progress;
+  const Config config;
+  Job job(config, scratch.path(), progress);
+  const MeasuredLoops loops = test::measured(drawn, job);
+  std::vector<std::size_t> all(drawn.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return hole_area(loops, all, job);
+}
+
+TEST_CASE("holes beside each other add up, and outer curves do not count") {
+  CHECK(area_of({square(1, kHole), square(2, kHole, {9, 0, 0}), square(20, kOuter)}) == Approx(20));
+  CHECK(area_of({}) == 0);
+}
+
+TEST_CASE("a place of several holes counts once") {
+  CHECK(area_of({square(2, kHole), square(1, kHole, {0.5, 0.5, 0})}) == Approx(16));
+  CHECK(area_of({square(2, kHole), square(2, kHole, {0.01, 0, 0.1})}) == Approx(16).epsilon(0.05));
+  CHECK(area_of({square(2, kHole), square(1, kHole, {2, 0, 0})}) == Approx(18).epsilon(0.05));
+}
+
+TEST_CASE("holes of surfaces above each other, or at right angles, do not overlap") {
+  CHECK(area_of({square(2, kHole), square(1, kHole, {0, 0, 2})}) == Approx(20));
+  DrawnLoop wall = square(1, kHole);
+  for (Eigen::Vector3d& point : wall.points) point = Eigen::Vector3d(point.x(), 0, point.y());
+  CHECK(area_of({square(2, kHole), wall}) == Approx(20));
+}
+
+}  // namespace
+}  // namespace lacuna

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Loops that are drawn by a test, with their measures.
+#pragma once
+
+#include "engine/loops/measure_loops.hpp"
+#include "engine/run/job.hpp"
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace lacuna::test {
+
+struct DrawnLoop {
+  std::vector<Eigen::Vector3d> points;
+  LoopKind kind = LoopKind::kHole;
+};
+
+// A square, with `on_side` points from a corner to the next.
+DrawnLoop square(double half, LoopKind kind, const Eigen::Vector3d& centre = {0, 0, 0}, int on_side = 5);
+
+MeasuredLoops measured(std::span<const DrawnLoop> drawn, Job& job);
+
+}  // namespace lacuna::test
