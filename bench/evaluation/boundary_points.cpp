@@ -45,15 +45,15 @@ std::optional<double> share(std::size_t part, std::size_t whole) {
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-PointScores scores(std::optional<double> precision, std::optional<double> recall) {
+}  // namespace
+
+PointScores point_scores(std::optional<double> precision, std::optional<double> recall) {
   PointScores scores{.precision = precision, .recall = recall, .f1 = std::nullopt};
   if (!precision && !recall) return scores;
   const double p = precision.value_or(0), r = recall.value_or(0);
   scores.f1 = p + r > 0 ? 2 * p * r / (p + r) : 0;
   return scores;
 }
-
-}  // namespace
 
 PointAccuracy score_points(std::span<const std::uint64_t> flagged, std::span<const TrueLoop> truth,
                            Positions positions, std::span<const std::uint64_t> stand_ins, double radius) {
@@ -67,8 +67,8 @@ PointAccuracy score_points(std::span<const std::uint64_t> flagged, std::span<con
   const std::size_t met = count_near(known, tree_of_points(told, positions), positions, radius);
   return {.flagged = told.size(),
           .truth = known.size(),
-          .by_id = scores(share(common, told.size()), share(common, known.size())),
-          .within_radius = scores(share(right, told.size()), share(met, known.size()))};
+          .by_id = point_scores(share(common, told.size()), share(common, known.size())),
+          .within_radius = point_scores(share(right, told.size()), share(met, known.size()))};
 }
 
 }  // namespace lacuna::evaluation

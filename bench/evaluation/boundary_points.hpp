@@ -19,6 +19,9 @@ struct PointScores {
   std::optional<double> f1;         // their harmonic mean; empty if nothing is flagged or true
 };
 
+// Returns both, and F1. A part that is empty counts as 0 in F1.
+PointScores point_scores(std::optional<double> precision, std::optional<double> recall);
+
 struct PointAccuracy {
   std::size_t flagged = 0, truth = 0;  // places
   PointScores by_id;                   // flagged and true at the same place

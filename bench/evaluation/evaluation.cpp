@@ -101,15 +101,6 @@ void check_ids(const fs::path& file, std::span<const std::uint64_t> ids, const T
   }
 }
 
-// Returns distinct finite points; for a mesh, the points in its faces.
-std::vector<Eigen::Vector3d> points_of(const Truth& truth, const std::vector<bool>& takes_part) {
-  std::vector<Eigen::Vector3d> points;
-  for (std::size_t id = 0; id < truth.positions.size(); ++id) {
-    if (takes_part[id] && truth.positions[id].allFinite()) points.push_back(truth.positions[id]);
-  }
-  return points;
-}
-
 void measure_holes(std::span<const Eigen::Vector3d> points, const PointTree& tree, Truth& truth) {
   for (const TrueLoop& loop : truth.loops)
     truth.hole_widths.push_back(hole_width(loop, truth.positions, points, tree));
@@ -121,7 +112,10 @@ void take_mesh(const std::vector<Triangle>& triangles, Truth& truth) {
     for (const std::uint64_t corner : triangle) takes_part[truth.stand_ins[corner]] = true;
   }
   truth.loops = mesh_boundary(triangles, truth.stand_ins, truth.positions);
-  const std::vector<Eigen::Vector3d> points = points_of(truth, takes_part);
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t id = 0; id < truth.positions.size(); ++id) {
+    if (takes_part[id] && truth.positions[id].allFinite()) points.push_back(truth.positions[id]);
+  }
   const PointTree tree(points);
   truth.spacing = median_spacing(points, tree);
   measure_holes(points, tree, truth);
@@ -133,10 +127,8 @@ void take_loops(std::vector<NamedLoopIds> named, Truth& truth) {
     check_ids(truth.file, loop.ids, truth);
     loops.push_back(loop.ids);
   }
-  std::vector<bool> takes_part(truth.positions.size());
-  for (const std::uint64_t id : truth.stand_ins) takes_part[id] = true;
   truth.loops = loops_through(loops, truth.stand_ins);
-  const std::vector<Eigen::Vector3d> points = points_of(truth, takes_part);
+  const std::vector<Eigen::Vector3d> points = distinct_points(truth.positions, truth.stand_ins);
   const PointTree tree(points);
   truth.spacing = median_spacing(points, tree);
   for (std::size_t i = 0; i < named.size(); ++i) {

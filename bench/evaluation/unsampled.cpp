@@ -3,13 +3,12 @@
 
 #include "bench/evaluation/outline.hpp"
 #include "bench/evaluation/spacing.hpp"
+#include "bench/evaluation/triangle_pieces.hpp"
 #include "tools/matching/edge_tree.hpp"
 #include "tools/matching/point_tree.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <tuple>
 #include <utility>
 
 namespace lacuna::evaluation {
@@ -18,34 +17,10 @@ using namespace matching;
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
-using Corners = std::array<Eigen::Vector3d, 3>;
 
 // Spacings. A ring of 9 points, one spacing apart, has nearly this radius.
 constexpr double kEmptyRadius = 1.5;
 constexpr double kLongestEdge = 0.5;
-
-// Calls `visit` with all places of the triangle that are within `radius` of the tree's points, and perhaps
-// with others.
-template <class Visit>
-void visit_places(const Corners& corners, double longest_edge, double radius, const PointTree& near,
-                  const Visit& visit) {
-  const Eigen::Vector3d centroid = (corners[0] + corners[1] + corners[2]) / 3;
-  double extent = 0, longest = -1;
-  std::size_t apex = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    extent = std::max(extent, (corners[i] - centroid).stableNorm());
-    const double opposite = (corners[(i + 1) % 3] - corners[(i + 2) % 3]).stableNorm();
-    if (opposite > longest) std::tie(longest, apex) = std::pair(opposite, i);
-  }
-  if (!(near.nearest_distance(centroid) <= radius + extent)) return;
-  const Eigen::Vector3d &a = corners[apex], &b = corners[(apex + 1) % 3], &c = corners[(apex + 2) % 3];
-  const Eigen::Vector3d middle = (b + c) / 2;
-  // Where coordinates are hardly finer than the spacing, the middle may be rounded to an end.
-  const double half = std::max((middle - b).stableNorm(), (middle - c).stableNorm());
-  if (longest <= longest_edge || half > 0.75 * longest) return visit(centroid);
-  visit_places({a, b, middle}, longest_edge, radius, near, visit);
-  visit_places({a, middle, c}, longest_edge, radius, near, visit);
-}
 
 // A ball around a place, up to the nearest point of the scan.
 struct EmptyBall {
@@ -63,22 +38,19 @@ std::vector<EmptyBall> empty_places(const Surface& surface, const PointTree& sca
     if (!std::all_of(corners.begin(), corners.end(), [](const auto& corner) { return corner.allFinite(); })) {
       continue;
     }
-    visit_places(corners, kLongestEdge * spacing, reach, near, [&](const Eigen::Vector3d& place) {
+    const auto is_far = [&](const Corners& part) {
+      const Eigen::Vector3d centroid = centroid_of(part);
+      double extent = 0;
+      for (const Eigen::Vector3d& corner : part) extent = std::max(extent, (corner - centroid).stableNorm());
+      return !(near.nearest_distance(centroid) <= reach + extent);
+    };
+    visit_pieces(corners, kLongestEdge * spacing, is_far, [&](const Corners& piece) {
+      const Eigen::Vector3d place = centroid_of(piece);
       const double radius = scan.nearest_distance(place);
       if (radius > kEmptyRadius * spacing) places.push_back({place, radius});
     });
   }
   return places;
-}
-
-Points distinct_points(const Sampling& sampling) {
-  Points points;
-  for (std::size_t id = 0; id < sampling.positions.size(); ++id) {
-    if (sampling.stand_ins[id] == id && sampling.positions[id].allFinite()) {
-      points.push_back(sampling.positions[id]);
-    }
-  }
-  return points;
 }
 
 }  // namespace
@@ -95,7 +67,7 @@ std::vector<std::vector<bool>> points_at_unsampled(std::span<const LoopIds> loop
   }
   if (loop_points.empty() || !(sampling.spacing > 0)) return result;
 
-  const Points points = distinct_points(sampling);
+  const Points points = distinct_points(sampling.positions, sampling.stand_ins);
   const PointTree scan(points);
   const auto empty_radius = [&](const Eigen::Vector3d& point) {
     return kEmptyRadius * std::max(sampling.spacing, spacing_at(point, scan));

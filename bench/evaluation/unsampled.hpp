@@ -29,7 +29,6 @@ struct Sampling {
 // at most 2 r from the loop's point. No point of the scan is within r of it. Here r is 1.5 times the spacing
 // at the loop's point (see spacing_at), and at least 1.5 spacings of the scan. "Inside" is decided along the
 // normal of the loop's area.
-// normal of the loop's area.
 //
 // The surface is represented by finitely many places. Every triangle is halved at the middle of its longest
 // edge until this edge is at most half a spacing. The places are the centroids. A triangle with a corner that

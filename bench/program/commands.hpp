@@ -11,5 +11,7 @@ namespace lacuna::bench {
 
 void add_synth_command(const tools::Command& program);     // makes scans with known holes
 void add_evaluate_command(const tools::Command& program);  // compares a result with the truth
+void add_make_command(const tools::Command& program);      // makes a folder of clouds and truth
+void add_score_command(const tools::Command& program);     // scores results for such a folder
 
 }  // namespace lacuna::bench

@@ -2,14 +2,12 @@
 #include "bench/evaluation/evaluation.hpp"
 #include "bench/evaluation/print.hpp"
 #include "bench/program/commands.hpp"
+#include "bench/program/rule_options.hpp"
 #include "tools/console/command_line.hpp"
 
-#include <cmath>
-#include <cstddef>
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace lacuna::bench {
@@ -22,28 +20,24 @@ using namespace evaluation;
 struct EvaluateArguments {
   fs::path result, truth, surface;
   std::vector<fs::path> scans;
-  double tolerance = EvaluationRule{}.tolerance;
-  std::size_t min_vertices = EvaluationRule{}.min_vertices;
+  EvaluationRule rule;
   bool verbose = false;
   bool json = false;
 };
 
 void run_evaluate(const EvaluateArguments& arguments) {
-  if (!(arguments.tolerance >= 0 && std::isfinite(arguments.tolerance))) {
-    throw WrongOption("--tolerance", "must be a number of spacings from 0 on");
-  }
+  check(arguments.rule);
   Result result = read_result(arguments.result);
   Truth truth = read_truth(arguments.truth, {arguments.scans.begin(), arguments.scans.end()}, result);
   if (!arguments.surface.empty()) truth.surface = read_surface(arguments.surface);
-  const EvaluationRule rule{.tolerance = arguments.tolerance, .min_vertices = arguments.min_vertices};
-  const Evaluation evaluation = evaluate(result, truth, rule);
+  const Evaluation evaluation = evaluate(result, truth, arguments.rule);
   const EvaluationText text{.result = result,
                             .truth = truth,
                             .evaluation = evaluation,
                             .result_path = arguments.result,
                             .truth_path = arguments.truth,
                             .surface_path = arguments.surface,
-                            .rule = rule};
+                            .rule = arguments.rule};
   if (arguments.json) {
     std::cout << print_json(text);
   } else {
@@ -79,16 +73,7 @@ void add_evaluate_command(const Command& program) {
       .add_option("--surface", a.surface,
                   "A PLY mesh of the true surface; loops around places of it without points are not false")
       .type("FILE");
-  command
-      .add_option("--tolerance", a.tolerance,
-                  "How far a loop may be off the true one, spacings of the scan, from 0 on")
-      .real_number()
-      .show_default();
-  command
-      .add_option("--min-vertices", a.min_vertices,
-                  "True loops with fewer vertices count neither as found nor as missed")
-      .whole_number()
-      .show_default();
+  add_rule_options(command, a.rule);
   command.add_flag("--verbose", a.verbose, "Print all scores, and the decision on every loop, too");
   command.add_flag("--json", a.json, "Print it as JSON");
   command.runs([arguments] { run_evaluate(*arguments); });

@@ -11,5 +11,7 @@ int main(int argc, char** argv) {
                           "lacuna-bench " LACUNA_VERSION);
   bench::add_synth_command(line.program());
   bench::add_evaluate_command(line.program());
+  bench::add_make_command(line.program());
+  bench::add_score_command(line.program());
   return tools::run_program("lacuna-bench", line, argc, argv);
 }

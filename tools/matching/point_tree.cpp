@@ -37,4 +37,13 @@ double PointTree::nearest_distance(const Eigen::Vector3d& place) const {
   return found ? std::sqrt(square) : std::numeric_limits<double>::infinity();
 }
 
+std::vector<Eigen::Vector3d> distinct_points(std::span<const Eigen::Vector3d> positions,
+                                             std::span<const std::uint64_t> stand_ins) {
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t id = 0; id < positions.size(); ++id) {
+    if (stand_ins[id] == id && positions[id].allFinite()) points.push_back(positions[id]);
+  }
+  return points;
+}
+
 }  // namespace lacuna::matching

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -31,5 +32,9 @@ class PointTree {
   struct Tree;
   std::unique_ptr<Tree> tree_;
 };
+
+// Returns the finite points, each place once.
+std::vector<Eigen::Vector3d> distinct_points(std::span<const Eigen::Vector3d> positions,
+                                             std::span<const std::uint64_t> stand_ins);
 
 }  // namespace lacuna::matching

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/evaluation/cloud_score.hpp"
+
+#include <span>
+
+namespace lacuna::evaluation {
+
+CloudScore score_cloud(const Result& result, const Truth& truth, const EvaluationRule& rule) {
+  const Evaluation evaluation = evaluate(result, truth, rule);
+  CloudScore score{.false_loops = evaluation.scores.false_loops,
+                   .joined_or_parted = evaluation.scores.joined + evaluation.scores.parted};
+  for (const Tally& width : evaluation.holes) {
+    score.holes.found += width.found;
+    score.holes.all += width.all;
+  }
+  score.outer_curves = {.found = evaluation.scores.found - score.holes.found,
+                        .all = evaluation.scores.true_loops - score.holes.all};
+
+  std::vector<LoopIds> loops;
+  std::vector<std::uint64_t> ids;
+  for (std::size_t i = 0; i < result.loops.size(); ++i) {
+    const EdgeDecision decision = evaluation.loops.loops[i].verdict;
+    if (decision == EdgeDecision::kStep || decision == EdgeDecision::kUnsampled) continue;
+    loops.push_back(result.loops[i]);
+    ids.insert(ids.end(), result.loops[i].begin(), result.loops[i].end());
+  }
+  const double tolerance = rule.tolerance * truth.spacing;
+  if (result.boundary) ids = *result.boundary;
+  const auto score_against = [&](std::span<const TrueLoop> loops) {
+    return score_points(ids, loops, truth.positions, truth.stand_ins, tolerance);
+  };
+  std::vector<TrueLoop> counting;
+  for (std::size_t i = 0; i < truth.loops.size(); ++i) {
+    if (evaluation.loops.true_loops[i].counts) counting.push_back(truth.loops[i]);
+  }
+  score.points = score_against(counting);
+  const PointScores all = score_against(truth.loops).within_radius;
+  score.points.within_radius = point_scores(all.precision, score.points.within_radius.recall);
+  score.areas = compare_areas(loops, truth, evaluation.loops.true_loops, tolerance);
+  for (double* area : {&score.areas.truth, &score.areas.covered, &score.areas.found, &score.areas.right})
+    *area /= truth.spacing * truth.spacing;
+  return score;
+}
+
+}  // namespace lacuna::evaluation

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scores of `lacuna-bench score`: of one cloud, and of many.
+#pragma once
+
+#include "bench/evaluation/evaluation.hpp"
+#include "bench/evaluation/hole_areas.hpp"
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace lacuna::evaluation {
+
+struct CloudScore {
+  Tally holes, outer_curves;  // that count
+  std::size_t false_loops = 0, joined_or_parted = 0;
+  HoleAreas areas;       // squares of the spacing
+  PointAccuracy points;  // the boundary points where the result has them, else the points of the loops
+};
+
+// Loops along steps of density and around unsampled places are neither right nor wrong: they have no area and
+// no points. Points of true loops that do not count are right if they are flagged, and not missed otherwise.
+// Throws `Error` as evaluate() does.
+CloudScore score_cloud(const Result& result, const Truth& truth, const EvaluationRule& rule);
+
+// Prints three tables, per hole, per area and per point. Each has a row for each kind of cloud, and one for
+// all. There is at least one kind.
+std::string print_scores(const std::map<std::string, std::vector<CloudScore>>& kinds);
+
+}  // namespace lacuna::evaluation

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much of the area of the holes is found.
+#pragma once
+
+#include "bench/evaluation/evaluation.hpp"
+
+#include <span>
+
+namespace lacuna::evaluation {
+
+// In squares of the unit of the scan.
+struct HoleAreas {
+  double truth = 0, covered = 0;  // of the true holes that count, and the part of it near found holes
+  double found = 0, right = 0;    // of the found holes, and the part of it near true holes, counting or not
+};
+
+// Completeness is covered / truth, and correctness right / found: ISPRS benchmark on indoor modelling,
+// https://www.isprs.org/resources/datasets/benchmarks/IndoorModeling/results.aspx. The surface of a hole is
+// the triangulation of its loop that has the least area. Outer curves have none, and neither has a loop with
+// a point that is not finite. Places at most `buffer` apart are near. Each surface is divided into pieces
+// with edges of at most half the buffer, and the centroid of a piece decides for the piece. Without a buffer,
+// all areas are 0. Cost: n log n for points and pieces.
+HoleAreas compare_areas(std::span<const LoopIds> loops, const Truth& truth,
+                        std::span<const TrueMatch> matches, double buffer);
+
+}  // namespace lacuna::evaluation

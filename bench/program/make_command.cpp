@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/program/commands.hpp"
+#include "bench/synth/scan.hpp"
+#include "bench/synth/surface.hpp"
+#include "engine/run/error.hpp"
+#include "tools/console/command_line.hpp"
+#include "tools/console/measures_text.hpp"
+#include "tools/console/visible_text.hpp"
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lacuna::bench {
+using namespace tools;
+namespace {
+
+namespace fs = std::filesystem;
+using namespace synth;
+
+// A cloud's kind is its name up to the first hyphen (score_command.cpp).
+template <class Options>
+struct Cloud {
+  std::string_view name;
+  Options options;  // all but files, points and seed
+};
+
+constexpr std::uint64_t kSurfacePoints = 40'000, kScanPoints = 150'000;
+
+std::vector<Cloud<SurfaceOptions>> surfaces() {
+  using enum SurfaceKind;
+  using enum PositionKind;
+  return {{"surface-plane", {.kind = kPlane}},
+          {"surface-waves", {.kind = kWaves, .density_factor = 4}},
+          {"surface-cylinder", {.kind = kCylinder, .density_step = 4}},
+          {"surface-torus", {.kind = kTorus}},
+          {"surface-cap", {.kind = kSphereCap}},
+          {"random-plane", {.kind = kPlane, .positions = kRandom}},
+          {"random-waves", {.kind = kWaves, .positions = kRandom}},
+          {"random-torus", {.kind = kTorus, .positions = kRandom, .noise = 0.25}},
+          {"noise-plane", {.kind = kPlane, .noise = 0.5}},
+          {"noise-waves", {.kind = kWaves, .noise = 0.5}},
+          {"noise-torus", {.kind = kTorus, .positions = kRandom, .noise = 0.5}},
+          {"closed-sphere", {.kind = kSphere, .holes = 0}},
+          {"closed-torus", {.kind = kTorus, .holes = 0, .positions = kRandom}},
+          {"closed-cube", {.kind = kCube, .holes = 0, .noise = 0.25}}};
+}
+
+std::vector<Cloud<ScanOptions>> scans() {
+  using enum SceneKind;
+  return {{"station-room", {.scene = kRoom, .stations = 1}},
+          {"station-court", {.scene = kCourt, .stations = 1}},
+          {"station-vault", {.scene = kVault, .stations = 1}},
+          {"lidar-room", {.scene = kRoom, .stations = 3, .registration = 0.005}},
+          {"lidar-court", {.scene = kCourt, .stations = 2}},
+          {"lidar-hall", {.scene = kHall, .stations = 2}},
+          {"lidar-plant", {.scene = kPlant, .stations = 3}},
+          {"rings-court", {.scene = kCourt, .stations = 3, .ring_ratio = 5}},
+          {"rings-street", {.scene = kStreet, .stations = 3, .ring_ratio = 5}},
+          {"aerial-even", {.scene = kAerial, .stations = 4, .noise = 0.03}},
+          {"aerial-steps", {.scene = kAerial, .stations = 3, .station_factor = 5, .noise = 0.05}},
+          {"noise-room", {.scene = kRoom, .stations = 2, .noise = 0.03}},
+          {"noise-street", {.scene = kStreet, .stations = 3, .noise = 0.05}}};
+}
+
+enum class CloudSet { kSurfaces, kScans, kAll };
+constexpr std::array<std::string_view, 3> kSets{"surfaces", "scans", "all"};
+
+struct MakeArguments {
+  CloudSet set = CloudSet::kAll;
+  fs::path folder;
+};
+
+struct Made {
+  std::uint64_t clouds = 0, points = 0, loops = 0;
+};
+
+template <class Options, class Write>
+void make(const std::vector<Cloud<Options>>& clouds, std::uint64_t points, const fs::path& folder,
+          const Write& write, Made& made) {
+  for (std::size_t i = 0; i < clouds.size(); ++i) {
+    Options options = clouds[i].options;
+    options.out = folder / (std::string(clouds[i].name) + ".ply");
+    options.points = points;
+    options.seed = 301 + i;
+    const auto summary = write(options);
+    ++made.clouds;
+    made.points += summary.points;
+    made.loops += summary.loops;
+  }
+}
+
+void run_make(const MakeArguments& arguments) {
+  std::error_code failure;
+  fs::create_directories(arguments.folder, failure);
+  if (failure) throw Error(arguments.folder.string() + ": cannot be made: " + failure.message());
+  Made made;
+  if (arguments.set != CloudSet::kScans)
+    make(surfaces(), kSurfacePoints, arguments.folder, write_surface, made);
+  if (arguments.set != CloudSet::kSurfaces) {
+    make(
+        scans(), kScanPoints, arguments.folder, [](const ScanOptions& o) { return write_scan(o); }, made);
+  }
+  std::cout << visible(arguments.folder.string()) << ": " << print_count(made.clouds) << " clouds of "
+            << print_count(made.points) << " points, and " << print_count(made.loops) << " true loops\n";
+}
+
+}  // namespace
+
+void add_make_command(const Command& program) {
+  const Command command =
+      program.add_command("make", "Make a folder of clouds whose holes are known, for `score`");
+  const auto arguments = std::make_shared<MakeArguments>();
+  command
+      .add_choice(
+          "SET", kSets, [arguments](std::size_t set) { arguments->set = static_cast<CloudSet>(set); },
+          "which clouds; all: both")
+      .required();
+  command.add_option("DIR", arguments->folder, "the folder for X.ply and X.loops.txt of each cloud X")
+      .required();
+  command.runs([arguments] { run_make(*arguments); });
+}
+
+}  // namespace lacuna::bench

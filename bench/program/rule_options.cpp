@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/program/rule_options.hpp"
+
+#include "tools/console/command_line.hpp"
+
+#include <cmath>
+
+namespace lacuna::bench {
+
+void add_rule_options(const tools::Command& command, evaluation::EvaluationRule& rule) {
+  command
+      .add_option("--tolerance", rule.tolerance,
+                  "How far a loop may be off the true one, spacings of the scan, from 0 on")
+      .real_number()
+      .show_default();
+  command
+      .add_option("--min-vertices", rule.min_vertices,
+                  "True loops with fewer vertices count neither as found nor as missed")
+      .whole_number()
+      .show_default();
+}
+
+void check(const evaluation::EvaluationRule& rule) {
+  if (!(rule.tolerance >= 0 && std::isfinite(rule.tolerance)))
+    throw tools::WrongOption("--tolerance", "must be a number of spacings from 0 on");
+}
+
+}  // namespace lacuna::bench

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/evaluation/cloud_score.hpp"
+#include "bench/program/commands.hpp"
+#include "bench/program/rule_options.hpp"
+#include "engine/run/error.hpp"
+#include "tools/console/command_line.hpp"
+#include "tools/console/measures_text.hpp"
+#include "tools/console/visible_text.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lacuna::bench {
+using namespace tools;
+namespace {
+
+namespace fs = std::filesystem;
+using namespace evaluation;
+
+struct ScoreArguments {
+  fs::path clouds, results;
+  EvaluationRule rule;
+  bool each = false;
+};
+
+// Returns the PLY files of the folder, by name.
+std::vector<fs::path> clouds_in(const fs::path& folder) {
+  std::error_code failure;
+  std::vector<fs::path> clouds;
+  for (fs::directory_iterator file(folder, failure), end; !failure && file != end; file.increment(failure)) {
+    if (file->path().extension() == ".ply") clouds.push_back(file->path());
+  }
+  if (failure) throw Error(folder.string() + ": cannot be read: " + failure.message());
+  if (clouds.empty()) throw Error(folder.string() + ": has no cloud, which is a file X.ply");
+  std::sort(clouds.begin(), clouds.end());
+  return clouds;
+}
+
+// Returns the loops for a cloud X: X.txt, X.ply or the folder X. Empty if there is none.
+fs::path result_for(const fs::path& cloud, const fs::path& results) {
+  for (const char* ending : {".txt", ".ply", ""}) {
+    const fs::path result = results / (cloud.stem().string() + ending);
+    if (fs::exists(result)) return result;
+  }
+  return {};
+}
+
+// The truth of X.ply is X.loops.txt, else the boundary of its own faces.
+fs::path truth_of(const fs::path& cloud) {
+  const fs::path loops = fs::path(cloud).replace_extension(".loops.txt");
+  return fs::exists(loops) ? loops : cloud;
+}
+
+void run_score(const ScoreArguments& arguments) {
+  check(arguments.rule);
+  std::map<std::string, std::vector<CloudScore>> kinds;
+  if (!arguments.each) kinds["noise"];  // a row even where the set has none
+  std::vector<fs::path> without_result;
+  const std::vector<fs::path> clouds = clouds_in(arguments.clouds);
+  for (const fs::path& cloud : clouds) {
+    const fs::path file = result_for(cloud, arguments.results);
+    if (file.empty()) without_result.push_back(cloud);
+    Result result = file.empty() ? Result{} : read_result(file);
+    const Truth truth = read_truth(truth_of(cloud), {}, result);
+    const std::string name = cloud.stem().string();
+    kinds[arguments.each ? name : name.substr(0, name.find_first_of("-_"))].push_back(
+        score_cloud(result, truth, arguments.rule));
+  }
+  if (without_result.size() == clouds.size()) {
+    throw Error(arguments.results.string() + ": has no loops for any cloud of " + arguments.clouds.string() +
+                "; those of " + clouds.front().filename().string() + " would be in " +
+                clouds.front().stem().string() + ".txt");
+  }
+  if (!without_result.empty()) {
+    std::cout << "no loops for " << print_count(without_result.size()) << " of " << print_count(clouds.size())
+              << " clouds, such as " << visible(without_result.front().string()) << "\n\n";
+  }
+  std::cout << print_scores(kinds);
+}
+
+}  // namespace
+
+void add_score_command(const Command& program) {
+  const Command command = program.add_command("score", "Score a program's loops for a folder of clouds");
+  const auto arguments = std::make_shared<ScoreArguments>();
+  ScoreArguments& a = *arguments;
+  command
+      .add_option("DIR", a.clouds,
+                  "Folder of clouds X.ply with true loops X.loops.txt, as `make` writes it; without "
+                  "X.loops.txt, X.ply is a mesh, whose boundary is the truth")
+      .required();
+  command
+      .add_option("RESULTS", a.results,
+                  "Folder of loops: for each cloud X the file X.txt (ids, one loop per line), X.ply (closed "
+                  "lines), or the folder X of lacuna detect")
+      .type("DIR")
+      .required();
+  add_rule_options(command, a.rule);
+  command.add_flag("--each", a.each, "Print a row for each cloud instead of each kind");
+  command.runs([arguments] { run_score(*arguments); });
+}
+
+}  // namespace lacuna::bench

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// `lacuna-bench make` and `lacuna-bench score` as the author of another program calls them.
+#include "tests/support/drawn_files.hpp"
+#include "tests/support/run_program.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include <catch2/catch.hpp>
+
+namespace lacuna {
+namespace {
+
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+using test::check_failure;
+using test::read_file;
+using test::run_bench;
+using test::ScratchFolder;
+using test::with;
+
+// A plane with three holes and a sphere without any, and a folder for the answers of a program.
+struct Clouds {
+  ScratchFolder folder;
+  std::string clouds = (folder / "clouds").string(), results = (folder / "results").string();
+
+  Clouds() {
+    fs::create_directories(clouds);
+    fs::create_directories(results);
+    synth("surface-plane", {"--points", "5000", "--holes", "3", "--hole-radius", "5", "7"});
+    synth("closed-sphere", {"--kind", "sphere", "--points", "3000", "--holes", "0"});
+  }
+  void synth(const std::string& name, const test::Words& options) const {
+    REQUIRE(run_bench(with({"synth", "surface", clouds + "/" + name + ".ply"}, options)).exit_code == 0);
+  }
+  std::string truth(const std::string& name) const { return read_file(clouds + "/" + name + ".loops.txt"); }
+  void answer(const std::string& name, const std::string& loops) const {
+    folder.write("results/" + name + ".txt", loops);
+  }
+  std::string score() const {
+    const test::ProgramResult result = run_bench({"score", clouds, results});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    return result.out;
+  }
+};
+
+// The cells of a row, divided by one blank.
+std::string row(const std::string& text, const std::string& table, const std::string& name) {
+  std::istringstream lines(text.substr(std::min(text.size(), text.find("  " + table))));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string cells, word;
+    while (words >> word) cells += (cells.empty() ? "" : " ") + word;
+    if (cells.starts_with(name + " ")) return cells;
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("the true loops score 1, and noise has a row without a cloud of noise") {
+  const Clouds made;
+  for (const char* name : {"surface-plane", "closed-sphere"}) made.answer(name, made.truth(name));
+  const std::string text = made.score();
+  CHECK(row(text, "per hole", "surface") == "surface 1 3 of 3 1 of 1 0 0");
+  CHECK(row(text, "per hole", "closed") == "closed 1 0 of 0 0 of 0 0 0");
+  CHECK(row(text, "per hole", "noise") == "noise 0 0 of 0 0 of 0 0 0");
+  CHECK(row(text, "per hole", "all") == "all 2 3 of 3 1 of 1 0 0");
+  CHECK(row(text, "per area", "surface") == "surface 1.000 1.000");
+  CHECK(row(text, "per area", "noise") == "noise - -");
+  CHECK(row(text, "per point", "all") == "all 1.000 1.000 1.000 1.000 1.000 1.000");
+}
+
+TEST_CASE("an empty answer finds nothing, and has nothing that is false") {
+  const Clouds made;
+  for (const char* name : {"surface-plane", "closed-sphere"}) made.answer(name, "");
+  const std::string text = made.score();
+  CHECK(row(text, "per hole", "all") == "all 2 0 of 3 0 of 1 0 0");
+  CHECK(row(text, "per area", "all") == "all 0.000 -");
+  CHECK(row(text, "per point", "all") == "all - 0.000 0.000 - 0.000 0.000");
+  CHECK_THAT(text, !Contains("no loops for"));
+}
+
+TEST_CASE("one of three holes is a third of the holes, and all of its area is right") {
+  const Clouds made;
+  const std::string truth = made.truth("surface-plane");
+  const std::size_t first = truth.find("# hole\n");
+  made.answer("surface-plane", truth.substr(first, truth.find('#', first + 1) - first));
+  const std::string text = made.score();
+  CHECK_THAT(text, Contains("no loops for 1 of 2 clouds, such as "));
+  CHECK(row(text, "per hole", "surface") == "surface 1 1 of 3 0 of 1 0 0");
+  const std::string areas = row(text, "per area", "surface");
+  CHECK_THAT(areas, Contains("surface 0.") && Contains(" 1.000"));
+  CHECK_THAT(row(text, "per point", "surface"), Contains("surface 1.000 0."));
+}
+
+TEST_CASE("a loop through random points is false, on a surface and on a closed mesh") {
+  const Clouds made;
+  made.answer("surface-plane", made.truth("surface-plane"));
+  made.answer("closed-sphere", "5 1200 2400 17 900 2100 333 1500\n");
+  made.folder.write(
+      "clouds/solid-tetrahedron.ply",
+      test::ply_header(test::vertices(4) + "element face 4\nproperty list uchar int vertex_indices\n") +
+          "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  made.answer("solid-tetrahedron", "0 1 2\n");
+  const std::string text = made.score();
+  CHECK(row(text, "per hole", "closed") == "closed 1 0 of 0 0 of 0 1 0");
+  CHECK(row(text, "per hole", "solid") == "solid 1 0 of 0 0 of 0 1 0");
+  CHECK(row(text, "per hole", "all") == "all 3 3 of 3 1 of 1 2 0");
+  CHECK(row(text, "per point", "closed") == "closed 0.000 - 0.000 0.000 - 0.000");
+}
+
+TEST_CASE("folders without clouds or without any loops are errors of one line") {
+  const Clouds made;
+  check_failure(run_bench({"score", made.clouds, made.results}), 1, "closed-sphere.txt");
+  check_failure(run_bench({"score", made.results, made.results}), 1, "has no cloud");
+  check_failure(run_bench({"score", made.clouds + "/none", made.results}), 1, "cannot be read");
+  check_failure(run_bench({"score", made.clouds, made.results, "--tolerance", "-1"}), 2, "--tolerance");
+  check_failure(run_bench({"make", "nothing", made.results}), 2, "surfaces, scans, all");
+}
+
+TEST_CASE("a set has noise and closed surfaces, and its own truth scores all of its holes") {
+  const ScratchFolder folder;
+  const std::string clouds = (folder / "clouds").string();
+  REQUIRE(run_bench({"make", "surfaces", clouds}).exit_code == 0);
+  fs::create_directory(folder / "results");
+  for (const fs::directory_entry& file : fs::directory_iterator(clouds)) {
+    const std::string name = file.path().filename().string();
+    if (const std::size_t end = name.find(".loops.txt"); end != std::string::npos)
+      fs::copy(file.path(), folder / "results" / (name.substr(0, end) + ".txt"));
+  }
+  const std::string text = run_bench({"score", clouds, (folder / "results").string()}).out;
+  CHECK(row(text, "per hole", "noise") == "noise 3 24 of 24 2 of 2 0 0");
+  CHECK(row(text, "per hole", "closed") == "closed 3 0 of 0 0 of 0 0 0");
+}
+
+}  // namespace lacuna
