@@ -10,7 +10,8 @@ usage() {
 usage: tools/bench.sh [OPTIONS] [-- DETECT_OPTIONS]
 
 Builds a release, makes the scans, runs the programs in turns, each twice of which once to warm up, and writes
-bench/results/DATE.csv with a table of medians (DATE.txt), the README's table (DATE.md) and a plot (DATE.svg).
+bench/results/DATE.csv with a table of medians (DATE.txt), the README's table (DATE.md) and a plot (DATE.svg). Another
+plot has the memory of one more run over time (DATE-memory.svg), with the last scan and the last limit, or 256 MiB.
 
   --points LIST         synthetic scans, millions of points           default "1 4"; all: "1 4 16 64"
   --positions LIST      near a grid or anywhere: jittered, random     default "random jittered"
@@ -212,7 +213,8 @@ if [[ -e $csv ]]; then
   # Paths as arguments: they may hold what gnuplot takes for its own.
   python3 bench/summarise.py plot "$csv" >"$work/plot.dat"
   [[ ! -s $work/plot.dat ]] || gnuplot -c bench/plot.gp "$work/plot.dat" "$stem.svg"
+  bench/memory.sh "$lacuna" "$scan" "${memory_limit[-1]/default/256MiB}" "$stem-memory.svg" "${detect_options[@]}"
 fi
 echo
-ls -1 "$stem".*
+ls -1 "$stem"[.-]*
 ((${#failures[@]} == 0))
