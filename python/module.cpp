@@ -44,6 +44,13 @@ std::unique_ptr<Found> find_in_files(const std::vector<fs::path>& files, const p
   return find(tools::expand_inputs(files, config), config, py::none(), progress);
 }
 
+std::vector<std::string> check_files(const std::vector<fs::path>& files, const py::dict& parameters,
+                                     const fs::path& folder, const py::object& progress) {
+  io::FilesConfig config;
+  set_parameters(parameters, config);
+  return check(tools::expand_inputs(files, config), config, folder, progress);
+}
+
 // Names, defaults and what is allowed, of all parameters.
 py::list list_parameters() {
   io::FilesConfig config;
@@ -116,6 +123,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("parameters", &list_parameters);
   module.def("find_in_arrays", &find_in_arrays);
   module.def("find_in_files", &find_in_files);
+  module.def("check_files", &check_files);
   module.def("write_report", &write_report);
   module.def("evaluate", &evaluate);
   module.def("compare", &compare);

@@ -5,7 +5,9 @@
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
 #include "io/area/check_area.hpp"
+#include "io/results/voids.hpp"
 #include "io/stations/find_causes.hpp"
+#include "tools/console/area_text.hpp"
 #include "tools/console/progress.hpp"
 #include "tools/run/scan_warnings.hpp"
 
@@ -179,6 +181,26 @@ std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig c
       },
       watched, progress);
   return found;
+}
+
+std::vector<std::string> check(std::vector<io::ScanInput> inputs, const io::FilesConfig& config,
+                               const std::filesystem::path& folder, const py::object& progress) {
+  std::vector<std::string> warnings;
+  WatchedProgress watched;
+  run_watched(
+      [&] {
+        check_config(config);
+        io::FileScan scan(std::move(inputs), config.input, Memory::share(config.run.memory_limit).reading);
+        warnings = tools::input_warnings(scan);
+        const auto area = io::read_area(scan, config);
+        if (!area) throw Error("area: is empty; allowed: a file of polygons");
+        const io::AreaCheck checked = io::check_area(*area, scan, config, watched);
+        std::ranges::copy(tools::area_warnings(checked), std::back_inserter(warnings));
+        io::ResultFolder results(folder);
+        io::write_voids(checked, scan, config.area, results);
+      },
+      watched, progress);
+  return warnings;
 }
 
 }  // namespace lacuna::python

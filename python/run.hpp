@@ -7,6 +7,7 @@
 #include "io/scan/file_scan.hpp"
 #include "io/stations/cause.hpp"
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,5 +34,10 @@ struct Found {
 // that returns False, or an exception of either, ends the run. Throws `Error`, or that exception.
 std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig config,
                             pybind11::object arrays, const pybind11::object& progress);
+
+// Checks whether the scan covers `config.area`, in the same way, and writes the voids to the folder. Returns
+// warnings.
+std::vector<std::string> check(std::vector<io::ScanInput> inputs, const io::FilesConfig& config,
+                               const std::filesystem::path& folder, const pybind11::object& progress);
 
 }  // namespace lacuna::python

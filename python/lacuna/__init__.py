@@ -15,7 +15,7 @@ docs/python.md has all of it with examples.
 from ._core import Error, version as __version__
 from .files import compare, evaluate, load, stream
 from .holes import CAUSES, Holes, Loop, Loops, LacunaWarning
-from .run import detect, find_holes, parameters
+from .run import check, detect, find_holes, parameters
 
 __all__ = [
     "CAUSES",
@@ -24,6 +24,7 @@ __all__ = [
     "LacunaWarning",
     "Loop",
     "Loops",
+    "check",
     "compare",
     "detect",
     "evaluate",

@@ -29,6 +29,9 @@ def find_in_arrays(
 def find_in_files(
     files: list[str], parameters: dict[str, str], progress: Optional[Callable[..., Any]]
 ) -> Found: ...
+def check_files(
+    files: list[str], parameters: dict[str, str], folder: str, progress: Optional[Callable[..., Any]]
+) -> list[str]: ...
 def write_report(folder: str) -> Any: ...
 def evaluate(
     result: str, truth: str, scans: list[str], surface: str, tolerance: float, min_vertices: int

@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import difflib
+import json
 import os
+import tempfile
 import warnings
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Optional, Union
@@ -72,9 +74,33 @@ def detect(
         OBJ, STL and text are read.
     Other arguments are those of `find_holes`.
     """
-    names = [files] if isinstance(files, (str, os.PathLike)) else list(files)
-    found = _core.find_in_files([os.fspath(name) for name in names], _checked({**params, "points": points}), progress)
+    found = _core.find_in_files(_names(files), _checked({**params, "points": points}), progress)
     return _holes_of(found)
+
+
+def check(
+    files: Union[Path, Iterable[Path]],
+    area: Path,
+    *,
+    out: Optional[Path] = None,
+    progress: Optional[Progress] = None,
+    **params: Any,
+) -> dict[str, Any]:
+    """Checks whether scan files cover the polygons of `area`, as `lacuna check` does. Returns what voids.json has.
+
+    out: folder for voids.json, voids.csv and voids.gpkg; by default they are not kept.
+    Other arguments are those of `detect`.
+    """
+    with tempfile.TemporaryDirectory(prefix="lacuna-") as kept:
+        folder = os.path.join(kept, "voids") if out is None else os.fspath(out)
+        for warning in _core.check_files(_names(files), _checked({**params, "area": area}), folder, progress):
+            warnings.warn(warning, LacunaWarning, stacklevel=2)
+        with open(os.path.join(folder, "voids.json"), encoding="utf-8") as file:
+            return json.load(file)
+
+
+def _names(files: Union[Path, Iterable[Path]]) -> list[str]:
+    return [os.fspath(name) for name in ([files] if isinstance(files, (str, os.PathLike)) else files)]
 
 
 def _holes_of(found: _core.Found, xyz: Optional[np.ndarray] = None) -> Holes:

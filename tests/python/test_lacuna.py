@@ -283,6 +283,21 @@ class Files(Folder):
         same = lacuna.compare(self.folder / "out", lacuna.load(self.folder / "out"))["changes"]
         self.assertEqual([c["change"] for c in same], ["same"] * len(holes.loops))
 
+    def test_an_area_is_checked_as_the_program_checks_it(self):
+        np.savetxt(self.folder / "s.xyz", SHEET, fmt="%.17g")
+        area = self.folder / "area.geojson"
+        square = [[[5, 5], [55, 5], [55, 55], [5, 55], [5, 5]]]
+        area.write_text(json.dumps({"type": "Polygon", "coordinates": square}))
+        program = [PROGRAM, "check", self.folder / "s.xyz", "--area", area, "--out", self.folder / "out", "--void-size", "9"]
+        subprocess.run(program, check=False, capture_output=True)
+        checked = lacuna.check(self.folder / "s.xyz", area, out=self.folder / "ours", void_size=9)
+        self.assertEqual(len(checked["voids"]), 2)
+        for name in ("voids.json", "voids.csv"):
+            self.assertEqual((self.folder / "ours" / name).read_bytes(), (self.folder / "out" / name).read_bytes())
+        self.assertEqual(lacuna.check(self.folder / "s.xyz", area, void_size=9), checked)
+        with self.assertRaisesRegex(lacuna.Error, "area"):
+            lacuna.check(self.folder / "s.xyz", "")
+
     def test_a_stream_has_all_points_in_order(self):
         for i, part in enumerate(np.array_split(BIG, 3)):
             np.savetxt(self.folder / f"part{i}.xyz", part, fmt="%.17g")
