@@ -119,7 +119,7 @@ void add_make_command(const Command& program) {
   command
       .add_choice(
           "SET", kSets, [arguments](std::size_t set) { arguments->set = static_cast<CloudSet>(set); },
-          "which clouds; all: both")
+          "surfaces, scans or all: which clouds")
       .required();
   command.add_option("DIR", arguments->folder, "the folder for X.ply and X.loops.txt of each cloud X")
       .required();
