@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,26 @@ enum class VoidKind : std::uint8_t {
 inline constexpr std::array<std::string_view, 3> kVoidKinds = {"hole", "open", "outside"};
 constexpr std::string_view name_of(VoidKind kind) {
   return kVoidKinds[static_cast<std::size_t>(kind)];
+}
+
+enum class AreaAnswer : std::uint8_t { kCovered, kVoids, kNotDecided };
+inline constexpr std::array<std::string_view, 3> kAreaAnswers = {"covered", "voids", "not decided"};
+constexpr std::string_view name_of(AreaAnswer answer) {
+  return kAreaAnswers[static_cast<std::size_t>(answer)];
+}
+
+// Why the points of a scan do not decide whether it covers an area.
+enum class Undecided : std::uint8_t {
+  kNoPoint,         // none is in the bounds of the area
+  kNoFirstReturn,   // none was measured, though later returns or synthetic points are there
+  kSyntheticAlone,  // the scan has no other points
+  kOtherSystems,    // files of the scan have different ones, and the config states none
+  kFewPoints,       // a square grid of their spacing leaves circles of the void size empty, too
+};
+inline constexpr std::array<std::string_view, 5> kUndecided = {
+    "no point", "no first return", "synthetic points alone", "different systems", "few points"};
+constexpr std::string_view name_of(Undecided reason) {
+  return kUndecided[static_cast<std::size_t>(reason)];
 }
 
 // Lengths are in units of the scan, places in its coordinates.
@@ -52,15 +73,26 @@ struct AreaTile {
   double spacing() const { return 1 / std::sqrt(density()); }
 };
 
+struct AreaPolygon {
+  PlanPolygon outline;
+  double area = 0;          // 0: less than a cell
+  double missing_area = 0;  // as in AreaCheck
+  double circle = 0;        // the largest of the voids that count and have their middles here; 0: none
+
+  double covered() const { return 1 - missing_area / area; }  // share of its area
+};
+
 struct AreaCheck {
-  std::vector<PlanPolygon> polygons;  // of the project
+  std::vector<AreaPolygon> polygons;  // of the project
   double void_size = 0;               // diameter of the least void
   double area = 0;                    // of the project
   double voids_area = 0;              // of all voids
   double missing_area = 0;            // of the voids that count, without what lies in exceptions
+  double spacing = 0;                 // of the points, where there are any; NaN without a point
+  std::vector<Undecided> undecided;   // empty if the points decide
   // These are as in PlanOfPoints.
   std::uint64_t points = 0, later_returns = 0, synthetic = 0, repeated = 0;
-  bool counts_once = true, all_synthetic = false;
+  bool counts_once = true;
   std::vector<Void> voids;      // those that count first; then by area, the largest first
   double tile_edge = 0;         // 0: no table
   std::vector<AreaTile> tiles;  // with a part of the area; from south to north, then from west to east
@@ -70,7 +102,18 @@ struct AreaCheck {
     while (count < voids.size() && voids[count].counts) ++count;
     return count;
   }
-  bool is_covered() const { return counting() == 0; }
+  // Points at a larger spacing leave circles of the void size empty even in a square grid.
+  static double most_spacing(double void_size) { return void_size / std::numbers::sqrt2; }
+  AreaAnswer answer() const {
+    return !undecided.empty() ? AreaAnswer::kNotDecided
+           : counting() > 0   ? AreaAnswer::kVoids
+                              : AreaAnswer::kCovered;
+  }
+  AreaAnswer answer_of(const AreaPolygon& polygon) const {
+    return !undecided.empty() || !(polygon.area > 0) ? AreaAnswer::kNotDecided
+           : polygon.missing_area > 0                ? AreaAnswer::kVoids
+                                                     : AreaAnswer::kCovered;
+  }
 };
 
 }  // namespace lacuna::io

@@ -216,6 +216,59 @@ std::vector<TracedVoid> trace(const Plan& plan, const PlanGrid& grid) {
   return std::move(task.voids);
 }
 
+bool has_other_systems(const FileScan& scan) {
+  return scan.common_crs().empty() &&
+         std::ranges::any_of(scan.files(), [](const ScanFile& file) { return !file.crs.empty(); });
+}
+
+std::vector<Undecided> undecided_reasons(const PlanOfPoints& points, const AreaCheck& check,
+                                         const FileScan& scan) {
+  std::vector<Undecided> reasons;
+  const bool has_others = points.later_returns + points.synthetic > 0;
+  if (points.hull.empty()) reasons.push_back(has_others ? Undecided::kNoFirstReturn : Undecided::kNoPoint);
+  if (points.all_synthetic && points.points > 0) reasons.push_back(Undecided::kSyntheticAlone);
+  if (has_other_systems(scan)) reasons.push_back(Undecided::kOtherSystems);
+  if (check.counting() > 0 && check.spacing > AreaCheck::most_spacing(check.void_size))
+    reasons.push_back(Undecided::kFewPoints);
+  return reasons;
+}
+
+// ---- the polygons
+
+// The largest circle of a void, by the cell of its middle.
+struct MiddleCell {
+  std::size_t row, column;
+  double circle;
+};
+
+std::vector<MiddleCell> middles_of(const AreaCheck& check, const PlanGrid& grid) {
+  std::vector<MiddleCell> middles;
+  for (const Void& each : std::span(check.voids).first(check.counting())) {
+    const Eigen::Vector2d at = grid.to_cells(each.middle);
+    middles.push_back({static_cast<std::size_t>(at.y()), static_cast<std::size_t>(at.x()), each.circle});
+  }
+  std::ranges::sort(middles, {}, [](const MiddleCell& at) { return std::pair(at.row, at.column); });
+  return middles;
+}
+
+AreaPolygon measure(const PlanPolygon& outline, const PlanGrid& grid, const PlanRaster& missing,
+                    std::span<const MiddleCell> middles) {
+  AreaPolygon polygon{.outline = outline};
+  std::uint64_t cells = 0, missing_cells = 0;
+  for_each_run(to_cells(outline, grid), grid, [&](std::size_t row, std::size_t from, std::size_t to) {
+    cells += to - from;
+    missing_cells += count_bits(missing.row(row), from, to);
+    auto at = std::ranges::lower_bound(middles, std::pair(row, from), {}, [](const MiddleCell& middle) {
+      return std::pair(middle.row, middle.column);
+    });
+    for (; at != middles.end() && at->row == row && at->column < to; ++at)
+      polygon.circle = std::max(polygon.circle, at->circle);
+  });
+  polygon.area = grid.area(cells);
+  polygon.missing_area = grid.area(missing_cells);
+  return polygon;
+}
+
 }  // namespace
 
 std::optional<Area> read_area(const FileScan& scan, const FilesConfig& config) {
@@ -238,38 +291,37 @@ AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config
   tiles.add_area(inside);
   const PlanOfPoints points = find_empty_places(
       grid, inside, Memory::share(config.run.memory_limit).limit / 8, scan, tiles, progress);
-  if (points.hull.empty() && points.later_returns + points.synthetic > 0) {
-    std::string others;
-    if (points.later_returns > 0)
-      others += ", but " + std::to_string(points.later_returns) + " later returns";
-    if (points.synthetic > 0) others += ", but " + std::to_string(points.synthetic) + " synthetic points";
-    throw Error(config.area.area + ": no first returns that were measured are in it" + others +
-                ", which cover nothing; the files with the first returns are needed, too");
-  }
-  if (points.hull.empty())
-    throw Error(config.area.area + ": no point of the scan is in its bounds; are both in the same system?");
 
   // The voids: the circles around what is empty.
   const Plan plan(grid, inside, excepted, points);
   plan.refuse_long_outlines(config);
-  AreaCheck check{.polygons = area.polygons,
-                  .void_size = config.area.void_size,
+  AreaCheck check{.void_size = config.area.void_size,
                   .area = grid.area(inside.count()),
+                  .spacing = points.density.spacing(inside) * grid.edge(),
                   .points = points.points,
                   .later_returns = points.later_returns,
                   .synthetic = points.synthetic,
                   .repeated = points.repeated,
-                  .counts_once = points.counts_once,
-                  .all_synthetic = points.all_synthetic};
-  for (TracedVoid& traced : trace(plan, grid)) {
-    const Void& found = check.voids.emplace_back(plan.measure(std::move(traced), tiles));
-    check.voids_area += found.area;
-    if (found.counts) check.missing_area += found.area * (1 - found.excepted);
+                  .counts_once = points.counts_once};
+  std::vector<TracedVoid> found = trace(plan, grid);
+  PlanRaster missing(grid);
+  for (TracedVoid& traced : found) {
+    const Void& each = check.voids.emplace_back(plan.measure(std::move(traced), tiles));
+    check.voids_area += each.area;
+    if (!each.counts) continue;
+    for_each_run(to_cells(each.outline, grid), grid,
+                 [&](std::size_t row, std::size_t from, std::size_t to) { missing.set(row, from, to); });
   }
+  if (excepted) missing.subtract(*excepted);
+  check.missing_area = grid.area(missing.count());
   std::sort(check.voids.begin(), check.voids.end(), [](const Void& a, const Void& b) {
     const auto key = [](const Void& v) { return std::tuple(!v.counts, -v.area, v.middle.x(), v.middle.y()); };
     return key(a) < key(b);
   });
+  check.undecided = undecided_reasons(points, check, scan);
+  const std::vector<MiddleCell> middles = middles_of(check, grid);
+  for (const PlanPolygon& outline : area.polygons)
+    check.polygons.push_back(measure(outline, grid, missing, middles));
   progress.end();
   check.tile_edge = config.area.area_tile;
   check.tiles = tiles.with_area();

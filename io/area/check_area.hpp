@@ -32,6 +32,9 @@ LACUNA_API std::optional<Area> read_area(const FileScan& scan, const FilesConfig
 // the void size apart. Cells that share edges are one void. The convex hull of the points in the bounds of
 // the area cuts voids.
 //
+// The result names why the points do not decide, if they do not: see `Undecided`. Voids are listed all the
+// same.
+//
 // A void counts unless all of its empty cells lie in exceptions. Where a file of the scan has return
 // numbers, only first returns are points. Points of the flag synthetic cover nothing, unless the scan has no
 // others. Points of the same x, y, z and time count once. (Data voids in the Lidar Base Specification of the

@@ -94,13 +94,17 @@ void for_each_run(const PlanPolygon& polygon, const PlanGrid& grid,
   }
 }
 
+PlanPolygon to_cells(PlanPolygon polygon, const PlanGrid& grid) {
+  for (Ring2& ring : polygon) {
+    for (Eigen::Vector2d& corner : ring) corner = grid.to_cells(corner);
+  }
+  return polygon;
+}
+
 PlanRaster rasterise(std::span<const PlanPolygon> polygons, const PlanGrid& grid) {
   PlanRaster raster(grid);
-  for (PlanPolygon polygon : polygons) {
-    for (Ring2& ring : polygon) {
-      for (Eigen::Vector2d& corner : ring) corner = grid.to_cells(corner);
-    }
-    for_each_run(polygon, grid,
+  for (const PlanPolygon& polygon : polygons) {
+    for_each_run(to_cells(polygon, grid), grid,
                  [&](std::size_t row, std::size_t from, std::size_t to) { raster.set(row, from, to); });
   }
   return raster;

@@ -84,6 +84,9 @@ std::uint64_t count_bits(std::span<const std::uint64_t> row, std::size_t from, s
 void for_each_run(const PlanPolygon& polygon, const PlanGrid& grid,
                   const std::function<void(std::size_t row, std::size_t from, std::size_t to)>& visit);
 
+// Returns a polygon in cells, from one in coordinates of the scan.
+PlanPolygon to_cells(PlanPolygon polygon, const PlanGrid& grid);
+
 // Sets the cells whose middles lie in one of the polygons, which have coordinates of the scan.
 PlanRaster rasterise(std::span<const PlanPolygon> polygons, const PlanGrid& grid);
 

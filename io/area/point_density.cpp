@@ -13,7 +13,31 @@ void sort_unique(std::vector<std::size_t>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
+double spacing_of(std::uint64_t points, std::uint64_t cells) {
+  return points > 0 ? std::sqrt(static_cast<double>(cells) / static_cast<double>(points))
+                    : std::numeric_limits<double>::quiet_NaN();
+}
+
 }  // namespace
+
+std::uint64_t PointDensity::area_of(std::size_t square, const PlanRaster& inside) const {
+  const std::size_t from = square % columns_ * kEdge, to = std::min(from + kEdge, inside.columns());
+  const std::size_t first = square / columns_ * kEdge;
+  std::uint64_t cells = 0;
+  for (std::size_t row = first; row < std::min(first + kEdge, inside.rows()); ++row)
+    cells += count_bits(inside.row(row), from, to);
+  return cells;
+}
+
+double PointDensity::spacing(const PlanRaster& inside) const {
+  std::uint64_t points = 0, cells = 0;
+  for (std::size_t square = 0; square < points_.size(); ++square) {
+    if (points_[square] == 0) continue;
+    points += points_[square];
+    cells += area_of(square, inside);
+  }
+  return spacing_of(points, cells);
+}
 
 double PointDensity::spacing_around(const PlanPolygon& outline, const PlanRaster& inside) const {
   constexpr std::size_t kReach = 2;
@@ -43,13 +67,9 @@ double PointDensity::spacing_around(const PlanPolygon& outline, const PlanRaster
   for (const std::size_t square : around) {
     if (std::binary_search(passed.begin(), passed.end(), square)) continue;
     points += points_[square];
-    const std::size_t from = square % columns_ * kEdge, to = std::min(from + kEdge, inside.columns());
-    const std::size_t first = square / columns_ * kEdge;
-    for (std::size_t row = first; row < std::min(first + kEdge, inside.rows()); ++row)
-      cells += count_bits(inside.row(row), from, to);
+    cells += area_of(square, inside);
   }
-  return points > 0 ? std::sqrt(static_cast<double>(cells) / static_cast<double>(points))
-                    : std::numeric_limits<double>::quiet_NaN();
+  return spacing_of(points, cells);
 }
 
 }  // namespace lacuna::io

@@ -20,12 +20,18 @@ class PointDensity {
 
   void add(std::size_t column, std::size_t row) { ++points_[row / kEdge * columns_ + column / kEdge]; }
 
+  // Returns the spacing of the points in the squares that have any; NaN without points. It is in cells;
+  // `inside` is the area.
+  double spacing(const PlanRaster& inside) const;
+
   // Returns the spacing of the points around an outline. Squares with points count that are at most two
   // squares away from it, and that it does not pass. NaN without such squares. It is in cells, as is the
   // outline; `inside` is the area.
   double spacing_around(const PlanPolygon& outline, const PlanRaster& inside) const;
 
  private:
+  std::uint64_t area_of(std::size_t square, const PlanRaster& inside) const;  // in cells
+
   std::size_t columns_;
   std::vector<std::uint32_t> points_;
 };

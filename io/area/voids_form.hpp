@@ -7,6 +7,6 @@
 namespace lacuna::io {
 
 inline constexpr const char* kVoidsFile = "voids.json";
-inline constexpr std::string_view kVoidsSchema = "voids 1";
+inline constexpr std::string_view kVoidsSchema = "voids 2";
 
 }  // namespace lacuna::io

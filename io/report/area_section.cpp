@@ -33,8 +33,8 @@ Json coarse_rings(const Json& rings, double step) {
 
 double extent_of(const Json& polygons) {
   double low[] = {HUGE_VAL, HUGE_VAL}, high[] = {-HUGE_VAL, -HUGE_VAL};
-  for (const Json& rings : polygons) {
-    for (const Json& ring : rings) {
+  for (const Json& polygon : polygons) {
+    for (const Json& ring : polygon.at("outline")) {
       for (const Json& corner : ring) {
         for (const std::size_t axis : {0, 1}) {
           low[axis] = std::min(low[axis], corner.at(axis).get<double>());
@@ -64,8 +64,9 @@ Json read_area_section(const std::filesystem::path& folder) {
     area["all"] = area.at("voids").size();
     keep_first(area.at("voids"), kMostVoids);
     keep_first(area.at("tiles"), kMostTiles);
-    for (Json& polygon : area.at("polygons")) polygon = coarse_rings(polygon, step);
-    for (Json& each : area.at("voids")) each.at("outline") = coarse_rings(each.at("outline"), step);
+    for (const char* const list : {"polygons", "voids"}) {
+      for (Json& each : area.at(list)) each.at("outline") = coarse_rings(each.at("outline"), step);
+    }
     return area;
   } catch (const Json::exception& error) {
     throw Error(file.string() + ": is not as lacuna writes it: " + error.what());

@@ -33,6 +33,14 @@ Json void_json(std::size_t id, const Void& each) {
           {"outline", rings_json(each.outline)}};
 }
 
+Json polygon_json(const AreaPolygon& polygon, const AreaCheck& check) {
+  return {{"answer", name_of(check.answer_of(polygon))},
+          {"area", polygon.area},
+          {"covered", polygon.covered()},
+          {"circle", polygon.circle},
+          {"outline", rings_json(polygon.outline)}};
+}
+
 Json tile_json(const AreaTile& tile) {
   return {{"corner", {tile.corner.x(), tile.corner.y()}},
           {"area", tile.area},
@@ -58,7 +66,9 @@ void write_json(const AreaCheck& check, const FileScan& scan, const AreaConfig& 
   head["file"] = config.area;
   head["except"] = config.except.empty() ? Json() : Json(config.except);
   head["void_size"] = check.void_size;
-  head["is_covered"] = check.is_covered();
+  head["answer"] = name_of(check.answer());
+  head["undecided"] = Json::array();
+  for (const Undecided reason : check.undecided) head["undecided"].push_back(name_of(reason));
   head["counting"] = check.counting();
   head["area"] = check.area;
   head["voids_area"] = check.voids_area;
@@ -70,7 +80,7 @@ void write_json(const AreaCheck& check, const FileScan& scan, const AreaConfig& 
   while (text.back() == '\n') text.pop_back();
   out.write(text);
   write_list(
-      "polygons", check.polygons, [&](std::size_t i) { return rings_json(check.polygons[i]); }, out);
+      "polygons", check.polygons, [&](std::size_t i) { return polygon_json(check.polygons[i], check); }, out);
   write_list(
       "voids", check.voids, [&](std::size_t i) { return void_json(i, check.voids[i]); }, out);
   write_list(

@@ -38,6 +38,8 @@ class VoidsWriter {
                                            {"y", OFTReal},
                                            {"spacing", OFTReal},
                                            {"excepted", OFTReal}}));
+    write_polygons(create_layer(
+        kAreaLayer, {{"answer", OFTString}, {"area", OFTReal}, {"covered", OFTReal}, {"circle", OFTReal}}));
     if (!check_.tiles.empty())
       write_tiles(create_layer(kTilesLayer, {{"area", OFTReal},
                                              {"covered", OFTReal},
@@ -101,6 +103,19 @@ class VoidsWriter {
            {each.area, each.circle, each.middle.x(), each.middle.y(), each.spacing, each.excepted})
         set(feature, field++, value);
       put(layer, feature, each.outline);
+    }
+    require(layer.CommitTransaction() == OGRERR_NONE);
+  }
+
+  void write_polygons(OGRLayer& layer) const {
+    require(layer.StartTransaction() == OGRERR_NONE);
+    for (const AreaPolygon& polygon : check_.polygons) {
+      OGRFeature feature(layer.GetLayerDefn());
+      feature.SetField(0, std::string(name_of(check_.answer_of(polygon))).c_str());
+      set(feature, 1, polygon.area);
+      set(feature, 2, polygon.covered());
+      set(feature, 3, polygon.circle);
+      put(layer, feature, polygon.outline);
     }
     require(layer.CommitTransaction() == OGRERR_NONE);
   }

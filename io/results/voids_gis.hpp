@@ -9,6 +9,7 @@
 namespace lacuna::io {
 
 inline constexpr const char* kVoidsLayer = "lacuna_voids";
+inline constexpr const char* kAreaLayer = "lacuna_area";
 inline constexpr const char* kTilesLayer = "lacuna_area_tiles";
 
 // Writes the voids as polygons, with the columns of voids.csv, and the squares of the table. Returns false if

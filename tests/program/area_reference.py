@@ -139,7 +139,7 @@ def voids_of(size, points, area, exceptions):
     values = {cell: "outside" for cell in grown(empty - in_hull)}
     values.update({cell: "inside" for cell in grown(empty & in_hull)})
     is_excepted = lambda cell: any(is_inside(rings, *middle(cell)) for rings in exceptions)
-    voids, seen = [], set()
+    voids, seen, missing = [], set(), set()
     for first in sorted(values):
         if first in seen:
             continue
@@ -159,9 +159,14 @@ def voids_of(size, points, area, exceptions):
             kind = "hole" if all(cell in inside and cell in in_hull for cell in border) else "open"
         counts = any(cell in empty and not is_excepted(cell) for cell in part) if exceptions else True
         excepted = sum(map(is_excepted, part)) / len(part)
+        missing |= {cell for cell in part if counts and not is_excepted(cell)}
         voids.append({"kind": kind, "counts": int(counts), "area": len(part) * edge * edge, "excepted": excepted})
     count = sum((math.floor(x / edge), math.floor(y / edge)) in inside for x, y in points)
-    return {"area": len(inside) * edge * edge, "points": count, "voids": voids}
+    polygons = []
+    for rings in area:
+        cells = {cell for cell in inside if is_inside(rings, *middle(cell))}
+        polygons.append([len(cells) * edge * edge, len(cells & missing) * edge * edge])
+    return {"area": len(inside) * edge * edge, "points": count, "voids": voids, "polygons": polygons}
 
 
 def compare(expected, result, code):
@@ -175,10 +180,15 @@ def compare(expected, result, code):
     assert order == sorted(order)
     assert abs(found["area"] - expected["area"]) < 1e-6 and found["points"] == expected["points"], found["points"]
     counting = sum(v["counts"] for v in expected["voids"])
-    assert found["counting"] == counting and found["is_covered"] == (counting == 0)
+    assert found["counting"] == counting and found["answer"] == ("voids" if counting else "covered")
     assert int(code) == (1 if counting else 0), code
     missing = sum(v["area"] * (1 - v["excepted"]) for v in expected["voids"] if v["counts"])
     assert abs(found["missing_area"] - missing) < 1e-6
+    polygons = [(p["answer"], round(p["area"], 6), round(p["area"] * (1 - p["covered"]), 6)) for p in found["polygons"]]
+    assert polygons == [("voids" if missing else "covered", round(area, 6), round(missing, 6))
+                        for area, missing in expected["polygons"]], (polygons, expected["polygons"])
+    largest = max((v["circle"] for v in found["voids"] if v["counts"]), default=0)
+    assert max(p["circle"] for p in found["polygons"]) == largest
     tiles = found["tiles"]
     assert abs(sum(t["area"] for t in tiles) - found["area"]) < 1e-6
     assert abs(sum(t["area"] * (1 - t["covered"]) for t in tiles) - found["voids_area"]) < 1e-6

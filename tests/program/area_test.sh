@@ -148,22 +148,22 @@ with open("many.txt", "w") as out:
 END
 echo '{"type":"Polygon","coordinates":[[[2,2],[38,2],[38,38],[2,38],[2,2]]]}' >some.geojson
 on=(--area some.geojson --void-size 2.4)
-check() {
-  "$program" check "$@" "${on[@]}" >checked.txt 2>checked.err || true
+check() {  # EXIT_CODE ARGUMENT...
+  local code=0
+  "$program" check "${@:2}" "${on[@]}" >checked.txt 2>checked.err || code=$?
+  [[ $code == "$1" ]] || { echo "exit code $code of: ${*:2}"; cat checked.txt checked.err; exit 1; }
 }
-check filled.txt
-grep -q "not covered: 1 void" checked.txt
-grep -q "^lacuna: some.geojson: not covered: 1 void" checked.err  # an answer, and no error
+check 1 filled.txt
+grep -q "^voids: 1 of 2.40 or more (1 hole)" checked.txt
+grep -q "^lacuna: some.geojson: voids: 1 of" checked.err  # an answer, and no error
 grep -q "; 14[0-9] synthetic points take no part" checked.txt
 "$program" detect filled.txt --out filled >filled.out 2>filled.err
 grep -q "; 14[0-9] flagged as synthetic, which were not measured" filled.out
-check synthetic.txt --quiet
-grep -q "warning: all 5,[0-9]* points in the area are flagged as synthetic" checked.err
-check mixed.txt
+check 0 mixed.txt
 grep -q "; 2,[0-9]* later returns take no part" checked.txt
-check west.txt east.txt --area-tile 20 --out tiles
+check 0 west.txt east.txt --area-tile 20 --out tiles
 grep -q "; 1,[0-9]* points that are there again count once" checked.txt
-check west.txt strip.txt --area-tile 20 --out strips
+check 0 west.txt strip.txt --area-tile 20 --out strips
 python3 - <<'END'
 import json
 once, twice = ([tile["density"] for tile in json.load(open(name + "/voids.json"))["tiles"]] for name in ("tiles", "strips"))
@@ -171,8 +171,51 @@ assert all(3.8 < density < 4.2 for density in once), once
 assert all(4.8 < density < 5.3 for density in twice), twice
 END
 # Too many to hold: a sample of them counts, and each as often as it is there.
-check many.txt many.txt --memory-limit 112MiB
+check 1 many.txt many.txt --memory-limit 112MiB
 grep -q "warning: about 4[789][0-9],... points in the area are there twice" checked.err
+
+# ---- what is not decided
+python3 - <<'END'
+import struct, subprocess
+def write(name, x0, system):
+    wkt = subprocess.run(["gdalsrsinfo", "-o", "wkt1", system], check=True, capture_output=True).stdout.strip() + b"\0"
+    places = [(x0 + i * 500, j * 500, 0) for i in range(80) for j in range(80)]
+    bounds = [(x0 + 39_500) / 1000, x0 / 1000, 39.5, 0, 0, 0]
+    head = struct.pack("<4sHH16sBB32s32sHHHIIBHI5I3d3d6dQQIQ15Q", b"LASF", 0, 16, b"", 1, 4, b"", b"", 1, 2026, 375,
+                       375 + 54 + len(wkt), 1, 6, 30, 0, *[0] * 5, *[.001] * 3, *[0] * 3, *bounds, 0, 0, 0,
+                       len(places), len(places), *[0] * 14)
+    head += struct.pack("<H16sHH32s", 0, b"LASF_Projection", 2112, len(wkt), b"") + wkt
+    points = (struct.pack("<iiiHBBBBhHd", *place, 0, 17, 0, 2, 0, 0, 0, 0) for place in places)
+    open(name, "wb").write(head + b"".join(points))
+write("utm32.las", 0, "EPSG:25832")
+write("utm33.las", 20_000, "EPSG:25833")
+with open("sparse.txt", "w") as out:
+    print("x y z", file=out)
+    for i in range(21):
+        for j in range(21):
+            print(2 * i, 2 * j, 0, file=out)
+END
+undecided() {  # REASON TEXT ARGUMENT...
+  check 3 "${@:3}" --out undecided
+  grep -q "^lacuna: some[.a-z]*: not decided: $2" checked.err || { echo "not '$2' but:"; cat checked.err; exit 1; }
+  grep -q "^not decided: $2" checked.txt
+  python3 -c 'import json, sys
+found = json.load(open("undecided/voids.json"))
+assert found["answer"] == "not decided" and found["undecided"] == [sys.argv[1]], found["undecided"]' "$1"
+  ogrinfo -q -al undecided/voids.gpkg lacuna_area >layer.txt
+  grep -q "answer (String) = not decided" layer.txt
+}
+undecided "synthetic points alone" "all 5,[0-9]* points in it are flagged as synthetic" synthetic.txt
+undecided "no first return" "no first returns that were measured are in it, but 5,[0-9]* later returns, which" later.txt
+undecided "no point" "no point of the scan is in its bounds" utm.xyz --columns "x y z"
+undecided "few points" "too few points: their spacing is 2.00, and voids of 2.40 need 1.70 or less" sparse.txt
+"$program" detect synthetic.txt "${on[@]}" --out synthetic >synthetic.out 2>synthetic.err  # its exit code is 0
+grep -q "not decided: all 5," synthetic.out
+ogr2ogr -f GPKG -a_srs EPSG:25832 some.gpkg some.geojson
+on=(--area some.gpkg --void-size 2.4)
+check 0 utm32.las
+undecided "different systems" "files of the scan have different coordinate" utm32.las utm33.las
+on=(--area some.geojson --void-size 2.4)
 
 # ---- what is refused
 refuse() {
@@ -195,7 +238,6 @@ for command in check detect; do
 done
 echo '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":{"type":"Point","coordinates":[1,2]}}]}' >point.geojson
 refuse "point.geojson: has no polygon" check "${some[@]}" --area point.geojson --void-size 4
-refuse "no point of the scan is in its bounds" check utm.xyz --columns "x y z" --area holes.geojson --void-size 4
 python3 - <<'END'
 import random
 draw = random.Random(1)
@@ -207,7 +249,6 @@ echo '{"type":"Polygon","coordinates":[[[0,0],[299,0],[299,299],[0,299],[0,0]]]}
 refuse "points are so far apart that outlines of voids have .* edges" check wide.xyz --columns "x y z" --area wide.geojson \
   --void-size 1.5 --memory-limit 112MiB
 refuse "--area is required" check "${some[@]}"
-refuse "no first returns that were measured are in it, but 5[0-9]* later returns, which" check later.txt "${on[@]}"
 refuse "earth.txt: its places are geocentric, as of EPSG:4978, and --area needs a plan; .*EPSG:32632" check earth.txt \
   --columns "x y z" "${on[@]}"
 for system in EPSG:4978 EPSG:4936; do

@@ -39,7 +39,7 @@ cd "$source_folder"
 expect() {
   grep -q "$2" "$work/$1.log" || { echo "$1: does not print: $2"; failed=1; }
 }
-expect surveyor "not covered: .* voids of 5.00 or more"
+expect surveyor "voids: .* of 5.00 or more"
 expect surveyor " closed, "
 expect gis "Description = points"
 expect cluster "the same bytes"

@@ -32,7 +32,7 @@ struct CheckArguments {
   ResultArguments run;
 };
 
-// Throws `Error` where the scan does not cover the area, so that scripts see it.
+// Throws `AnswerIsNo` unless the scan covers the area, so that scripts see it.
 void run_check(const CheckArguments& arguments) {
   const FilesConfig config = arguments.run.start();
   if (config.area.area.empty()) throw WrongOption("--area is required");
@@ -56,7 +56,7 @@ void run_check(const CheckArguments& arguments) {
                                    Eigen::Vector3d(max.x(), max.y(), 0));
   print_warnings(filter_warnings(*scan, config.input, bounds));
   const std::string_view unit = scan->length_unit();
-  const std::string answer = print_is_covered(check, unit);
+  const std::string answer = print_answer(check, unit);
   std::string text = answer + "\n\n";
   if (const std::string voids = print_voids(check, unit); !voids.empty()) text += voids + "\n";
   text += "  area  " + print_covered(check, unit) + "\n\n";
@@ -66,7 +66,8 @@ void run_check(const CheckArguments& arguments) {
     note_complete_results();
   }
   if (!arguments.run.quiet) std::cout << text;
-  if (!check.is_covered()) throw AnswerIsNo{config.area.area + ": " + answer};
+  if (check.answer() != AreaAnswer::kCovered)
+    throw AnswerIsNo{config.area.area + ": " + answer, check.answer() == AreaAnswer::kVoids};
 }
 
 }  // namespace

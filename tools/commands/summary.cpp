@@ -181,7 +181,7 @@ std::string print_summary(const ExplainedDetection& detection, const FileScan& s
   if (!outer.loops.empty())
     facts.emplace_back("outer curves", print_length(outer.perimeter, unit) + " long in all");
   if (detection.area) {
-    facts.emplace_back("area", print_is_covered(*detection.area, unit));
+    facts.emplace_back("area", print_answer(*detection.area, unit));
     facts.emplace_back("", print_covered(*detection.area, unit));
   }
   if (!causes.empty()) facts.emplace_back("causes", causes);

@@ -12,9 +12,42 @@
 namespace lacuna::tools {
 using namespace io;
 
-std::string print_is_covered(const AreaCheck& check, std::string_view unit) {
+namespace {
+
+std::string print_reason(Undecided reason, const AreaCheck& check, std::string_view unit) {
+  switch (reason) {
+    case Undecided::kNoPoint:
+      return "no point of the scan is in its bounds; are both in the same system?";
+    case Undecided::kNoFirstReturn: {
+      std::string others;
+      if (check.later_returns > 0) others += ", but " + print_count(check.later_returns) + " later returns";
+      if (check.synthetic > 0) others += ", but " + print_count(check.synthetic) + " synthetic points";
+      return "no first returns that were measured are in it" + others +
+             ", which cover nothing; the files with the first returns are needed, too";
+    }
+    case Undecided::kSyntheticAlone:
+      return "all " + print_count(check.points) +
+             " points in it are flagged as synthetic, and count as if they were measured";
+    case Undecided::kOtherSystems:
+      return "files of the scan have different coordinate reference systems; --crs states one";
+    case Undecided::kFewPoints:
+      return "too few points: their spacing is " + print_length(check.spacing, unit) + ", and voids of " +
+             print_length(check.void_size, unit) + " need " +
+             print_length(AreaCheck::most_spacing(check.void_size), unit) + " or less";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string print_answer(const AreaCheck& check, std::string_view unit) {
   const std::size_t counting = check.counting(), excepted = check.voids.size() - counting;
-  std::string text = "covered";
+  std::string text(name_of(check.answer()));
+  if (!check.undecided.empty()) {
+    for (const Undecided reason : check.undecided)
+      text.append(reason == check.undecided.front() ? ": " : "; ").append(print_reason(reason, check, unit));
+    return text;
+  }
   if (counting > 0) {
     std::array<std::size_t, kVoidKinds.size()> kinds{};
     for (std::size_t i = 0; i < counting; ++i) ++kinds[static_cast<std::size_t>(check.voids[i].kind)];
@@ -23,8 +56,8 @@ std::string print_is_covered(const AreaCheck& check, std::string_view unit) {
       if (kinds[i] > 0)
         list.append(list.empty() ? "" : ", ").append(print_count(kinds[i])).append(" ").append(kVoidKinds[i]);
     }
-    text = "not covered: " + print_count(counting) + (counting == 1 ? " void of " : " voids of ") +
-           print_length(check.void_size, unit) + " or more (" + list + ")";
+    text += ": " + print_count(counting) + " of " + print_length(check.void_size, unit) + " or more (" +
+            list + ")";
   }
   if (excepted > 0)
     text += ", " + print_count(excepted) + (counting > 0 ? " more" : " void") + " in exceptions";
@@ -53,10 +86,6 @@ std::string print_covered(const AreaCheck& check, std::string_view unit) {
 
 std::vector<std::string> area_warnings(const AreaCheck& check) {
   std::vector<std::string> warnings;
-  if (check.all_synthetic)
-    warnings.push_back("all " + print_count(check.points) +
-                       " points in the area are flagged as synthetic, and count as if they were measured; "
-                       "--where 'synthetic == 0' leaves such points out");
   if (!check.counts_once && check.repeated > 0)
     warnings.push_back("about " + print_count(check.repeated) +
                        " points in the area are there twice, as in tiles that overlap, and count twice in "

@@ -10,14 +10,15 @@
 
 namespace lacuna::tools {
 
-// "covered", or "not covered: 3 voids of 2.8 m or more (1 hole, 2 open), 1 more in exceptions".
-std::string print_is_covered(const io::AreaCheck& check, std::string_view unit);
+// "covered", or "voids: 3 of 2.8 m or more (1 hole, 2 open), 1 more in exceptions", or "not decided" with its
+// reasons.
+std::string print_answer(const io::AreaCheck& check, std::string_view unit);
 
 // "12,300 m², 98.7 % of it covered; 45,600 points".
 // Points that take no part follow, if there are any.
 std::string print_covered(const io::AreaCheck& check, std::string_view unit);
 
-// Returns a line for each reason why densities, or the whole check, may be wrong.
+// Returns a line if densities may be wrong.
 std::vector<std::string> area_warnings(const io::AreaCheck& check);
 
 // The ten largest voids as a table; empty without a void.

@@ -26,7 +26,7 @@
 namespace lacuna::tools {
 namespace {
 
-enum ExitCode { kDone = 0, kFailed = 1, kWrongUsage = 2 };
+enum ExitCode { kDone = 0, kFailed = 1, kWrongUsage = 2, kNotDecided = 3 };
 
 int fail(const std::string& reason, ExitCode code) {
   wait_if_interrupted();  // the signal says how the program ends
@@ -94,7 +94,8 @@ int run_program(const std::string& name, CommandLine& line, int argc, char** arg
   } catch (const AnswerIsNo& no) {
     const int written = flush_output();
     print_line(name + ": " + one_line(no.answer));
-    return written == kDone ? kFailed : written;
+    if (written != kDone) return written;
+    return no.is_decided ? kFailed : kNotDecided;
   } catch (const UsageError& error) {
     return fail(one_line(error.what()), kWrongUsage);
   } catch (const Error& error) {

@@ -6,7 +6,7 @@ const kVoidRows = 10;
 
 // The map has the area as a sheet, the squares of the table as lines, and voids by whether they count.
 function area_map({polygons, voids, tiles, tile_edge}) {
-  const places = polygons.flat(2);
+  const places = polygons.flatMap(({outline}) => outline.flat());
   const low = [0, 1].map((k) => Math.min(...places.map((place) => place[k])));
   const high = [0, 1].map((k) => Math.max(...places.map((place) => place[k])));
   const scale = kMapWidth / Math.max(high[0] - low[0], high[1] - low[1]);
@@ -19,7 +19,7 @@ function area_map({polygons, voids, tiles, tile_edge}) {
   const square = ([x, y]) => [[[x, y], [x + tile_edge, y], [x + tile_edge, y + tile_edge], [x, y + tile_edge]]];
   return drawing("svg", {class: "area-map", viewBox: `-2 -2 ${digits(size[0] + 4)} ${digits(size[1] + 4)}`, role: "img",
                          "aria-label": "Map of the area and its voids"},
-                 ...polygons.map((rings) => shape(rings, "sheet")),
+                 ...polygons.map(({outline, answer}) => shape(outline, "sheet", answer)),
                  ...voids.map((each) => shape(each.outline, each.counts ? "counts" : "excepted", `void ${each.id}, ${each.kind}`)),
                  ...tiles.map(({corner}) => shape(square(corner), "tile")));
 }
@@ -29,7 +29,7 @@ function area_facts({report}, units) {
   if (!area) return null;
   const excepted = area.all - area.counting;
   const share = (part) => `${(100 * part / area.area).toPrecision(3)} %`;
-  const rows = [["The area is", area.is_covered ? "covered" : "not covered", "changed"],
+  const rows = [["Answer", [area.answer, ...area.undecided].join(", "), "changed"],
                 ["Area", units.area(area.area, 4)],
                 ["Covered", share(area.area - area.missing_area)],
                 [`Voids of ${units.length(area.void_size)} or more`, format_count(area.counting)],
