@@ -82,6 +82,18 @@ struct AreaPolygon {
   double covered() const { return 1 - missing_area / area; }  // share of its area
 };
 
+// A thing that figures rest on, such as "returns", and what holds of it.
+struct BasisLine {
+  std::string thing, what;
+};
+
+// What no check shows, whatever its answer is.
+inline constexpr std::array<std::string_view, 5> kNotShown = {
+    "gaps that are narrower than the void size, however long they are",
+    "what lies below a roof, a bridge or trees: seen from above, any point covers its place",
+    "whether a place was measured by two swaths", "how accurate points are, and of which surface they are",
+    "why a void is there"};
+
 struct AreaCheck {
   std::vector<AreaPolygon> polygons;  // of the project
   double void_size = 0;               // diameter of the least void
@@ -90,6 +102,7 @@ struct AreaCheck {
   double missing_area = 0;            // of the voids that count, without what lies in exceptions
   double spacing = 0;                 // of the points, where there are any; NaN without a point
   std::vector<Undecided> undecided;   // empty if the points decide
+  std::vector<BasisLine> basis;       // of all figures
   // These are as in PlanOfPoints.
   std::uint64_t points = 0, later_returns = 0, synthetic = 0, repeated = 0;
   bool counts_once = true;

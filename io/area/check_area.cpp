@@ -3,6 +3,7 @@
 
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
+#include "io/area/area_basis.hpp"
 #include "io/area/area_polygons.hpp"
 #include "io/area/area_tiles.hpp"
 #include "io/area/empty_places.hpp"
@@ -319,6 +320,7 @@ AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config
     return key(a) < key(b);
   });
   check.undecided = undecided_reasons(points, check, scan);
+  check.basis = basis_of(check, area, points, scan, config);
   const std::vector<MiddleCell> middles = middles_of(check, grid);
   for (const PlanPolygon& outline : area.polygons)
     check.polygons.push_back(measure(outline, grid, missing, middles));

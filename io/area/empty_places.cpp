@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -27,6 +28,12 @@ void load_if_any(const RowBatch& rows, const RowLayout& layout, const char* name
   if (column != nullptr) load_column(rows, layout.stride, *column, values);
 }
 
+struct MeasuredPoint {
+  Eigen::Vector3d place;
+  double time = 0;   // 0: not stated
+  double swath = 0;  // NaN: not stated
+};
+
 // Passes on the first returns of a scan that were measured, in cells.
 class PlanObserver : public RowObserver {
  public:
@@ -38,6 +45,7 @@ class PlanObserver : public RowObserver {
     load_if_any(rows, reader.layout(), "return_number", returns_);
     load_if_any(rows, reader.layout(), "synthetic", synthetic_);
     load_if_any(rows, reader.layout(), "gps_time", times_);
+    load_if_any(rows, reader.layout(), "point_source_id", swaths_);
     for (std::size_t i = 0; i < kept.size(); ++i) {
       if (!kept[i].allFinite()) continue;
       const Eigen::Vector2d at = grid_.to_cells(kept[i].head<2>());
@@ -48,7 +56,9 @@ class PlanObserver : public RowObserver {
       } else if (is_synthetic && !takes_synthetic_) {
         leave_out(at, &PlanOfPoints::synthetic);
       } else {
-        add(at, kept[i], times_.empty() ? 0 : times_[i]);
+        add(at, {.place = kept[i],
+                 .time = times_.empty() ? 0 : times_[i],
+                 .swath = swaths_.empty() ? std::numeric_limits<double>::quiet_NaN() : swaths_[i]});
       }
     }
     progress_.advance(kept.size());
@@ -57,7 +67,7 @@ class PlanObserver : public RowObserver {
   bool has_measured() const { return has_measured_; }
 
  protected:
-  virtual void add(const Eigen::Vector2d& at, const Eigen::Vector3d& place, double time) = 0;
+  virtual void add(const Eigen::Vector2d& at, const MeasuredPoint& point) = 0;
   virtual void leave_out(const Eigen::Vector2d&, std::uint64_t PlanOfPoints::*) {}
   const PlanGrid& grid() const { return grid_; }
 
@@ -65,7 +75,7 @@ class PlanObserver : public RowObserver {
   const PlanGrid& grid_;
   bool takes_synthetic_, has_measured_ = false;
   Progress& progress_;
-  std::vector<double> returns_, synthetic_, times_;
+  std::vector<double> returns_, synthetic_, times_, swaths_;
 };
 
 // How the points of an area are counted.
@@ -99,12 +109,13 @@ class MarkingObserver : public PlanObserver {
            inside_.has(static_cast<std::size_t>(at.x()), static_cast<std::size_t>(at.y()));
   }
 
-  void add(const Eigen::Vector2d& at, const Eigen::Vector3d& place, double time) final {
+  void add(const Eigen::Vector2d& at, const MeasuredPoint& point) final {
     clear_disc(at, kEmptyRadius, plan.empty);
     clear_disc(at, kEmptyRadius - kToCorner, maybe);
     if (!grid().contains(at)) return;
     hull.add(at);
-    if (!is_inside(at) || (repeated.add(place, time) && once_)) return;
+    if (!is_inside(at) || (repeated.add(point.place, point.time) && once_)) return;
+    if (!std::isnan(point.swath)) plan.swaths.insert(point.swath);
     const auto column = static_cast<std::size_t>(at.x()), row = static_cast<std::size_t>(at.y());
     ++plan.points;
     plan.density.add(column, row);
@@ -131,7 +142,7 @@ class NearObserver : public PlanObserver {
   std::vector<Eigen::Vector2d> near;
 
  private:
-  void add(const Eigen::Vector2d& at, const Eigen::Vector3d&, double) final {
+  void add(const Eigen::Vector2d& at, const MeasuredPoint&) final {
     if (!has_in_disc(at, kEmptyRadius + kToCorner, cells_)) return;
     if (near.size() >= most_)
       throw Error("void_size: the points are so far apart that " + std::to_string(near.size()) +

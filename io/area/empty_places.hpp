@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <set>
 
 namespace lacuna::io {
 
@@ -25,6 +26,7 @@ struct PlanOfPoints {
   Ring2 hull;  // convex, of the points in the bounds of the area; in cells
   // In the area: first returns that were measured, later returns, and others that were not measured.
   std::uint64_t points = 0, later_returns = 0, synthetic = 0;
+  std::set<double> swaths;     // values of point_source_id of the points in the area
   std::uint64_t repeated = 0;  // points that are there once more; about so many where they do not count once
   bool counts_once = true;     // false: `points` has them as often as they are there
   bool all_synthetic = false;  // so that the whole scan has no other points, and these count

@@ -65,6 +65,9 @@ void write_json(const AreaCheck& check, const FileScan& scan, const AreaConfig& 
   put_crs(scan, head);
   head["file"] = config.area;
   head["except"] = config.except.empty() ? Json() : Json(config.except);
+  head["basis"] = Json::array();
+  for (const auto& [thing, what] : check.basis) head["basis"].push_back({thing, what});
+  head["not_shown"] = kNotShown;
   head["void_size"] = check.void_size;
   head["answer"] = name_of(check.answer());
   head["undecided"] = Json::array();
@@ -74,6 +77,7 @@ void write_json(const AreaCheck& check, const FileScan& scan, const AreaConfig& 
   head["voids_area"] = check.voids_area;
   head["missing_area"] = check.missing_area;
   head["points"] = check.points;
+  head["spacing"] = check.spacing;
   head["tile_edge"] = check.tile_edge;
   std::string text = print(head, 2);
   text.resize(text.rfind('}'));

@@ -137,6 +137,11 @@ write("mixed.txt", [(x, y, 1 + i % 2, 0, i) for i, (x, y) in enumerate(places)])
 write("west.txt", [(x, y, 1, 0, i) for i, (x, y) in enumerate(places) if x < 25])
 write("east.txt", [(x, y, 1, 0, i) for i, (x, y) in enumerate(places) if x > 15])
 write("strip.txt", [(x, y, 1, 0, i + 1e5) for i, (x, y) in enumerate(places) if x > 15])
+with open("swaths.txt", "w") as out:
+    print("x y z point_source_id", file=out)
+    for i, (x, y) in enumerate(places):
+        print(f"{x:.3f} {y:.3f} 0", 3 + i % 2, file=out)
+    print("39.9 39.9 0 9", file=out)
 with open("earth.txt", "w") as out:
     for x, y in places:
         print(4264423 + x, 690634 + y, 4678943, file=out)
@@ -161,7 +166,22 @@ grep -q "; 14[0-9] synthetic points take no part" checked.txt
 grep -q "; 14[0-9] flagged as synthetic, which were not measured" filled.out
 check 0 mixed.txt
 grep -q "; 2,[0-9]* later returns take no part" checked.txt
+grep -q "^  returns  first ones alone$" checked.txt
+grep -q "^  classes  all: no file states them$" checked.txt
+grep -q "^  swaths   not stated" checked.txt
+check 0 swaths.txt
+grep -q "^  returns  all: no file states them$" checked.txt
+grep -q "^  swaths   2 values of point_source_id" checked.txt  # the third is out of the area
+grep -q "^  area     some.geojson, 1 polygon$" checked.txt
+grep -q "^  a point  covers what is nearer than 1.2; spacing 0.[45]" checked.txt
+check 0 mixed.txt --where "return_number == 1"
+grep -q "^  classes  .*, where return_number == 1$" checked.txt
+check 0 swaths.txt mixed.txt
+grep -q "^  returns  first ones alone; all points of 1 file, which state none$" checked.txt
 check 0 west.txt east.txt --area-tile 20 --out tiles
+python3 -c 'import json
+found = json.load(open("tiles/voids.json"))
+assert dict(found["basis"])["returns"] == "first ones alone" and "narrower" in found["not_shown"][0]'
 grep -q "; 1,[0-9]* points that are there again count once" checked.txt
 check 0 west.txt strip.txt --area-tile 20 --out strips
 python3 - <<'END'

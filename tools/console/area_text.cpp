@@ -2,6 +2,7 @@
 #include "tools/console/area_text.hpp"
 
 #include "tools/console/measures_text.hpp"
+#include "tools/console/visible_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -82,6 +83,17 @@ std::string print_covered(const AreaCheck& check, std::string_view unit) {
   const double share = check.area > 0 ? 1 - check.missing_area / check.area : 1;
   return tools::print_area(check.area, unit) + ", " + print_share(share) + " of it covered; " +
          print_count(check.points) + " points" + print_taking_no_part(check);
+}
+
+std::string print_basis(const AreaCheck& check) {
+  std::size_t width = 0;
+  for (const BasisLine& line : check.basis) width = std::max(width, line.thing.size());
+  std::string text = "basis\n";
+  for (const auto& [thing, what] : check.basis)
+    text += "  " + thing + std::string(width - thing.size() + 2, ' ') + visible(what) + "\n";
+  text += "this check does not show\n";
+  for (const std::string_view each : kNotShown) text.append("  ").append(each).append("\n");
+  return text;
 }
 
 std::vector<std::string> area_warnings(const AreaCheck& check) {

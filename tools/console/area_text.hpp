@@ -18,6 +18,9 @@ std::string print_answer(const io::AreaCheck& check, std::string_view unit);
 // Points that take no part follow, if there are any.
 std::string print_covered(const io::AreaCheck& check, std::string_view unit);
 
+// Returns what the figures rest on, a line for each thing, and what the check does not show.
+std::string print_basis(const io::AreaCheck& check);
+
 // Returns a line if densities may be wrong.
 std::vector<std::string> area_warnings(const io::AreaCheck& check);
 

@@ -24,6 +24,13 @@ function area_map({polygons, voids, tiles, tile_edge}) {
                  ...tiles.map(({corner}) => shape(square(corner), "tile")));
 }
 
+function area_basis({basis, not_shown}) {
+  return element("details", {}, element("summary", {}, "Basis, and what is not shown"),
+                 description(basis.map(([thing, what]) => [thing, what, "wide"])),
+                 element("p", {}, "This check does not show:"),
+                 element("ul", {}, ...not_shown.map((text) => element("li", {}, text))));
+}
+
 function area_facts({report}, units) {
   const {area} = report;
   if (!area) return null;
@@ -37,7 +44,7 @@ function area_facts({report}, units) {
                 ["Points in it", format_count(area.points)],
                 ["Polygons", area.file, "wide"],
                 ...(area.except ? [["Exceptions", area.except, "wide"]] : [])];
-  const made = facts_part("Area", description(rows), area_map(area));
+  const made = facts_part("Area", description(rows), area_map(area), area_basis(area));
   if (area.voids.length === 0) return made;
   const decimals = Math.max(0, place_decimals(area.void_size) - 1);
   made.append(place_table(area.voids.slice(0, kVoidRows), [

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/area/area_basis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+namespace lacuna::io {
+namespace {
+
+std::string counted(std::size_t count, const std::string& thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
+std::string print(double value, const std::string& unit) {
+  std::ostringstream text;
+  text.precision(3);
+  text << value << (unit.empty() ? "" : " ") << unit;
+  return text.str();
+}
+
+std::size_t files_with(const FileScan& scan, const char* column) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      scan.files(), [&](const ScanFile& file) { return file.layout.find_alike(column) != nullptr; }));
+}
+
+std::string returns_of(const FileScan& scan) {
+  const std::size_t stated = files_with(scan, "return_number"), files = scan.files().size();
+  if (stated == 0) return "all: no file states them";
+  if (stated == files) return "first ones alone";
+  return "first ones alone; all points of " + counted(files - stated, "file") + ", which state none";
+}
+
+std::string classes_of(const FileScan& scan, const InputConfig& config) {
+  const bool is_stated = files_with(scan, "classification") > 0;
+  std::string text = !is_stated          ? "all: no file states them"
+                     : config.keep_noise ? "all"
+                                         : "all but noise of LAS, 7 and 18";
+  if (!config.where.empty()) text += ", where " + config.where;
+  return text;
+}
+
+std::string swaths_of(const PlanOfPoints& points) {
+  if (points.swaths.empty()) return "not stated: no point has a point_source_id";
+  return counted(points.swaths.size(), "value") +
+         " of point_source_id, taken together";
+}
+
+}  // namespace
+
+std::vector<BasisLine> basis_of(const AreaCheck& check, const Area& area, const PlanOfPoints& points,
+                                const FileScan& scan, const FilesConfig& config) {
+  const std::string& unit = scan.length_unit();
+  std::string polygons = config.area.area + ", " + counted(area.polygons.size(), "polygon");
+  if (!config.area.except.empty()) polygons += "; voids in " + config.area.except + " do not count";
+  std::string point = "covers what is nearer than " + print(check.void_size / 2, unit);
+  if (std::isfinite(check.spacing)) point += "; spacing " + print(check.spacing, unit) + " where points are";
+  return {{"area", polygons},
+          {"returns", returns_of(scan)},
+          {"classes", classes_of(scan, config.input)},
+          {"swaths", swaths_of(points)},
+          {"a point", point}};
+}
+
+}  // namespace lacuna::io

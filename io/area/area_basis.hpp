@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the figures of a check of an area rest on.
+#pragma once
+
+#include "io/area/check_area.hpp"
+#include "io/area/empty_places.hpp"
+
+#include <vector>
+
+namespace lacuna::io {
+
+// Returns a line for each thing that decides what a figure is of: area, returns, classes, swaths, points.
+std::vector<BasisLine> basis_of(const AreaCheck& check, const Area& area, const PlanOfPoints& points,
+                                const FileScan& scan, const FilesConfig& config);
+
+}  // namespace lacuna::io
