@@ -46,15 +46,16 @@ PlanGrid grid_over(std::span<const PlanPolygon> polygons, std::size_t rasters, c
   for (const PlanPolygon& polygon : polygons)
     for (const Ring2& ring : polygon)
       for (const Eigen::Vector2d& corner : ring) bounds.extend(corner);
-  PlanGrid grid{.size = config.area.void_size};
+  PlanGrid grid{.size = void_size_of(config.area)};
   grid.first = grid.to_cells(bounds.min()).array().floor();
   const Eigen::Array2d size = grid.to_cells(bounds.max()).array().ceil();
   const double most = static_cast<double>(Memory::share(config.run.memory_limit).limit / 2 * 8 / rasters);
   if (!(size.prod() <= most) || !(size.maxCoeff() < std::numeric_limits<int>::max())) {
     std::ostringstream message;
-    message << "void_size = " << config.area.void_size << ": the area has " << size.x() << " x " << size.y()
-            << " cells of an eighth of it, more than " << most << " within the memory limit; allowed: "
-            << config.area.void_size * std::sqrt(std::max(size.prod() / most, 1.0)) * 1.01 << " or more";
+    message << "void_rule = " << config.area.void_rule << ": the area has " << size.x() << " x " << size.y()
+            << " cells of an eighth of this size, more than " << most
+            << " within the memory limit; allowed: a size of "
+            << grid.size * std::sqrt(std::max(size.prod() / most, 1.0)) * 1.01 << " or more";
     throw Error(message.str());
   }
   grid.columns = static_cast<std::size_t>(size.x());
@@ -105,9 +106,9 @@ class Plan {
     const auto limit = static_cast<double>(Memory::share(config.run.memory_limit).limit);
     if (edges * kBytesPerEdge <= limit / 4) return;
     std::ostringstream message;
-    message << "void_size = " << config.area.void_size
+    message << "void_rule = " << config.area.void_rule
             << ": the points are so far apart that outlines of voids have " << edges
-            << " edges, more than fit in the memory limit; allowed: a larger one";
+            << " edges, more than fit in the memory limit; allowed: a larger size";
     throw Error(message.str());
   }
 
@@ -296,7 +297,7 @@ AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config
   // The voids: the circles around what is empty.
   const Plan plan(grid, inside, excepted, points);
   plan.refuse_long_outlines(config);
-  AreaCheck check{.void_size = config.area.void_size,
+  AreaCheck check{.void_size = grid.size,
                   .area = grid.area(inside.count()),
                   .spacing = points.density.spacing(inside) * grid.edge(),
                   .points = points.points,

@@ -145,8 +145,8 @@ class NearObserver : public PlanObserver {
   void add(const Eigen::Vector2d& at, const MeasuredPoint&) final {
     if (!has_in_disc(at, kEmptyRadius + kToCorner, cells_)) return;
     if (near.size() >= most_)
-      throw Error("void_size: the points are so far apart that " + std::to_string(near.size()) +
-                  " of them are near voids, more than fit in the memory limit; allowed: a larger one");
+      throw Error("void_rule: the points are so far apart that " + std::to_string(near.size()) +
+                  " of them are near voids, more than fit in the memory limit; allowed: a larger size");
     near.push_back(at);
   }
 

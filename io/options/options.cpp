@@ -4,6 +4,7 @@
 #include "engine/run/error.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <iterator>
 #include <span>
 
@@ -57,16 +58,42 @@ void check_memory_of_outputs(const OutputConfig& output, const AreaConfig& area,
               "; allowed: at least " + std::to_string(least) + "MiB");
 }
 
+// The least void of a rule, in nominal spacings.
+struct VoidRule {
+  std::string_view name;
+  double spacings;
+};
+constexpr VoidRule kVoidRules[] = {{"anps:", 4}, {"spacing2:", 2}};
+constexpr const char* kAllowedRules =
+    "a length above 0, or the nominal spacing of points after anps: or spacing2:, such as anps:0.71";
+
 void check_area_config(const AreaConfig& area) {
   if (area.area.empty()) return;
-  if (!(area.void_size > 0))
-    throw Error(
-        "void_size = 0: --area needs it; allowed: a length above 0, such as 4 nominal pulse spacings");
-  if (area.area_tile > 0 && area.area_tile < area.void_size)
-    throw Error("area_tile is less than void_size; allowed: 0 (off), or a length of void_size or more");
+  const double size = void_size_of(area);
+  if (area.area_tile > 0 && area.area_tile < size)
+    throw Error("area_tile is less than the void size, " + print_number(size) +
+                "; allowed: 0 (off), or a length of this or more");
 }
 
 }  // namespace
+
+double void_size_of(const AreaConfig& area) {
+  constexpr double kMost = 1e100;
+  std::string_view length = area.void_rule;
+  double spacings = 1;
+  for (const VoidRule& rule : kVoidRules) {
+    if (!length.starts_with(rule.name)) continue;
+    length.remove_prefix(rule.name.size());
+    spacings = rule.spacings;
+    break;
+  }
+  double value = 0;
+  const auto [end, error] = std::from_chars(length.data(), length.data() + length.size(), value);
+  if (error != std::errc() || end != length.data() + length.size() || !(value > 0 && value <= kMost))
+    throw Error("void_rule = " + quote(area.void_rule) + (area.void_rule.empty() ? ": --area needs it" : "") +
+                "; allowed: " + kAllowedRules);
+  return spacings * value;
+}
 
 std::string_view name_of(LengthUnit unit) {
   return kUnitNames[static_cast<std::size_t>(unit)];
@@ -116,13 +143,14 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
       {"area", "area", Changes::kNothingKept, &area.area, 0, 0, "a file name, or nothing",
        "File of polygons, GeoPackage, GeoJSON or Shapefile, that the scan is to cover, seen from above; "
        "writes voids.json, voids.csv and voids.gpkg."},
-      {"area", "void_size", Changes::kNothingKept, &area.void_size, 0, 1e100,
-       "a length above 0, such as 4 nominal pulse spacings",
-       "Diameter of the smallest circle without points that is a void of the area.", no_area},
+      {"area", "void_rule", Changes::kNothingKept, &area.void_rule, 0, 0, kAllowedRules,
+       "Diameter of the smallest circle without points that is a void of the area; anps: four, spacing2: two "
+       "nominal spacings.",
+       no_area},
       {"area", "except", Changes::kNothingKept, &area.except, 0, 0, "a file name, or nothing",
        "File of polygons, such as water, in which voids do not count.", no_area},
       {"area", "area_tile", Changes::kNothingKept, &area.area_tile, 0, 1e100,
-       "a length of 0 (off) or more than void_size",
+       "a length of 0 (off) or more than the void size",
        "Edge of the squares of a table: area, voids, points and density of each.", no_area},
       {"output", "points_format", Changes::kNothingKept, named(output.points_format, kPointsFormats), 0, 2,
        "input, ply or csv",

@@ -63,9 +63,14 @@ struct OutputConfig {
 // Whether the scan covers an area.
 struct AreaConfig {
   std::string area, except;  // files of polygons; empty: none
-  double void_size = 0;      // diameter of the least void
+  std::string void_rule;     // as in void_size_of
   double area_tile = 0;      // edge of the squares of the table; 0: no table
 };
+
+// Returns the diameter of the least void, in units of the scan. A rule is this length, such as "2.8", or the
+// nominal spacing of points after the name of a rule, such as "anps:0.7". docs/area.md has the sources of the
+// names. Throws `Error`.
+LACUNA_API double void_size_of(const AreaConfig& area);
 
 struct FilesConfig : Config {
   InputConfig input;

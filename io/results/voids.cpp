@@ -68,6 +68,7 @@ void write_json(const AreaCheck& check, const FileScan& scan, const AreaConfig& 
   head["basis"] = Json::array();
   for (const auto& [thing, what] : check.basis) head["basis"].push_back({thing, what});
   head["not_shown"] = kNotShown;
+  head["void_rule"] = config.void_rule;
   head["void_size"] = check.void_size;
   head["answer"] = name_of(check.answer());
   head["undecided"] = Json::array();

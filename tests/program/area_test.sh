@@ -13,7 +13,7 @@ cd "$work"
 for name in swaths holes crossed islands larger hull river random returns; do
   python3 "$here/area_reference.py" "$name" "$name.xyz" "$name.geojson" "$name.except.geojson" >"$name.expected"
   read -r size columns < <(head -n 1 "$name.expected")
-  options=(--area "$name.geojson" --except "$name.except.geojson" --void-size "$size" --area-tile 20)
+  options=(--area "$name.geojson" --except "$name.except.geojson" --void-rule "$size" --area-tile 20)
   code=0
   "$program" check "$name.xyz" --columns "$columns" "${options[@]}" --out "$name" --quiet 2>"$name.err" || code=$?
   python3 "$here/area_reference.py" --compare "$name.expected" "$name" "$code"
@@ -27,7 +27,7 @@ random.Random(1).shuffle(rows)
 open("mixed.xyz", "w").write("\n".join(rows[:1000]) + "\n")
 open("mixed2.xyz", "w").write("\n".join(rows[1000:]) + "\n")
 END
-options=(--area holes.geojson --except holes.except.geojson --void-size 4 --area-tile 20 --quiet)
+options=(--area holes.geojson --except holes.except.geojson --void-rule 4 --area-tile 20 --quiet)
 for other in "--threads 1" "--threads 3 --memory-limit 112MiB"; do
   # shellcheck disable=SC2086
   "$program" check mixed.xyz mixed2.xyz --columns "x y z" "${options[@]}" $other --out other 2>other.err || true
@@ -99,7 +99,7 @@ ogr2ogr -f GeoJSON -s_srs EPSG:25832 -t_srs EPSG:4326 degrees.geojson utm.gpkg
 ogr2ogr -f "ESRI Shapefile" -t_srs EPSG:3857 mercator.shp utm.gpkg
 ogr2ogr -f GPKG -a_srs EPSG:25832 water.gpkg utm.holes.except.json
 for area in utm.gpkg degrees.geojson mercator.shp; do
-  "$program" check utm.xyz --columns "x y z" --crs EPSG:25832 --area "$area" --except water.gpkg --void-size 4 --out "in_$area" \
+  "$program" check utm.xyz --columns "x y z" --crs EPSG:25832 --area "$area" --except water.gpkg --void-rule 4 --out "in_$area" \
     --quiet 2>area.err || true
   python3 - "in_$area" <<'END'
 import csv, sys
@@ -111,11 +111,19 @@ for a, b in zip(found, expected):
     assert abs(float(a["area"]) - float(b["area"])) < .05 * float(b["area"]) + 1, (a, b)
 END
 done
-"$program" check utm.xyz --columns "x y z" --crs EPSG:25832 --area degrees.geojson --void-size 4 >converted.txt 2>converted.err || true
+"$program" check utm.xyz --columns "x y z" --crs EPSG:25832 --area degrees.geojson --void-rule 4 >converted.txt 2>converted.err || true
 grep -q "degrees.geojson: is converted from WGS 84" converted.err
 
+# ---- rules for voids
+for rule in anps:1 spacing2:2; do
+  "$program" check holes.xyz --columns "x y z" --area holes.geojson --except holes.except.geojson --area-tile 20 --void-rule $rule \
+    --out ruled >ruled.txt 2>ruled.err || true
+  cmp holes/voids.csv ruled/voids.csv
+  grep -q "^  voids .* circles of 4 or more without points, by the rule $rule$" ruled.txt
+done
+
 # ---- an area that is covered
-"$program" check holes.xyz --columns "x y z" --area holes.geojson --void-size 30 >covered.txt
+"$program" check holes.xyz --columns "x y z" --area holes.geojson --void-rule 30 >covered.txt
 head -n 1 covered.txt | grep -qx covered
 
 # ---- points that cover nothing, and points that are there twice
@@ -152,7 +160,7 @@ with open("many.txt", "w") as out:
             print(2 + i * .05, 2 + j * .05, 0, file=out)
 END
 echo '{"type":"Polygon","coordinates":[[[2,2],[38,2],[38,38],[2,38],[2,2]]]}' >some.geojson
-on=(--area some.geojson --void-size 2.4)
+on=(--area some.geojson --void-rule 2.4)
 check() {  # EXIT_CODE ARGUMENT...
   local code=0
   "$program" check "${@:2}" "${on[@]}" >checked.txt 2>checked.err || code=$?
@@ -232,10 +240,10 @@ undecided "few points" "too few points: their spacing is 2.00, and voids of 2.40
 "$program" detect synthetic.txt "${on[@]}" --out synthetic >synthetic.out 2>synthetic.err  # its exit code is 0
 grep -q "not decided: all 5," synthetic.out
 ogr2ogr -f GPKG -a_srs EPSG:25832 some.gpkg some.geojson
-on=(--area some.gpkg --void-size 2.4)
+on=(--area some.gpkg --void-rule 2.4)
 check 0 utm32.las
 undecided "different systems" "files of the scan have different coordinate" utm32.las utm33.las
-on=(--area some.geojson --void-size 2.4)
+on=(--area some.geojson --void-rule 2.4)
 
 # ---- what is refused
 refuse() {
@@ -249,15 +257,18 @@ refuse() {
 }
 some=(holes.xyz --columns "x y z" --out refused)
 for command in check detect; do
-  refuse "void_size = 0: --area needs it" "$command" "${some[@]}" --area holes.geojson
-  refuse "nothing.gpkg: no such file" "$command" "${some[@]}" --area nothing.gpkg --void-size 4
-  refuse "holes.xyz: cannot be read as GeoPackage" "$command" "${some[@]}" --area holes.xyz --void-size 4
-  refuse "void_size = 1e-06: the area has .* cells of an eighth of it, more than .* allowed: .* or more" "$command" "${some[@]}" \
-    --area holes.geojson --void-size 1e-6
-  refuse "area_tile is less than void_size" "$command" "${some[@]}" --area holes.geojson --void-size 4 --area-tile 3
+  refuse "void_rule = \"\": --area needs it; allowed: a length above 0, or" "$command" "${some[@]}" --area holes.geojson
+  refuse "nothing.gpkg: no such file" "$command" "${some[@]}" --area nothing.gpkg --void-rule 4
+  refuse "holes.xyz: cannot be read as GeoPackage" "$command" "${some[@]}" --area holes.xyz --void-rule 4
+  refuse "void_rule = 1e-6: the area has .* cells of an eighth of this size, more than .* allowed: a size of .* or more" "$command" "${some[@]}" \
+    --area holes.geojson --void-rule 1e-6
+  for rule in 0 -1 nan 4m anps: anps spacing3:1; do
+    refuse "void_rule = \"$rule\"; allowed: a length above 0, or" "$command" "${some[@]}" --area holes.geojson --void-rule=$rule
+  done
+  refuse "area_tile is less than the void size, 4.0" "$command" "${some[@]}" --area holes.geojson --void-rule 4 --area-tile 3
 done
 echo '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":{"type":"Point","coordinates":[1,2]}}]}' >point.geojson
-refuse "point.geojson: has no polygon" check "${some[@]}" --area point.geojson --void-size 4
+refuse "point.geojson: has no polygon" check "${some[@]}" --area point.geojson --void-rule 4
 python3 - <<'END'
 import random
 draw = random.Random(1)
@@ -267,7 +278,7 @@ with open("wide.xyz", "w") as out:
 END
 echo '{"type":"Polygon","coordinates":[[[0,0],[299,0],[299,299],[0,299],[0,0]]]}' >wide.geojson
 refuse "points are so far apart that outlines of voids have .* edges" check wide.xyz --columns "x y z" --area wide.geojson \
-  --void-size 1.5 --memory-limit 112MiB
+  --void-rule 1.5 --memory-limit 112MiB
 refuse "--area is required" check "${some[@]}"
 refuse "earth.txt: its places are geocentric, as of EPSG:4978, and --area needs a plan; .*EPSG:32632" check earth.txt \
   --columns "x y z" "${on[@]}"
@@ -276,10 +287,10 @@ for system in EPSG:4978 EPSG:4936; do
   refuse "is geocentric, and --coverage needs a plan" detect earth.txt --columns "x y z" --crs $system --coverage 1 --out refused
 done
 refuse "utm.holes.json: its coordinates, such as 5.*, are read as degrees by RFC 7946, .*a GeoPackage" check utm.xyz \
-  --columns "x y z" --crs EPSG:25832 --area utm.holes.json --void-size 4
+  --columns "x y z" --crs EPSG:25832 --area utm.holes.json --void-rule 4
 refuse "memory_limit = 64MiB is too little for files for GIS" check west.txt "${on[@]}" --memory-limit 64MiB
 mkdir -p refused
 echo mine >refused/voids.csv
-refuse "refused/voids.csv: " check "${some[@]}" --area holes.geojson --void-size 4
-refuse "refused/voids.csv: " detect "${some[@]}" --area holes.geojson --void-size 4
+refuse "refused/voids.csv: " check "${some[@]}" --area holes.geojson --void-rule 4
+refuse "refused/voids.csv: " detect "${some[@]}" --area holes.geojson --void-rule 4
 [[ $(cat refused/voids.csv) == mine ]]

@@ -151,7 +151,7 @@ TEST_CASE("a disk that is too small for a GeoPackage ends the check of an area w
       test::skip("cannot mount a small disk");
       return;
     }
-    const ProgramResult result = run_program({"check", scan, "--area", area, "--void-size", "4", "--out",
+    const ProgramResult result = run_program({"check", scan, "--area", area, "--void-rule", "4", "--out",
                                               (disk.path() / "out").string(), "--quiet"});
     CHECK(result.exit_code == 1);  // the scan has a void
     const std::size_t error = result.err.rfind("lacuna: error: ");

@@ -81,7 +81,7 @@ TEST_CASE("the check of an area stays within the memory limit") {
                                         R"([[[0.1, 0.1], [9.9, 0.1], [9.9, 9.9], [0.1, 9.9], [0.1, 0.1]]]})");
   REQUIRE(test::run_bench({"synth", "surface", scan, "--points", "1000000"}).exit_code == 0);
   const test::ProgramResult result =
-      test::run_program({"check", scan, "--area", area, "--void-size", "0.04", "--memory-limit", "112MiB"});
+      test::run_program({"check", scan, "--area", area, "--void-rule", "0.04", "--memory-limit", "112MiB"});
   CHECK_THAT(result.out, Catch::Matchers::Contains("voids: 8 of"));
   CAPTURE(result.peak_memory >> 20);  // MiB
   CHECK(result.peak_memory <= 112 << 20);

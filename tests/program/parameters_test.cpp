@@ -62,7 +62,7 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"crs", "EPSG:25832"},
     {"unit", "m"},
     {"unit_z", "ft"},
-    {"void_size", "4"},
+    {"void_rule", "4"},
     {"except", "water.gpkg"},
     {"area_tile", "50"},
     {"points_format", "ply"},
