@@ -41,8 +41,8 @@ std::string classes_of(const FileScan& scan, const InputConfig& config) {
   return text;
 }
 
-std::string swaths_of(const PlanOfPoints& points) {
-  if (points.swaths.empty()) return "not stated: no point has a point_source_id";
+std::string swaths_of(const PlanOfPoints& points, const FileScan& scan) {
+  if (files_with(scan, "point_source_id") == 0) return "all: no file states them";
   return counted(points.swaths.size(), "value") + " of point_source_id, taken together";
 }
 
@@ -53,15 +53,17 @@ std::vector<BasisLine> basis_of(const AreaCheck& check, const Area& area, const 
   const std::string& unit = scan.length_unit();
   std::string polygons = config.area.area + ", " + counted(area.polygons.size(), "polygon");
   if (!config.area.except.empty()) polygons += "; voids in " + config.area.except + " do not count";
-  const std::string least = print(check.void_size, unit), &rule = config.area.void_rule;
+  const std::string least = print(check.void_size, unit);
+  const std::string& rule = config.area.void_rule;
   std::string point = "covers what is nearer than " + print(check.void_size / 2, unit);
   if (std::isfinite(check.spacing)) point += "; spacing " + print(check.spacing, unit) + " where points are";
+  if (!config.area.classes.empty()) polygons += "; map of " + config.area.classes;
   return {{"area", polygons},
           {"voids", "circles of " + least + " or more without points" +
                         (rule.find(':') == rule.npos ? "" : ", by the rule " + rule)},
           {"returns", returns_of(scan)},
-          {"classes", classes_of(scan, config.input)},
-          {"swaths", swaths_of(points)},
+          {"point classes", classes_of(scan, config.input)},
+          {"swaths", swaths_of(points, scan)},
           {"a point", point}};
 }
 

@@ -55,6 +55,7 @@ struct Void {
   Eigen::Vector2d middle{0, 0};  // of that circle
   double spacing = 0;            // of the points around it; NaN where there are none
   double excepted = 0;           // share that lies in exceptions, [0, 1]
+  std::vector<double> shares;    // of it within each of AreaCheck::classes, [0, 1]
   bool counts = true;            // not covered by an exception
   PlanPolygon outline;           // along cells; the outer ring first
 };
@@ -82,6 +83,12 @@ struct AreaPolygon {
   double covered() const { return 1 - missing_area / area; }  // share of its area
 };
 
+// Polygons of a map, such as buildings.
+struct AreaClass {
+  std::string name;       // of their file, without folder and ending
+  double voids_area = 0;  // of the voids that count, within them
+};
+
 // A thing that figures rest on, such as "returns", and what holds of it.
 struct BasisLine {
   std::string thing, what;
@@ -92,7 +99,7 @@ inline constexpr std::array<std::string_view, 5> kNotShown = {
     "gaps that are narrower than the void size, however long they are",
     "what lies below a roof, a bridge or trees: seen from above, any point covers its place",
     "whether a place was measured by two swaths", "how accurate points are, and of which surface they are",
-    "why a void is there"};
+    "why a void is there, unless a map of --classes has it"};
 
 struct AreaCheck {
   std::vector<AreaPolygon> polygons;  // of the project
@@ -106,7 +113,8 @@ struct AreaCheck {
   // These are as in PlanOfPoints.
   std::uint64_t points = 0, later_returns = 0, synthetic = 0, repeated = 0;
   bool counts_once = true;
-  std::vector<Void> voids;      // those that count first; then by area, the largest first
+  std::vector<Void> voids;  // those that count first; then by area, the largest first
+  std::vector<AreaClass> classes;
   double tile_edge = 0;         // 0: no table
   std::vector<AreaTile> tiles;  // with a part of the area; from south to north, then from west to east
 

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <numbers>
 #include <sstream>
@@ -25,7 +26,7 @@
 namespace lacuna::io {
 namespace {
 
-constexpr const char* kUser = "--area and --except";
+constexpr const char* kUser = "--area, --except and --classes";
 
 // ---- the area
 
@@ -38,6 +39,19 @@ std::vector<PlanPolygon> read_polygons(const std::string& file, const FileScan& 
     spdlog::warn("{}: {} has no coordinate reference system; positions are compared as they are", file,
                  polygons.file_crs.empty() ? "it" : "the scan");
   return std::move(polygons.polygons);
+}
+
+std::vector<ClassPolygons> read_classes(const std::string& files, const FileScan& scan) {
+  std::vector<ClassPolygons> classes;
+  std::istringstream names(files);
+  for (std::string file; std::getline(names, file, ',');) {
+    if (file.empty()) continue;
+    const std::string name = std::filesystem::path(file).stem().string();
+    const bool is_there = std::ranges::find(classes, name, &ClassPolygons::name) != classes.end();
+    if (is_there) throw Error(file + ": a file of --classes before it has this name, too: " + name);
+    classes.push_back({name, read_polygons(file, scan)});
+  }
+  return classes;
 }
 
 // The cells over all polygons.
@@ -218,6 +232,32 @@ std::vector<TracedVoid> trace(const Plan& plan, const PlanGrid& grid) {
   return std::move(task.voids);
 }
 
+// Cells of the voids that count, without exceptions.
+PlanRaster missing_cells(const AreaCheck& check, const std::optional<PlanRaster>& excepted,
+                         const PlanGrid& grid) {
+  PlanRaster missing(grid);
+  for (const Void& each : std::span(check.voids).first(check.counting()))
+    for_each_run(to_cells(each.outline, grid), grid,
+                 [&](std::size_t row, std::size_t from, std::size_t to) { missing.set(row, from, to); });
+  if (excepted) missing.subtract(*excepted);
+  return missing;
+}
+
+// Adds the share of each void within a class, and their sum.
+void add_class(const ClassPolygons& polygons, const PlanGrid& grid, AreaCheck& check) {
+  const PlanRaster covered = rasterise(polygons.polygons, grid);
+  AreaClass& sum = check.classes.emplace_back(AreaClass{.name = polygons.name});
+  for (Void& each : check.voids) {
+    std::uint64_t cells = 0, within = 0;
+    for_each_run(to_cells(each.outline, grid), grid, [&](std::size_t row, std::size_t from, std::size_t to) {
+      cells += to - from;
+      within += count_bits(covered.row(row), from, to);
+    });
+    each.shares.push_back(static_cast<double>(within) / static_cast<double>(cells));
+    if (each.counts) sum.voids_area += grid.area(within);
+  }
+}
+
 bool has_other_systems(const FileScan& scan) {
   return scan.common_crs().empty() &&
          std::ranges::any_of(scan.files(), [](const ScanFile& file) { return !file.crs.empty(); });
@@ -279,6 +319,7 @@ std::optional<Area> read_area(const FileScan& scan, const FilesConfig& config) {
   Area area;
   area.polygons = read_polygons(config.area.area, scan);
   if (!config.area.except.empty()) area.exceptions = read_polygons(config.area.except, scan);
+  area.classes = read_classes(config.area.classes, scan);
   area.grid = grid_over(area.polygons, area.exceptions.empty() ? 3 : 4, config);
   return area;
 }
@@ -305,26 +346,22 @@ AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config
                   .synthetic = points.synthetic,
                   .repeated = points.repeated,
                   .counts_once = points.counts_once};
-  std::vector<TracedVoid> found = trace(plan, grid);
-  PlanRaster missing(grid);
-  for (TracedVoid& traced : found) {
-    const Void& each = check.voids.emplace_back(plan.measure(std::move(traced), tiles));
-    check.voids_area += each.area;
-    if (!each.counts) continue;
-    for_each_run(to_cells(each.outline, grid), grid,
-                 [&](std::size_t row, std::size_t from, std::size_t to) { missing.set(row, from, to); });
-  }
-  if (excepted) missing.subtract(*excepted);
-  check.missing_area = grid.area(missing.count());
+  for (TracedVoid& traced : trace(plan, grid))
+    check.voids_area += check.voids.emplace_back(plan.measure(std::move(traced), tiles)).area;
   std::sort(check.voids.begin(), check.voids.end(), [](const Void& a, const Void& b) {
     const auto key = [](const Void& v) { return std::tuple(!v.counts, -v.area, v.middle.x(), v.middle.y()); };
     return key(a) < key(b);
   });
   check.undecided = undecided_reasons(points, check, scan);
   check.basis = basis_of(check, area, points, scan, config);
-  const std::vector<MiddleCell> middles = middles_of(check, grid);
-  for (const PlanPolygon& outline : area.polygons)
-    check.polygons.push_back(measure(outline, grid, missing, middles));
+  {  // one such raster at a time
+    const PlanRaster missing = missing_cells(check, excepted, grid);
+    check.missing_area = grid.area(missing.count());
+    const std::vector<MiddleCell> middles = middles_of(check, grid);
+    for (const PlanPolygon& outline : area.polygons)
+      check.polygons.push_back(measure(outline, grid, missing, middles));
+  }
+  for (const ClassPolygons& polygons : area.classes) add_class(polygons, grid, check);
   progress.end();
   check.tile_edge = config.area.area_tile;
   check.tiles = tiles.with_area();

@@ -10,13 +10,20 @@
 #include "io/scan/file_scan.hpp"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace lacuna::io {
 
+struct ClassPolygons {
+  std::string name;  // as in AreaClass
+  std::vector<PlanPolygon> polygons;
+};
+
 // The polygons of an area, and the cells over them.
 struct Area {
   std::vector<PlanPolygon> polygons, exceptions;  // in coordinates of the scan
+  std::vector<ClassPolygons> classes;             // likewise
   PlanGrid grid;
 };
 

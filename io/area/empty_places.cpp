@@ -28,6 +28,8 @@ void load_if_any(const RowBatch& rows, const RowLayout& layout, const char* name
   if (column != nullptr) load_column(rows, layout.stride, *column, values);
 }
 
+constexpr std::size_t kMostSwaths = 65'536;  // values of point_source_id in LAS
+
 struct MeasuredPoint {
   Eigen::Vector3d place;
   double time = 0;   // 0: not stated
@@ -115,7 +117,7 @@ class MarkingObserver : public PlanObserver {
     if (!grid().contains(at)) return;
     hull.add(at);
     if (!is_inside(at) || (repeated.add(point.place, point.time) && once_)) return;
-    if (!std::isnan(point.swath)) plan.swaths.insert(point.swath);
+    if (!std::isnan(point.swath) && plan.swaths.size() < kMostSwaths) plan.swaths.insert(point.swath);
     const auto column = static_cast<std::size_t>(at.x()), row = static_cast<std::size_t>(at.y());
     ++plan.points;
     plan.density.add(column, row);

@@ -9,4 +9,6 @@ namespace lacuna::io {
 inline constexpr const char* kVoidsFile = "voids.json";
 inline constexpr std::string_view kVoidsSchema = "voids 2";
 
+inline constexpr std::string_view kShareColumn = "in_";  // before the name of a class
+
 }  // namespace lacuna::io

@@ -63,13 +63,14 @@ struct OutputConfig {
 // Whether the scan covers an area.
 struct AreaConfig {
   std::string area, except;  // files of polygons; empty: none
+  std::string classes;       // files of polygons, divided by commas
   std::string void_rule;     // as in void_size_of
   double area_tile = 0;      // edge of the squares of the table; 0: no table
 };
 
-// Returns the diameter of the least void, in units of the scan. A rule is this length, such as "2.8", or the
-// nominal spacing of points after the name of a rule, such as "anps:0.7". docs/area.md has the sources of the
-// names. Throws `Error`.
+// Returns the diameter of the least void, in units of the scan. A rule is this length, such as "2.8". Or it
+// is a name with the nominal spacing of points, such as "anps:0.7". Names and their sources are in
+// docs/area.md. Throws `Error`.
 LACUNA_API double void_size_of(const AreaConfig& area);
 
 struct FilesConfig : Config {

@@ -21,7 +21,9 @@ Json rings_json(const PlanPolygon& polygon) {
   return rings;
 }
 
-Json void_json(std::size_t id, const Void& each) {
+Json void_json(std::size_t id, const Void& each, const AreaCheck& check) {
+  Json shares = Json::object();
+  for (std::size_t i = 0; i < check.classes.size(); ++i) shares[check.classes[i].name] = each.shares[i];
   return {{"id", id},
           {"kind", name_of(each.kind)},
           {"counts", each.counts},
@@ -30,6 +32,7 @@ Json void_json(std::size_t id, const Void& each) {
           {"middle", {each.middle.x(), each.middle.y()}},
           {"spacing", each.spacing},
           {"excepted", each.excepted},
+          {"classes", shares},
           {"outline", rings_json(each.outline)}};
 }
 
@@ -77,6 +80,9 @@ void write_json(const AreaCheck& check, const FileScan& scan, const AreaConfig& 
   head["area"] = check.area;
   head["voids_area"] = check.voids_area;
   head["missing_area"] = check.missing_area;
+  head["classes"] = Json::array();
+  for (const AreaClass& each : check.classes)
+    head["classes"].push_back({{"name", each.name}, {"voids_area", each.voids_area}});
   head["points"] = check.points;
   head["spacing"] = check.spacing;
   head["tile_edge"] = check.tile_edge;
@@ -87,20 +93,24 @@ void write_json(const AreaCheck& check, const FileScan& scan, const AreaConfig& 
   write_list(
       "polygons", check.polygons, [&](std::size_t i) { return polygon_json(check.polygons[i], check); }, out);
   write_list(
-      "voids", check.voids, [&](std::size_t i) { return void_json(i, check.voids[i]); }, out);
+      "voids", check.voids, [&](std::size_t i) { return void_json(i, check.voids[i], check); }, out);
   write_list(
       "tiles", check.tiles, [&](std::size_t i) { return tile_json(check.tiles[i]); }, out);
   out.write("\n}\n");
 }
 
 void write_table(const AreaCheck& check, OutputFile& out) {
-  out.write("id,kind,counts,area,circle,x,y,spacing,excepted\n");
+  out.write("id,kind,counts,area,circle,x,y,spacing,excepted");
+  for (const AreaClass& each : check.classes) out.write("," + std::string(kShareColumn) + each.name);
+  out.write("\n");
   for (std::size_t id = 0; id < check.voids.size(); ++id) {
     const Void& each = check.voids[id];
     std::string line = std::to_string(id);
     line.append(",").append(name_of(each.kind)).append(each.counts ? ",1" : ",0");
-    for (const double value :
-         {each.area, each.circle, each.middle.x(), each.middle.y(), each.spacing, each.excepted}) {
+    std::vector<double> values = {each.area,       each.circle,  each.middle.x(),
+                                  each.middle.y(), each.spacing, each.excepted};
+    values.insert(values.end(), each.shares.begin(), each.shares.end());
+    for (const double value : values) {
       line += ',';
       if (std::isfinite(value)) append_shortest(line, value);
     }

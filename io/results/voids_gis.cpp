@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/results/voids_gis.hpp"
 
+#include "io/area/voids_form.hpp"
 #include "io/crs/gdal_session.hpp"
 
 #include <cmath>
@@ -29,15 +30,12 @@ class VoidsWriter {
     require(driver != nullptr);
     dataset_.reset(driver->Create(out_.place.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
     require(dataset_ != nullptr);
-    write_voids(create_layer(kVoidsLayer, {{"id", OFTInteger64},
-                                           {"kind", OFTString},
-                                           {"counts", OFTInteger},
-                                           {"area", OFTReal},
-                                           {"circle", OFTReal},
-                                           {"x", OFTReal},
-                                           {"y", OFTReal},
-                                           {"spacing", OFTReal},
-                                           {"excepted", OFTReal}}));
+    Fields columns = {{"id", OFTInteger64}, {"kind", OFTString},  {"counts", OFTInteger},
+                      {"area", OFTReal},    {"circle", OFTReal},  {"x", OFTReal},
+                      {"y", OFTReal},       {"spacing", OFTReal}, {"excepted", OFTReal}};
+    for (const AreaClass& each : check_.classes)
+      columns.emplace_back(std::string(kShareColumn) + each.name, OFTReal);
+    write_voids(create_layer(kVoidsLayer, columns));
     write_polygons(create_layer(
         kAreaLayer, {{"answer", OFTString}, {"area", OFTReal}, {"covered", OFTReal}, {"circle", OFTReal}}));
     if (!check_.tiles.empty())
@@ -53,7 +51,7 @@ class VoidsWriter {
   }
 
  private:
-  using Fields = std::vector<std::pair<const char*, OGRFieldType>>;
+  using Fields = std::vector<std::pair<std::string, OGRFieldType>>;
 
   void require(bool is_well) const { failures_.require(is_well, out_.name); }
 
@@ -63,7 +61,7 @@ class VoidsWriter {
     OGRLayer* const layer = dataset_->CreateLayer(name, &crs_, wkbPolygon, options.List());
     require(layer != nullptr);
     for (const auto& [field_name, type] : fields) {
-      OGRFieldDefn field(field_name, type);
+      OGRFieldDefn field(field_name.c_str(), type);
       require(layer->CreateField(&field) == OGRERR_NONE);
     }
     return *layer;
@@ -102,6 +100,7 @@ class VoidsWriter {
       for (const double value :
            {each.area, each.circle, each.middle.x(), each.middle.y(), each.spacing, each.excepted})
         set(feature, field++, value);
+      for (const double share : each.shares) set(feature, field++, share);
       put(layer, feature, each.outline);
     }
     require(layer.CommitTransaction() == OGRERR_NONE);

@@ -122,6 +122,44 @@ for rule in anps:1 spacing2:2; do
   grep -q "^  voids .* circles of 4 or more without points, by the rule $rule$" ruled.txt
 done
 
+# ---- what lies in voids, by a map
+python3 - <<'END'
+import json
+def write(name, *squares):
+    rings = [[[x, y], [x + e, y], [x + e, y + e], [x, y + e], [x, y]] for x, y, e in squares]
+    json.dump({"type": "MultiPolygon", "coordinates": [[ring] for ring in rings]}, open(name, "w"))
+write("buildings.geojson", (5, 5, 20))   # over the hole at 15 15
+write("water.geojson", (10, 45, 20), (200, 200, 5))  # over the northern half of the one at 20 45
+END
+"$program" check holes.xyz --columns "x y z" --area holes.geojson --void-rule 4 --classes buildings.geojson \
+  --classes water.geojson --out classes >classes.txt 2>classes.err || true
+ogr2ogr -f CSV layer.csv classes/voids.gpkg lacuna_voids
+python3 - <<'END'
+import csv, json
+from math import fsum
+found = json.load(open("classes/voids.json"))
+rows, layer = (list(csv.DictReader(open(name))) for name in ("classes/voids.csv", "layer.csv"))
+is_near = lambda void, x, y: abs(void["middle"][0] - x) + abs(void["middle"][1] - y) < 2
+seen = 0
+for void, row, feature in zip(found["voids"], rows, layer):
+    shares = void["classes"]
+    for name, share in shares.items():
+        assert float(row["in_" + name]) == share and abs(float(feature["in_" + name]) - share) < 1e-9, (row, feature)
+    if is_near(void, 15, 15):
+        assert shares == {"buildings": 1, "water": 0}, shares
+    elif is_near(void, 20, 45):
+        assert .45 < shares["water"] < .55 and shares["buildings"] == 0, shares
+    else:
+        assert shares == {"buildings": 0, "water": 0}, shares
+        continue
+    seen += 1
+assert seen == 2
+for sum in found["classes"]:
+    area = [void["area"] * void["classes"][sum["name"]] for void in found["voids"]]
+    assert abs(sum["voids_area"] - fsum(area)) < 1e-6 and sum["voids_area"] > 30
+END
+grep -q "^  of the voids that count, .* lie in buildings$" classes.txt
+
 # ---- an area that is covered
 "$program" check holes.xyz --columns "x y z" --area holes.geojson --void-rule 30 >covered.txt
 head -n 1 covered.txt | grep -qx covered
@@ -174,18 +212,18 @@ grep -q "; 14[0-9] synthetic points take no part" checked.txt
 grep -q "; 14[0-9] flagged as synthetic, which were not measured" filled.out
 check 0 mixed.txt
 grep -q "; 2,[0-9]* later returns take no part" checked.txt
-grep -q "^  returns  first ones alone$" checked.txt
-grep -q "^  classes  all: no file states them$" checked.txt
-grep -q "^  swaths   not stated" checked.txt
+grep -q "^  returns *first ones alone$" checked.txt
+grep -q "^  point classes *all: no file states them$" checked.txt
+grep -q "^  swaths *all: no file states them$" checked.txt
 check 0 swaths.txt
-grep -q "^  returns  all: no file states them$" checked.txt
-grep -q "^  swaths   2 values of point_source_id" checked.txt  # the third is out of the area
-grep -q "^  area     some.geojson, 1 polygon$" checked.txt
-grep -q "^  a point  covers what is nearer than 1.2; spacing 0.[45]" checked.txt
+grep -q "^  returns *all: no file states them$" checked.txt
+grep -q "^  swaths *2 values of point_source_id" checked.txt  # the third is out of the area
+grep -q "^  area *some.geojson, 1 polygon$" checked.txt
+grep -q "^  a point *covers what is nearer than 1.2; spacing 0.[45]" checked.txt
 check 0 mixed.txt --where "return_number == 1"
-grep -q "^  classes  .*, where return_number == 1$" checked.txt
+grep -q "^  point classes *.*, where return_number == 1$" checked.txt
 check 0 swaths.txt mixed.txt
-grep -q "^  returns  first ones alone; all points of 1 file, which state none$" checked.txt
+grep -q "^  returns *first ones alone; all points of 1 file, which state none$" checked.txt
 check 0 west.txt east.txt --area-tile 20 --out tiles
 python3 -c 'import json
 found = json.load(open("tiles/voids.json"))
@@ -227,6 +265,7 @@ undecided() {  # REASON TEXT ARGUMENT...
   check 3 "${@:3}" --out undecided
   grep -q "^lacuna: some[.a-z]*: not decided: $2" checked.err || { echo "not '$2' but:"; cat checked.err; exit 1; }
   grep -q "^not decided: $2" checked.txt
+  [[ $(grep -c "of it covered" checked.txt) == 0 ]]
   python3 -c 'import json, sys
 found = json.load(open("undecided/voids.json"))
 assert found["answer"] == "not decided" and found["undecided"] == [sys.argv[1]], found["undecided"]' "$1"
@@ -267,6 +306,8 @@ for command in check detect; do
   done
   refuse "area_tile is less than the void size, 4.0" "$command" "${some[@]}" --area holes.geojson --void-rule 4 --area-tile 3
 done
+refuse "water.geojson: a file of --classes before it has this name, too: water" check "${some[@]}" --area holes.geojson \
+  --void-rule 4 --classes water.gpkg,water.geojson
 echo '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":{"type":"Point","coordinates":[1,2]}}]}' >point.geojson
 refuse "point.geojson: has no polygon" check "${some[@]}" --area point.geojson --void-rule 4
 python3 - <<'END'

@@ -64,6 +64,7 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"unit_z", "ft"},
     {"void_rule", "4"},
     {"except", "water.gpkg"},
+    {"classes", "buildings.gpkg"},
     {"area_tile", "50"},
     {"points_format", "ply"},
     {"sample_points", "200"},

@@ -59,7 +59,8 @@ void run_check(const CheckArguments& arguments) {
   const std::string answer = print_answer(check, unit);
   std::string text = answer + "\n\n";
   if (const std::string voids = print_voids(check, unit); !voids.empty()) text += voids + "\n";
-  text += "  area  " + print_covered(check, unit) + "\n\n" + print_basis(check) + "\n";
+  text += "  area  " + print_covered(check, unit) + "\n" + print_classes(check, unit) + "\n" +
+          print_basis(check) + "\n";
   if (folder) {
     for (const auto& file : write_voids(check, *scan, config.area, *folder))
       text += "written: " + visible(file.string()) + "\n";

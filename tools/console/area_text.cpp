@@ -81,8 +81,22 @@ std::string print_taking_no_part(const AreaCheck& check) {
 
 std::string print_covered(const AreaCheck& check, std::string_view unit) {
   const double share = check.area > 0 ? 1 - check.missing_area / check.area : 1;
-  return tools::print_area(check.area, unit) + ", " + print_share(share) + " of it covered; " +
-         print_count(check.points) + " points" + print_taking_no_part(check);
+  const std::string covered =
+      check.answer() == AreaAnswer::kNotDecided ? "" : ", " + print_share(share) + " of it covered";
+  return tools::print_area(check.area, unit) + covered + "; " + print_count(check.points) + " points" +
+         print_taking_no_part(check);
+}
+
+std::string print_classes(const AreaCheck& check, std::string_view unit) {
+  double voids_area = 0;
+  for (std::size_t id = 0; id < check.counting(); ++id) voids_area += check.voids[id].area;
+  std::string text;
+  for (const AreaClass& each : check.classes) {
+    const double share = voids_area > 0 ? each.voids_area / voids_area : 0;
+    text += "  of the voids that count, " + tools::print_area(each.voids_area, unit) + " (" +
+            print_share(share) + ") lie in " + visible(each.name) + "\n";
+  }
+  return text;
 }
 
 std::string print_basis(const AreaCheck& check) {

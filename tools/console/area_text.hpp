@@ -14,9 +14,12 @@ namespace lacuna::tools {
 // reasons.
 std::string print_answer(const io::AreaCheck& check, std::string_view unit);
 
-// "12,300 m², 98.7 % of it covered; 45,600 points".
+// "12,300 m², 98.7 % of it covered; 45,600 points", without the share where the answer is not decided.
 // Points that take no part follow, if there are any.
 std::string print_covered(const io::AreaCheck& check, std::string_view unit);
+
+// "of the voids that count, 120 m² (34.1 %) lie in buildings"; a line for each class.
+std::string print_classes(const io::AreaCheck& check, std::string_view unit);
 
 // Returns what the figures rest on, a line for each thing, and what the check does not show.
 std::string print_basis(const io::AreaCheck& check);

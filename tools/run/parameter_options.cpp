@@ -60,8 +60,8 @@ ParameterOptions::ParameterOptions(const Command& command, ParameterScope scope)
                                      help + " Allowed: " + std::string(parameter.allowed) + ".");
     option.type(type_name(parameter)).section(std::string(parameter.section));
     if (std::ranges::find(kCommon, parameter.key) == kCommon.end()) option.rare();
-    if (parameter.key == "leave_out") {
-      option.joined_by_comma();  // one box each
+    if (parameter.key == "leave_out" || parameter.key == "classes") {
+      option.joined_by_comma();  // one box, or one file, each
     } else {
       option.once();
     }

@@ -38,9 +38,10 @@ function area_facts({report}, units) {
   const share = (part) => `${(100 * part / area.area).toPrecision(3)} %`;
   const rows = [["Answer", [area.answer, ...area.undecided].join(", "), "changed"],
                 ["Area", units.area(area.area, 4)],
-                ["Covered", share(area.area - area.missing_area)],
+                ...(area.undecided.length === 0 ? [["Covered", share(area.area - area.missing_area)]] : []),
                 [`Voids of ${units.length(area.void_size)} or more`, format_count(area.counting)],
                 ...(excepted > 0 ? [["Voids in exceptions", format_count(excepted)]] : []),
+                ...area.classes.map(({name, voids_area}) => [`Voids in ${name}`, units.area(voids_area)]),
                 ["Points in it", format_count(area.points)],
                 ["Polygons", area.file, "wide"],
                 ...(area.except ? [["Exceptions", area.except, "wide"]] : [])];
