@@ -288,13 +288,13 @@ class Files(Folder):
         area = self.folder / "area.geojson"
         square = [[[5, 5], [55, 5], [55, 55], [5, 55], [5, 5]]]
         area.write_text(json.dumps({"type": "Polygon", "coordinates": square}))
-        program = [PROGRAM, "check", self.folder / "s.xyz", "--area", area, "--out", self.folder / "out", "--void-size", "9"]
+        program = [PROGRAM, "check", self.folder / "s.xyz", "--area", area, "--out", self.folder / "out", "--void-rule", "9"]
         subprocess.run(program, check=False, capture_output=True)
-        checked = lacuna.check(self.folder / "s.xyz", area, out=self.folder / "ours", void_size=9)
+        checked = lacuna.check(self.folder / "s.xyz", area, out=self.folder / "ours", void_rule=9)
         self.assertEqual(len(checked["voids"]), 2)
         for name in ("voids.json", "voids.csv"):
             self.assertEqual((self.folder / "ours" / name).read_bytes(), (self.folder / "out" / name).read_bytes())
-        self.assertEqual(lacuna.check(self.folder / "s.xyz", area, void_size=9), checked)
+        self.assertEqual(lacuna.check(self.folder / "s.xyz", area, void_rule=9), checked)
         with self.assertRaisesRegex(lacuna.Error, "area"):
             lacuna.check(self.folder / "s.xyz", "")
 
