@@ -53,39 +53,32 @@ double extent_of(const Summary& summary) {
   return bounds.isEmpty() ? 0 : bounds.sizes().maxCoeff();
 }
 
-// The loops of one kind, for one sentence.
-struct Kind {
-  std::vector<std::size_t> loops;  // by area, the largest first
-  double perimeter = 0;            // of all together
-};
-
-Kind loops_of(const std::vector<LoopMeasures>& loops, LoopKind kind) {
-  Kind all;
+// Returns the loops of one kind by area, the largest first.
+std::vector<std::size_t> loops_of(const std::vector<LoopMeasures>& loops, LoopKind kind) {
+  std::vector<std::size_t> found;
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (loops[i].kind != kind) continue;
-    all.loops.push_back(i);
-    all.perimeter += loops[i].perimeter;
+    if (loops[i].kind == kind) found.push_back(i);
   }
-  std::stable_sort(all.loops.begin(), all.loops.end(),
+  std::stable_sort(found.begin(), found.end(),
                    [&](std::size_t a, std::size_t b) { return loops[a].area > loops[b].area; });
-  return all;
+  return found;
 }
 
-std::string print_largest(const std::vector<LoopMeasures>& loops, const Kind& holes, double extent,
-                          std::string_view unit) {
-  if (holes.loops.empty()) return "";
+std::string print_largest(const std::vector<LoopMeasures>& loops, const std::vector<std::size_t>& holes,
+                          double extent, std::string_view unit) {
+  if (holes.empty()) return "";
   std::vector<std::vector<std::string>> rows = {
       {"largest holes", "area", "perimeter", "diameter", "centre", "points", "confidence"}};
-  for (std::size_t at = 0; at < std::min(holes.loops.size(), kMostRows); ++at) {
-    const LoopMeasures& loop = loops[holes.loops[at]];
-    rows.push_back({"loop " + std::to_string(holes.loops[at]), print_area(loop.area, unit),
+  for (std::size_t at = 0; at < std::min(holes.size(), kMostRows); ++at) {
+    const LoopMeasures& loop = loops[holes[at]];
+    rows.push_back({"loop " + std::to_string(holes[at]), print_area(loop.area, unit),
                     print_length(loop.perimeter, unit), print_length(loop.diameter, unit),
                     print_place(loop.centroid, extent), print_count(loop.points),
                     print_share(loop.track.confidence)});
   }
   std::string text = "\n" + print_table(rows);
-  if (holes.loops.size() > kMostRows) {
-    text += "  and " + counted(holes.loops.size() - kMostRows, "more hole", "more holes") +
+  if (holes.size() > kMostRows) {
+    text += "  and " + counted(holes.size() - kMostRows, "more hole", "more holes") +
             ": holes.csv has them all\n";
   }
   return text;
@@ -170,16 +163,14 @@ std::string print_summary(const ExplainedDetection& detection, const FileScan& s
   const Summary& summary = detection.summary;
   const std::vector<LoopMeasures>& loops = detection.loops;
   const double extent = extent_of(summary);
-  const Kind holes = loops_of(loops, LoopKind::kHole);
-  const Kind outer = loops_of(loops, LoopKind::kOuter);
+  const std::vector<std::size_t> holes = loops_of(loops, LoopKind::kHole);
+  const std::size_t outer = loops.size() - holes.size();
   const std::string causes = print_causes(detection.causes);
 
-  std::string text = counted(holes.loops.size(), "hole", "holes") + ", " +
-                     counted(outer.loops.size(), "outer curve", "outer curves") + "\n" +
+  std::string text = counted(holes.size(), "hole", "holes") + ", " +
+                     counted(outer, "outer curve", "outer curves") + "\n" +
                      print_largest(loops, holes, extent, unit) + "\n";
   auto facts = findings(summary, scan, unit);
-  if (!outer.loops.empty())
-    facts.emplace_back("outer curves", print_length(outer.perimeter, unit) + " long in all");
   if (detection.area) {
     facts.emplace_back("area", print_answer(*detection.area, unit));
     facts.emplace_back("", print_covered(*detection.area, unit));
