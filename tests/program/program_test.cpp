@@ -196,19 +196,6 @@ TEST_CASE("a run creates its folder, prints what it found unless it is quiet, an
   CHECK((quiet.exit_code == 0 && quiet.out.empty() && quiet.err.empty()));
 }
 
-TEST_CASE("a run says which programs cannot read the 64-bit coordinates that it wrote") {
-  const ScratchFolder scratch;
-  const auto output = [&](const std::string& scan, const Words& more) {
-    return run_program(with({"detect", scan, "--out", (scratch / "out").string(), "--points"}, more)).out;
-  };
-  const std::string doubles = scratch.write("scan.txt", sheet(20));
-  CHECK_THAT(output(doubles, {"--points-format", "csv"}),
-             Contains("note: PCL takes the 64-bit coordinates of PLY files for 0 0 0; --local-coordinates"));
-  CHECK_THAT(output(doubles, {"--points-format", "ply", "--local-coordinates"}), !Contains("note:"));
-  const std::string floats = scratch.write("scan.ply", test::ascii_ply("1 2 3\n"));
-  CHECK_THAT(output(floats, {"--points-format", "ply"}), Contains("written: ") && !Contains("note:"));
-}
-
 TEST_CASE("results replace earlier results alone, and all of them") {
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.txt", sheet(20));
