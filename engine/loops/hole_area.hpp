@@ -12,8 +12,8 @@ namespace lacuna {
 
 // Returns the area of the selected holes. Where they overlap, a place counts for the largest of them alone.
 // Up to 32 places of each hole, spread over its polygon in its plane, are compared with all larger holes. A
-// place is in another hole if it is within its polygon, projected along its normal, and near its plane: at
-// most a quarter of the root of the place's own hole's area away. The normals differ by less than 60 degrees.
+// place is in another hole if it is within its polygon, projected along its normal, and near its plane. Near
+// is a quarter of the root of the area of the place's own hole. The normals differ by less than 60 degrees.
 // Memory: 1 kB a hole, beyond a share of the limit on disk. Cost: two passes over the holes, and the points
 // of a hole times the places of smaller ones near it.
 double hole_area(const MeasuredLoops& loops, std::span<const std::size_t> selected, Job& job);

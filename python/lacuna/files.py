@@ -130,7 +130,7 @@ def _folder_of(holes: Result) -> Iterator[str]:
         yield os.fspath(holes._folder)
     else:
         with tempfile.TemporaryDirectory(prefix="lacuna-") as folder:
-            holes.save(folder, sample_points=0)  # nobody compares the sample
+            holes.save(folder)
             yield folder
 
 

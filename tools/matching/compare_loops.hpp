@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which loops of two results of one place are of the same hole, such as before and after a scan was
-// completed, and why one result alone has the others.
+// completed. It says, too, why one result alone has the others.
 #pragma once
 
 #include "engine/model/loop.hpp"
@@ -46,9 +46,9 @@ struct LoopChange {
 // share one. Changes with loops of the second result come first, in its order. `tolerance` is the length up
 // to which two curves of one hole may be apart. `match_loops` has the rule of a match.
 //
-// Surface is where half of up to 64 places over the loop have a point of the other sample within 1.5 of its
-// spacings; of an outer curve, places beyond it. Places nearer than that to the loop do not count. The other
-// scan reaches a loop if half of the loop's points have one of its points within twice that distance.
+// The other scan has surface at a loop if half of up to 64 places over it are near the sample. Near is within
+// 1.5 of its spacings. For an outer curve these are places beyond it. Places so near to the loop do not count.
+// The other scan reaches a loop if half of the loop's points are within twice that distance of its sample.
 std::vector<LoopChange> compare_loops(const ComparedScan& before, const ComparedScan& after,
                                       double tolerance);
 

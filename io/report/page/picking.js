@@ -41,7 +41,7 @@ class LoopPicker {
 }
 
 // {place, distance} of the point nearest to the eye among those close to the ray; null without any.
-// `tangent`: of the angle that is still close; `from`: the least distance that is shown; `section`: lowest and highest height that is shown, along the axis `up`.
+// `tangent`: of the angle that is still close; `from`: the least distance that is shown. `section`: lowest and highest height that is shown, along the axis `up`.
 function point_along({positions, count}, eye, ray, tangent, spacing, from, section, up) {
   let best = -1, nearest = Infinity;
   for (let i = 0; i < count; ++i) {
