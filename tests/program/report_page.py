@@ -111,6 +111,30 @@ def check_seen(driver):
     still(driver)
 
 
+IDS = """return Array.from(document.querySelectorAll('#names-over text:not([hidden])'), (text) => {
+  const box = text.getBoundingClientRect(), canvas = document.getElementById('canvas').getBoundingClientRect();
+  return [Number(text.textContent), box.x + box.width / 2, box.y + box.height / 2,
+          document.elementFromPoint(box.x + box.width / 2, box.y + box.height / 2).id === 'canvas'];
+});"""
+
+
+def check_inside(driver):
+    """Ids stand in their holes, and a click there selects one."""
+    driver.find_element(By.CSS_SELECTOR, "[data-side=top]").click()
+    still(driver)
+    places = [(hole, x, y) for hole, x, y, is_free in driver.execute_script(IDS) if is_free]
+    require(places, f"{len(places)} holes have their ids in the view")
+    found = []
+    for _, x, y in places[:8]:
+        driver.execute_script("for (const type of ['pointerdown', 'pointerup']) document.getElementById('canvas').dispatchEvent(new PointerEvent("
+                              "type, {clientX: arguments[0], clientY: arguments[1], button: 0, isPrimary: true, bubbles: true}));", x, y)
+        found.append(driver.execute_script("return lacuna.selected()"))
+    hits = sum(hole == places[i][0] for i, hole in enumerate(found))
+    require(None not in found and hits > 0, f"a click inside selects a hole, {hits} of {len(found)} the one of the id")
+    press(driver, Keys.ESCAPE)
+    still(driver)
+
+
 def check_keys(driver):
     press(driver, "n")
     still(driver)
@@ -231,6 +255,7 @@ def run(driver, arguments):
                 check_place(driver)
                 check_flight(driver)
                 check_seen(driver)
+                check_inside(driver)
                 check_keys(driver)
                 report_marks.check(driver, count)
                 report_print.check(driver)

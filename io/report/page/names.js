@@ -48,7 +48,7 @@ function hole_around(view, loops, shown, x, y) {
 
 class LoopNames {
   constructor(view, loops) {
-    Object.assign(this, {view, loops});
+    Object.assign(this, {view});
     const size = (i) => (loops.diameter[i] >= 0 ? loops.diameter[i] : -1);
     this.largest = Array.from(loops.id.keys()).filter((i) => loops.is_hole[i]).sort((a, b) => size(b) - size(a)).slice(0, kMostNames);
     const middle = (i) => {
@@ -56,19 +56,20 @@ class LoopNames {
       return box ? box.low.map((value, axis) => (value + box.high[axis]) / 2) : null;
     };
     this.middles = this.largest.map(middle);
+    this.radii = this.largest.map((i) => loop_radius(loops.vertices, loops.first[i], loops.first[i + 1]));
     this.nodes = this.largest.map((i) => drawing("text", {}, String(loops.id[i])));
     find("names-over").replaceChildren(...this.nodes);
   }
 
   // After each picture.
   draw(shown) {
-    const is_shown = new Set(find("show-loops").checked ? shown : []);
+    if (this.shown !== shown) Object.assign(this, {shown, is_shown: new Set(shown)});
+    const are_shown = find("show-loops").checked;
     const {focal} = view_pixels(this.view), {camera} = this.view.navigation;
     this.largest.forEach((index, k) => {
-      const place = this.middles[k] && is_shown.has(index) ? this.middles[k] : null;
+      const place = are_shown && this.is_shown.has(index) ? this.middles[k] : null;
       const ahead = place ? seen_from(camera, place)[2] : 0;
-      const radius = loop_radius(this.loops.vertices, this.loops.first[index], this.loops.first[index + 1]);
-      const is_large = ahead > this.view.nearest() && (2 * radius * focal) / ahead >= kLeastPixels;
+      const is_large = ahead > this.view.nearest() && (2 * this.radii[k] * focal) / ahead >= kLeastPixels;
       const at = is_large ? pixel_of(this.view, place, 0) : null;
       this.nodes[k].toggleAttribute("hidden", !at);
       if (at) this.nodes[k].setAttribute("transform", `translate(${at[0].toFixed(1)} ${at[1].toFixed(1)})`);
