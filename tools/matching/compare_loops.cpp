@@ -45,14 +45,6 @@ bool is_as_large(const LoopMeasures& a, const LoopMeasures& b) {
 // The surface of the other scan where one result alone has a loop.
 enum class Surface { kThere, kEmpty, kUnknown };
 
-// Newell's normal, which a loop that is not flat has, too.
-Eigen::Vector3d normal_of(std::span<const Eigen::Vector3d> loop) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < loop.size(); ++i)
-    sum += (loop[i] - loop[0]).cross(loop[(i + 1) % loop.size()] - loop[0]);
-  return sum;
-}
-
 // A loop in the plane of its normal.
 struct FlatLoop {
   LoopPlane plane;
@@ -60,11 +52,12 @@ struct FlatLoop {
   std::vector<double> heights;  // over the plane
 };
 
-std::optional<FlatLoop> flattened(std::span<const Eigen::Vector3d> loop) {
-  const Eigen::Vector3d normal = normal_of(loop).stableNormalized();
+// Returns nothing for a loop that encloses no area.
+std::optional<FlatLoop> flattened(const ComparedLoop& loop) {
+  const Eigen::Vector3d& normal = loop.measures.normal;
   if (!(normal.norm() > 0.5)) return std::nullopt;
-  FlatLoop flat{LoopPlane(loop[0], normal, normal.unitOrthogonal()), {}, {}};
-  for (const Eigen::Vector3d& point : loop) {
+  FlatLoop flat{LoopPlane(loop.points[0], normal, normal.unitOrthogonal()), {}, {}};
+  for (const Eigen::Vector3d& point : loop.points) {
     const Eigen::Vector3d at = flat.plane(point);
     flat.polygon.push_back(at.head<2>());
     flat.heights.push_back(at.z());
@@ -118,7 +111,7 @@ Surface surface_over(const ComparedLoop& loop, const ComparedScan& other, const 
   if (other.sample.empty() || loop.points.empty() || share_within(loop.points, sample, 2 * reach) < kHalf)
     return Surface::kUnknown;
   const PointTree rim(loop.points);
-  const std::optional<FlatLoop> flat = flattened(loop.points);
+  const std::optional<FlatLoop> flat = flattened(loop);
   if (!flat) return Surface::kUnknown;
   std::vector<Eigen::Vector3d> places =
       loop.measures.kind == LoopKind::kHole ? places_over(*flat) : places_beyond(*flat, 2 * reach);

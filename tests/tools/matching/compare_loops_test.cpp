@@ -21,6 +21,7 @@ ComparedLoop circle(double x, double radius, double phase = 0) {
   constexpr int kPoints = 60;
   ComparedLoop loop;
   loop.measures.area = std::numbers::pi * radius * radius;
+  loop.measures.normal = {0, 0, 1};
   for (int i = 0; i < kPoints; ++i) {
     const double angle = phase + 2 * std::numbers::pi * i / kPoints;
     loop.points.emplace_back(x + radius * std::cos(angle), radius * std::sin(angle), 0);
