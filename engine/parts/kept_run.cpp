@@ -99,7 +99,7 @@ KeptRun read_run(const fs::path& folder) {
   const std::optional<PartReader> part = open_run(folder);
   const std::optional<std::string> inputs = part ? part->text("inputs") : std::nullopt;
   const std::optional<std::string> note = part ? part->text("note") : std::nullopt;
-  if (!inputs || !note)
+  if (!inputs || inputs->empty() || !note)  // other parts have no inputs
     throw Error(folder.string() + ": not the workspace of a run; allowed: the folder of --workspace");
   return {.names = split(*inputs, '\0'), .note = *note};
 }

@@ -86,6 +86,11 @@ TEST_CASE("a plan says in a table what its tasks are, and wrong units are refuse
   check_failure(run_program({"plan", run.list(), "--tasks", "3"}), 2, "--workspace is required");
   run.folder.write("b.txt", "0 0 8\n0 1 9\n1 0 9\n");
   check_failure(work({"--step", "level-0"}), 1, "was planned for another run: \"input: ");
+  // Another part in its place names no input: a run of no files would have no holes.
+  std::filesystem::rename(std::filesystem::path(run.workspace) / "plan.lacuna",
+                          std::filesystem::path(run.workspace) / "run.lacuna");
+  check_failure(run_program({"finish", run.workspace, "--out", (run.folder / "out").string()}), 1,
+                "not the workspace of a run");
 }
 
 }  // namespace
