@@ -26,51 +26,67 @@ struct Place {
   std::uint8_t is_within, is_shared;
 };
 
-LoopPlane plane_of(const LoopMeasures& loop) {
-  return {loop.centroid, loop.normal, loop.normal.unitOrthogonal()};
+// The selected holes that enclose an area.
+struct Holes {
+  const ChosenLoops& loops;
+  std::vector<std::size_t> chosen = {};     // among the loops
+  std::vector<LoopMeasures> measures = {};  // of each
+
+  std::size_t size() const { return chosen.size(); }
+  std::uint64_t count(std::size_t i) const { return loops.count(chosen[i]); }
+  void read(std::size_t i, std::span<LoopPoint> to) const { loops.read(chosen[i], to); }
+};
+
+Holes holes_of(const MeasuredLoops& loops, std::span<const std::size_t> selected) {
+  Holes holes{.loops = loops.loops};
+  for (const std::size_t i : selected) {
+    const LoopMeasures& loop = loops.measures[i];
+    if (loop.kind != LoopKind::kHole || !(loop.area > 0) || !std::isfinite(loop.area)) continue;
+    holes.chosen.push_back(i);
+    holes.measures.push_back(loop);
+  }
+  return holes;
 }
 
-std::vector<Eigen::Vector2d> polygon_of(std::span<const LoopPoint> loop, const LoopPlane& plane) {
-  std::vector<Eigen::Vector2d> polygon;
-  for (const LoopPoint& p : loop) polygon.push_back(plane(p.position()).head<2>());
+using Polygon = std::span<const std::array<double, 2>>;
+
+Polygon polygon_of(std::span<const LoopPoint> loop, const LoopPlane& plane, Scratch& scratch) {
+  const std::span<std::array<double, 2>> polygon = scratch.array<std::array<double, 2>>(loop.size());
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Eigen::Vector3d at = plane(loop[i].position());
+    polygon[i] = {at.x(), at.y()};
+  }
   return polygon;
-}
-
-bool is_countable(const LoopMeasures& loop) {
-  return loop.kind == LoopKind::kHole && loop.area > 0 && std::isfinite(loop.area);
 }
 
 }  // namespace
 
 double hole_area(const MeasuredLoops& loops, std::span<const std::size_t> selected, Job& job) {
-  const std::vector<LoopMeasures>& measures = loops.measures;
-  std::vector<std::uint8_t> counts(measures.size());
-  for (const std::size_t i : selected) counts[i] = is_countable(measures[i]);
+  const Holes holes = holes_of(loops, selected);
+  const std::vector<LoopMeasures>& measures = holes.measures;
   const MemoryLedger::Lease placing = job.ledger.take(job.memory.work / 4);
   Scratch scratch(job.temporary, placing.bytes());
-  const std::span<Place> places = scratch.array<Place>(kPlaces * measures.size());
-  for_each_loop(loops.loops, job, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch&) {
-    if (counts[i] == 0) return;
+  const std::span<Place> places = scratch.array<Place>(kPlaces * holes.size());
+  for_each_loop(holes, job, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch& own) {
     const LoopPlane plane = plane_of(measures[i]);
     std::size_t next = kPlaces * i;
-    for (const Eigen::Vector2d& place : places_within(polygon_of(loop, plane), kPlaces)) {
+    for (const Eigen::Vector2d& place : places_within(polygon_of(loop, plane, own), kPlaces)) {
       const Eigen::Vector3d at = plane.point_at({place.x(), place.y(), 0});
       places[next++] = {{at.x(), at.y(), at.z()}, 1, 0};
     }
   });
 
   const Centroids centroids(measures);
-  for_each_loop(loops.loops, job, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch&) {
-    if (counts[i] == 0) return;
+  for_each_loop(holes, job, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch& own) {
     constexpr double kLeastCosine = 0.5, kNear = 0.25;
     const LoopMeasures& larger = measures[i];
     const LoopPlane plane = plane_of(larger);
-    std::vector<Eigen::Vector2d> polygon;
+    Polygon polygon;
     centroids.for_each_near(larger.centroid, larger.diameter, [&](std::size_t other) {
       const LoopMeasures& hole = measures[other];
-      if (counts[other] == 0 || std::tie(hole.area, other) >= std::tie(larger.area, i)) return;
+      if (std::tie(hole.area, other) >= std::tie(larger.area, i)) return;
       if (std::abs(hole.normal.dot(larger.normal)) < kLeastCosine) return;
-      if (polygon.empty()) polygon = polygon_of(loop, plane);
+      if (polygon.empty()) polygon = polygon_of(loop, plane, own);
       for (Place& place : places.subspan(kPlaces * other, kPlaces)) {
         if (place.is_within == 0) break;
         const Eigen::Vector3d at = plane(Eigen::Vector3d(place.at[0], place.at[1], place.at[2]));
@@ -81,8 +97,7 @@ double hole_area(const MeasuredLoops& loops, std::span<const std::size_t> select
   });
 
   double area = 0;
-  for (std::size_t i = 0; i < measures.size(); ++i) {
-    if (counts[i] == 0) continue;
+  for (std::size_t i = 0; i < holes.size(); ++i) {
     int within = 0, shared = 0;
     for (const Place& place : places.subspan(kPlaces * i, kPlaces)) {
       within += place.is_within;

@@ -2,6 +2,8 @@
 // The plane through a loop's centroid.
 #pragma once
 
+#include "engine/model/loop.hpp"
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -21,5 +23,9 @@ class LoopPlane {
   Eigen::Vector3d origin_;
   Eigen::Matrix3d axes_;
 };
+
+inline LoopPlane plane_of(const LoopMeasures& loop) {
+  return {loop.centroid, loop.normal, loop.normal.unitOrthogonal()};
+}
 
 }  // namespace lacuna

@@ -92,8 +92,7 @@ bool may_be_around(const LoopMeasures& loop, const LoopMeasures& other) {
 std::vector<std::size_t> loops_inside(const MeasuredLoops& loops, std::size_t polygon,
                                       std::span<const std::size_t> others,
                                       std::span<const LoopSample> samples) {
-  const auto& [centroid, normal] = std::tie(loops.measures[polygon].centroid, loops.measures[polygon].normal);
-  const LoopPlane plane(centroid, normal, normal.unitOrthogonal());
+  const LoopPlane plane = plane_of(loops.measures[polygon]);
   std::vector<Inside> inside;
   for (const std::size_t loop : others) {
     for (const LoopSample& sample : samples.subspan(kSamples * loop, sample_count(loops.measures[loop])))

@@ -165,7 +165,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   FilesConfig running = config;
   const bool is_in_memory = !stations && take_files_into_memory(scan, running.run);  // rays are files, too
   ExplainedDetection detection{*detect(scan, running, is_in_memory ? fs::path() : scratch.path(), *progress)};
-  detection.summary.memory_limit = Memory::share(config.run.memory_limit).limit;  // with that of its files
+  detection.summary.memory_limit = Memory::share(config.run.memory_limit).limit;  // files included
   if (stations) find_causes(*stations, scan, config.run, detection);
   if (area) detection.area = check_area(*area, scan, config, *progress);
   progress->begin("write", 0);

@@ -70,7 +70,7 @@ std::vector<Eigen::Vector3d> places_over(const FlatLoop& loop) {
   constexpr std::size_t kMost = 64;
   constexpr double kLeast = 1e-300;
   std::vector<Eigen::Vector3d> places;
-  for (const Eigen::Vector2d& place : places_within(loop.polygon, kMost)) {
+  for (const Eigen::Vector2d& place : places_within(std::span<const Eigen::Vector2d>(loop.polygon), kMost)) {
     double weights = 0, sum = 0;
     for (std::size_t i = 0; i < loop.polygon.size(); ++i) {
       const double weight = 1 / std::max((loop.polygon[i] - place).squaredNorm(), kLeast);
@@ -90,7 +90,7 @@ std::vector<Eigen::Vector3d> places_beyond(const FlatLoop& loop, double distance
     const Eigen::Vector2d along = loop.polygon[(i + 1) % loop.polygon.size()] - a;
     const Eigen::Vector2d aside = distance * Eigen::Vector2d(along.y(), -along.x()).stableNormalized();
     for (const Eigen::Vector2d& place : {Eigen::Vector2d(a + aside), Eigen::Vector2d(a - aside)}) {
-      if (!is_inside(loop.polygon, place))
+      if (!is_inside(std::span<const Eigen::Vector2d>(loop.polygon), place))
         places.push_back(loop.plane.point_at({place.x(), place.y(), loop.heights[i]}));
     }
   }
@@ -120,7 +120,7 @@ Surface surface_over(const ComparedLoop& loop, const ComparedScan& other, const 
   return share_within(places, sample, reach) >= kHalf ? Surface::kThere : Surface::kEmpty;
 }
 
-// Sets of loops of both results that belong together: those of `before` first, then those of `after`.
+// Sets of loops of both results that belong together: the loops of `before` come first.
 class Related {
  public:
   Related(std::size_t before, std::size_t after) : before_(before), links_(before + after), sets_(links_) {}

@@ -13,7 +13,6 @@ class Page {
     this.colouring = "height";
     this.selected = -1;
     this.former = null;  // pose before the flight to a loop
-    this.cut = Infinity;  // how far before the middle of the picture what is shown begins
     write_header(this.data, this.units);
     find("csv").disabled = loops.count === 0;
     this.marks = new Marks(this.data, () => this.apply_marks());
@@ -116,7 +115,7 @@ class Page {
     this.sight = new SightLine(this.view, this.data, this.station_marks);
     this.names = new LoopNames(this.view, this.data.loops);
     find("show-stations").addEventListener("change", () => this.update_legend());
-    find("cut").addEventListener("change", () => this.apply_cut());
+    find("cut").addEventListener("change", () => this.view.set_cutting(find("cut").checked));
     find("loop-colouring").addEventListener("change", () => this.set_by_cause(find("loop-colouring").value === "cause"));
     find("up-axis").addEventListener("change", () => this.turn_up(Number(find("up-axis").value)));
     this.section = new Section(this.data, this.view.bounds, this.units, (low, high) => this.apply_section(low, high));
@@ -132,7 +131,7 @@ class Page {
     this.former = null;
     find("north").setAttribute("hidden", "");
     this.view.turn_up();
-    this.end_cut();
+    this.view.set_cut(Infinity);
     this.section.turn_up();
     this.update_chip();
   }
@@ -141,7 +140,7 @@ class Page {
     if (!this.view) return;
     const {navigation} = this.view;
     navigation.fly(navigation.side_pose(name));
-    this.end_cut();
+    this.view.set_cut(Infinity);
   }
 
   save_csv() {
@@ -261,9 +260,9 @@ class Page {
         if (!this.former) this.former = navigation.flight ? navigation.flight.to : navigation.pose();
         const pose = navigation.loop_pose(index);
         navigation.fly(pose);
-        this.cut = loop_box(this.data.loops, index) ? navigation.loop_cut(index, pose) : Infinity;
-        this.apply_cut();
-        this.section.open_for(loop_box(this.data.loops, index));
+        const box = loop_box(this.data.loops, index);
+        this.view.set_cut(box ? navigation.loop_cut(index, pose) : Infinity);
+        this.section.open_for(box);
       }
     }
     this.update_chip();
@@ -299,14 +298,6 @@ class Page {
     if (!is_flight && this.view) this.view.navigation.end_flight();
   }
 
-  end_cut() {
-    this.cut = Infinity;
-    this.apply_cut();
-  }
-
-  // Cuts away what hides the loop of the last flight, unless the reader wants to see it.
-  apply_cut() { this.view.set_cut(find("cut").checked ? this.cut : Infinity); }
-
   // Ends a measurement; else deselects, and goes back to the view and the section before the flight.
   escape() {
     if (this.measure && this.measure.is_on) {
@@ -315,7 +306,7 @@ class Page {
     }
     if (this.former && this.view) {
       this.view.navigation.fly(this.former);
-      this.end_cut();
+      this.view.set_cut(Infinity);
       this.section.close_again();
     }
     this.former = null;

@@ -96,13 +96,13 @@ class PrintPages {
     view.take_pictures(kPrintWidth, kPrintHeight, (picture) => {
       const {navigation} = view;
       view.scenes.set_selected(-1);
-      made.summary = picture(navigation.fit_pose(kHomePolar, kHomeAzimuth), 0, units);
+      made.summary = picture(navigation.fit_pose(kHomePolar, kHomeAzimuth), Infinity, units);
       view.set_section(...kAllHeights);
       for (const index of shown) {
         if (!loop_box(data.loops, index)) continue;
         view.scenes.set_selected(index);
         const pose = navigation.loop_pose(index, navigation.fit_pose(kHomePolar, kHomeAzimuth));
-        made.of.set(index, picture(pose, Math.max(0, pose.distance - navigation.loop_cut(index, pose)), units));
+        made.of.set(index, picture(pose, navigation.loop_cut(index, pose), units));
       }
     });
     view.scenes.set_selected(selected);

@@ -17,7 +17,8 @@ class View {
     this.bounds = scene_bounds(data);
     this.navigation = new Navigation(canvas, data, this.bounds, this.spacing, this.frames);
     this.picker = new LoopPicker(this.renderer, this.scenes.pick);
-    this.cut = Infinity;
+    this.cut = Infinity;    // how far before the middle of the picture what is shown begins
+    this.is_cutting = true;  // unless the reader wants to see all
     connect_pointer(canvas, {
       zoom: (factor, x, y) => this.navigation.zoom(factor, x, y),
       click: (x, y) => { if (!on_pick(x, y)) on_loop(this.loop_at(x, y), x, y); },
@@ -78,7 +79,12 @@ class View {
   }
 
   // The distance from the eye at which what is shown begins.
-  nearest() { return Math.max(0, this.navigation.target_distance() - this.cut); }
+  nearest() { return this.is_cutting ? Math.max(0, this.navigation.target_distance() - this.cut) : 0; }
+
+  set_cutting(is_cutting) {
+    this.is_cutting = is_cutting;
+    this.frames.changed();
+  }
 
   // Hides what lies below and above, in scene coordinates.
   set_section(low, high) {
@@ -107,22 +113,25 @@ class View {
     this.uniforms.pixel_ratio.value = ratio;
   }
 
-  // Calls `take` with a function that gives the address of a JPEG picture of this size, in pixels, from a pose. What
-  // lies nearer than its `nearest` is left out. Afterwards the view is as before.
+  // Calls `take` with a function that gives the address of a JPEG picture of this size, in pixels, from a pose. Each
+  // has a cut of its own. Afterwards the view is as before.
   take_pictures(width, height, take) {
     const {navigation} = this;
-    const former = navigation.pose();
+    const former = navigation.pose(), {cut, is_cutting} = this;
+    this.is_cutting = true;
     const ratio = kPrintRatio;
     this.set_size(width / ratio, height / ratio, ratio);
-    take((pose, nearest, units) => {
+    take((pose, its_cut, units) => {
       navigation.set_pose(pose);
-      this.render(this.data.points.count, nearest);
+      this.cut = its_cut;
+      this.render(this.data.points.count);
       const [canvas, pen] = paper(this.canvas.width, this.canvas.height);
       pen.drawImage(this.canvas, 0, 0);
       draw_bar(pen, canvas.width, canvas.height, this.data.frame.edge * pose.distance / this.uniforms.focal.value, units);
       return canvas.toDataURL("image/jpeg", 0.88);
     });
     if (this.size) this.set_size(...this.size);
+    Object.assign(this, {cut, is_cutting});
     navigation.set_pose(former);
   }
 
@@ -141,14 +150,13 @@ class View {
   draw(count = this.data.points.count) {
     if (!this.target) return;
     this.frames.is_begun = true;
-    this.render(count, this.nearest());
+    this.render(count);
     this.on_frame(this);
   }
 
-  // Without what lies nearer than `nearest`.
-  render(count, nearest) {
+  render(count) {
     const {camera} = this.navigation;
-    this.navigation.update_depths(nearest);
+    this.navigation.update_depths(this.nearest());
     update_camera_uniforms(this.uniforms, camera, this.canvas.height);
     this.scenes.draw(this.renderer, this.target, camera, count, this.navigation.target_distance());
   }
