@@ -29,12 +29,12 @@ EdgeTree tree_of_points(const Ids& ids, Positions positions) {
   return EdgeTree(std::move(points));
 }
 
-// Returns how many of `ids` are within the radius of the segments in the tree.
-std::size_t count_near(const Ids& ids, const EdgeTree& tree, Positions positions, double radius) {
+// Returns how many of `ids` are within their tolerance of the segments in the tree.
+std::size_t count_near(const Ids& ids, const EdgeTree& tree, Positions positions, const MatchRule& rule) {
   std::size_t near = 0;
   std::vector<std::size_t> found;
   for (const std::uint64_t id : ids) {
-    tree.owners_within(positions[id], radius, found);
+    tree.owners_within(positions[id], rule.tolerance_at(id), found);
     near += found.empty() ? 0 : 1;
   }
   return near;
@@ -56,19 +56,20 @@ PointScores point_scores(std::optional<double> precision, std::optional<double> 
 }
 
 PointAccuracy score_points(std::span<const std::uint64_t> flagged, std::span<const TrueLoop> truth,
-                           Positions positions, std::span<const std::uint64_t> stand_ins, double radius) {
+                           Positions positions, std::span<const std::uint64_t> stand_ins,
+                           const MatchRule& rule) {
   Ids told, known;
   for (const std::uint64_t id : flagged) told.push_back(stand_ins[id]);
   for (const TrueLoop& loop : truth) known.insert(known.end(), loop.vertices.begin(), loop.vertices.end());
   sort_once(told);
   sort_once(known);
   const std::size_t common = count_common(told, known);
-  const std::size_t right = count_near(told, tree_of_truth(truth, positions), positions, radius);
-  const std::size_t met = count_near(known, tree_of_points(told, positions), positions, radius);
+  const std::size_t right = count_near(told, tree_of_truth(truth, positions), positions, rule);
+  const std::size_t met = count_near(known, tree_of_points(told, positions), positions, rule);
   return {.flagged = told.size(),
           .truth = known.size(),
           .by_id = point_scores(share(common, told.size()), share(common, known.size())),
-          .within_radius = point_scores(share(right, told.size()), share(met, known.size()))};
+          .within_tolerance = point_scores(share(right, told.size()), share(met, known.size()))};
 }
 
 }  // namespace lacuna::evaluation

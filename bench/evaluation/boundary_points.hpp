@@ -2,6 +2,7 @@
 // Scores of the classification of points as boundary points.
 #pragma once
 
+#include "tools/matching/match_loops.hpp"
 #include "tools/matching/true_loops.hpp"
 
 #include <cstddef>
@@ -25,14 +26,14 @@ PointScores point_scores(std::optional<double> precision, std::optional<double> 
 struct PointAccuracy {
   std::size_t flagged = 0, truth = 0;  // places
   PointScores by_id;                   // flagged and true at the same place
-  PointScores within_radius;           // a flagged place counts near a true edge, a true one near a flagged
+  PointScores within_tolerance;        // a flagged place counts near a true edge, a true one near a flagged
 };
 
-// Points at one place count once. The true points are the vertices of all loops given. Within the radius, the
-// loops' edges count instead, since a boundary is a curve. Where few points of a curve were sampled, places
-// between them are on it as well.
+// Points at one place count once. The true points are the vertices of all loops given. Within the tolerance
+// of the rule, the loops' edges count instead, since a boundary is a curve. Where few points of a curve were
+// sampled, places between them are on it as well.
 PointAccuracy score_points(std::span<const std::uint64_t> flagged, std::span<const TrueLoop> truth,
                            std::span<const Eigen::Vector3d> positions,
-                           std::span<const std::uint64_t> stand_ins, double radius);
+                           std::span<const std::uint64_t> stand_ins, const MatchRule& rule);
 
 }  // namespace lacuna::evaluation

@@ -24,19 +24,19 @@ CloudScore score_cloud(const Result& result, const Truth& truth, const Evaluatio
     loops.push_back(result.loops[i]);
     ids.insert(ids.end(), result.loops[i].begin(), result.loops[i].end());
   }
-  const double tolerance = rule.tolerance * truth.spacing;
+  const MatchRule match = match_rule(truth, rule, evaluation.tolerances);
   if (result.boundary) ids = *result.boundary;
   const auto score_against = [&](std::span<const TrueLoop> loops) {
-    return score_points(ids, loops, truth.positions, truth.stand_ins, tolerance);
+    return score_points(ids, loops, truth.positions, truth.stand_ins, match);
   };
   std::vector<TrueLoop> counting;
   for (std::size_t i = 0; i < truth.loops.size(); ++i) {
     if (evaluation.loops.true_loops[i].counts) counting.push_back(truth.loops[i]);
   }
   score.points = score_against(counting);
-  const PointScores all = score_against(truth.loops).within_radius;
-  score.points.within_radius = point_scores(all.precision, score.points.within_radius.recall);
-  score.areas = compare_areas(loops, truth, evaluation.loops.true_loops, tolerance);
+  const PointScores all = score_against(truth.loops).within_tolerance;
+  score.points.within_tolerance = point_scores(all.precision, score.points.within_tolerance.recall);
+  score.areas = compare_areas(loops, truth, evaluation.loops.true_loops, match);
   for (double* area : {&score.areas.truth, &score.areas.covered, &score.areas.found, &score.areas.right})
     *area /= truth.spacing * truth.spacing;
   return score;

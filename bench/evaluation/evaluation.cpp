@@ -101,9 +101,9 @@ void check_ids(const fs::path& file, std::span<const std::uint64_t> ids, const T
   }
 }
 
-void measure_holes(std::span<const Eigen::Vector3d> points, const PointTree& tree, Truth& truth) {
+void measure_holes(const PointTree& tree, Truth& truth) {
   for (const TrueLoop& loop : truth.loops)
-    truth.hole_widths.push_back(hole_width(loop, truth.positions, points, tree));
+    truth.hole_widths.push_back(hole_width(loop, truth.positions, truth.points, tree));
 }
 
 void take_mesh(const std::vector<Triangle>& triangles, Truth& truth) {
@@ -116,9 +116,10 @@ void take_mesh(const std::vector<Triangle>& triangles, Truth& truth) {
   for (std::size_t id = 0; id < truth.positions.size(); ++id) {
     if (takes_part[id] && truth.positions[id].allFinite()) points.push_back(truth.positions[id]);
   }
-  const PointTree tree(points);
-  truth.spacing = median_spacing(points, tree);
-  measure_holes(points, tree, truth);
+  truth.points = std::move(points);
+  const PointTree tree(truth.points);
+  truth.spacing = median_spacing(truth.points, tree);
+  measure_holes(tree, truth);
 }
 
 void take_loops(std::vector<NamedLoopIds> named, Truth& truth) {
@@ -128,15 +129,15 @@ void take_loops(std::vector<NamedLoopIds> named, Truth& truth) {
     loops.push_back(loop.ids);
   }
   truth.loops = loops_through(loops, truth.stand_ins);
-  const std::vector<Eigen::Vector3d> points = distinct_points(truth.positions, truth.stand_ins);
-  const PointTree tree(points);
-  truth.spacing = median_spacing(points, tree);
+  truth.points = distinct_points(truth.positions, truth.stand_ins);
+  const PointTree tree(truth.points);
+  truth.spacing = median_spacing(truth.points, tree);
   for (std::size_t i = 0; i < named.size(); ++i) {
     truth.loops[i].name = std::move(named[i].name);
     truth.loops[i].is_narrow = named[i].is_narrow;
-    truth.loops[i].kind = kind_of(loops[i], truth.positions, points, tree);
+    truth.loops[i].kind = kind_of(loops[i], truth.positions, truth.points, tree);
   }
-  measure_holes(points, tree, truth);
+  measure_holes(tree, truth);
 }
 
 // False loops around unsampled places of the surface become unsampled. If they run along true loops as well,
@@ -152,6 +153,24 @@ void mark_unsampled(const Result& result, const Truth& truth, const MatchRule& r
   decide_false_loops(
       result.loops, truth.loops, truth.positions, rule, EdgeDecision::kUnsampled, &LoopMatch::at_unsampled,
       [&](std::size_t loop, std::size_t point) { return unsampled[loop][point]; }, accuracy);
+}
+
+// Returns the tolerances of the points that are compared with curves.
+std::vector<double> tolerances_of_places(const Result& result, const Truth& truth, double tolerance) {
+  constexpr double kOfPlace = 1.2;  // a curve of a coarser level runs up to 2.4 spacings off
+  const PointTree tree(truth.points);
+  std::vector<double> tolerances(truth.positions.size());
+  const auto take = [&](std::span<const std::uint64_t> ids) {
+    for (const std::uint64_t id : ids) {
+      const Eigen::Vector3d& place = truth.positions[id];
+      if (tolerances[id] == 0 && place.allFinite())
+        tolerances[id] = kOfPlace * tolerance * spacing_of_place(place, tree);
+    }
+  };
+  for (const TrueLoop& loop : truth.loops) take(loop.vertices);
+  for (const LoopIds& loop : result.loops) take(loop);
+  if (result.boundary) take(*result.boundary);
+  return tolerances;
 }
 
 // The result's own vertices follow the points of the scan, each standing for itself, and its loops count
@@ -214,6 +233,11 @@ Surface read_surface(const fs::path& file) {
   return surface;
 }
 
+MatchRule match_rule(const Truth& truth, const EvaluationRule& rule, std::span<const double> tolerances) {
+  return {
+      .tolerance = rule.tolerance * truth.spacing, .of_place = tolerances, .min_vertices = rule.min_vertices};
+}
+
 Evaluation evaluate(const Result& result, const Truth& truth, const EvaluationRule& rule) {
   if (result.points && *result.points != truth.positions.size()) {
     throw Error(result.file.string() + ": is of a scan of " + std::to_string(*result.points) + " points, " +
@@ -221,19 +245,17 @@ Evaluation evaluate(const Result& result, const Truth& truth, const EvaluationRu
                 "; both must be of one scan");
   }
   for (const LoopIds& loop : result.loops) check_ids(result.file, loop, truth);
-  Evaluation evaluation;
-  const double tolerance = rule.tolerance * truth.spacing;
-  const MatchRule match{.tolerance = tolerance, .min_vertices = rule.min_vertices};
+  if (result.boundary) check_ids(result.file.parent_path() / "boundary.ply", *result.boundary, truth);
+  Evaluation evaluation{.tolerances = tolerances_of_places(result, truth, rule.tolerance)};
+  const MatchRule match = match_rule(truth, rule, evaluation.tolerances);
   evaluation.loops = match_loops(result.loops, truth.loops, truth.positions, match);
   mark_steps(result.loops, truth.steps, truth.loops, truth.positions, match, evaluation.loops);
   if (truth.surface) mark_unsampled(result, truth, match, evaluation.loops);
   evaluation.scores = score_loops(evaluation.loops.loops, evaluation.loops.true_loops);
   evaluation.holes = holes_by_width(truth.hole_widths, evaluation.loops.true_loops);
-  if (result.boundary) {
-    check_ids(result.file.parent_path() / "boundary.ply", *result.boundary, truth);
+  if (result.boundary)
     evaluation.boundary =
-        score_points(*result.boundary, truth.loops, truth.positions, truth.stand_ins, tolerance);
-  }
+        score_points(*result.boundary, truth.loops, truth.positions, truth.stand_ins, match);
   if (!result.confidence.empty()) {
     evaluation.confidence = area_under_roc(evaluation.loops.loops, result.confidence);
   }

@@ -39,23 +39,27 @@ struct Truth {
   std::filesystem::path file;
   std::vector<Eigen::Vector3d> positions;
   std::vector<std::uint64_t> stand_ins;
+  std::vector<Eigen::Vector3d> points;  // the places that take part: distinct, finite
   std::vector<TrueLoop> loops;
   std::vector<std::optional<double>> hole_widths;  // of each loop; see hole_width()
   std::vector<LoopIds> steps;                      // of density; see kStepMark
-  double spacing = 0;                              // median, over the places that take part
+  double spacing = 0;                              // median, over `points`
   std::optional<Surface> surface;
 };
 
 struct EvaluationRule {
-  double tolerance = 2;  // spacings
+  // Spacings of the scan. Where points are farther apart, 1.2 times as many spacings of the place
+  // (spacing_of_place).
+  double tolerance = 2;
   std::size_t min_vertices = 8;
 };
 
 struct Evaluation {
   LoopAccuracy loops;
   LoopScores scores;
-  std::optional<PointAccuracy> boundary;  // radius: the tolerance
-  std::optional<double> confidence;       // area under the ROC curve
+  std::vector<double> tolerances;  // lengths, of the points of all curves and of flagged points, by id
+  std::optional<PointAccuracy> boundary;
+  std::optional<double> confidence;  // area under the ROC curve
   HolesByWidth holes;
 };
 
@@ -72,6 +76,9 @@ Truth read_truth(const std::filesystem::path& file, std::vector<io::ScanInput> s
 
 // Returns the faces of a PLY mesh. Throws `Error`.
 Surface read_surface(const std::filesystem::path& file);
+
+// Returns the rule by which curves match: the tolerance of the scan, and `tolerances` of places.
+MatchRule match_rule(const Truth& truth, const EvaluationRule& rule, std::span<const double> tolerances);
 
 // Throws `Error` if the result is of another scan: it has ids, or a number of points, that the truth does not
 // have.

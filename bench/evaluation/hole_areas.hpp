@@ -17,10 +17,11 @@ struct HoleAreas {
 // Completeness is covered / truth, and correctness right / found: ISPRS benchmark on indoor modelling,
 // https://www.isprs.org/resources/datasets/benchmarks/IndoorModeling/results.aspx. The surface of a hole is
 // the triangulation of its loop that has the least area. Outer curves have none, and neither has a loop with
-// a point that is not finite. Places at most `buffer` apart are near. Each surface is divided into pieces
-// with edges of at most half the buffer, and the centroid of a piece decides for the piece. Without a buffer,
-// all areas are 0. Cost: n log n for points and pieces.
+// a point that is not finite. Places of a hole are near others within the mean tolerance of the hole's
+// points. Each surface is divided into pieces with edges of at most half of the least tolerance, and the
+// centroid of a piece decides for the piece. With a tolerance of 0, all areas are 0. Cost: n log n for points
+// and pieces.
 HoleAreas compare_areas(std::span<const LoopIds> loops, const Truth& truth,
-                        std::span<const TrueMatch> matches, double buffer);
+                        std::span<const TrueMatch> matches, const MatchRule& rule);
 
 }  // namespace lacuna::evaluation

@@ -49,7 +49,8 @@ void decide_false_loops(std::span<const LoopIds> loops, std::span<const TrueLoop
     if (match.verdict != EdgeDecision::kFalse) continue;
     std::size_t there = 0, either = 0;
     for (std::size_t i = 0; i < loops[loop].size(); ++i) {
-      true_edges.owners_within(positions[loops[loop][i]], rule.tolerance, near);
+      const std::uint64_t id = loops[loop][i];
+      true_edges.owners_within(positions[id], rule.tolerance_at(id), near);
       const bool is_there = at(loop, i);
       there += is_there;
       either += is_there || !near.empty();

@@ -70,7 +70,7 @@ std::string print_scores(const EvaluationText& text) {
   out << "  boundary    " << print_count(evaluation.boundary->flagged) << " points flagged, "
       << print_count(evaluation.boundary->truth) << " true\n    same id   "
       << print_points(evaluation.boundary->by_id) << "\n    tolerance "
-      << print_points(evaluation.boundary->within_radius) << "\n";
+      << print_points(evaluation.boundary->within_tolerance) << "\n";
   return out.str();
 }
 

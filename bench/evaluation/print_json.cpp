@@ -60,7 +60,7 @@ std::string print_json(const EvaluationText& text) {
     root["boundary"] = {{"flagged", boundary->flagged},
                         {"true", boundary->truth},
                         {"by_id", points_json(boundary->by_id)},
-                        {"within_tolerance", points_json(boundary->within_radius)}};
+                        {"within_tolerance", points_json(boundary->within_tolerance)}};
   }
   root["holes_by_width"] = Json::array();
   for (std::size_t i = 0; i < kWidths.size(); ++i) {

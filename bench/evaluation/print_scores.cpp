@@ -45,7 +45,7 @@ std::optional<double> pooled(Clouds clouds, std::size_t PointAccuracy::*count,
                              std::optional<double> PointScores::*value) {
   const auto points = [&](const CloudScore& c) { return static_cast<double>(c.points.*count); };
   const auto part = [&](const CloudScore& c) {
-    return points(c) * (c.points.within_radius.*value).value_or(0);
+    return points(c) * (c.points.within_tolerance.*value).value_or(0);
   };
   return share(sum(clouds, part), sum(clouds, points));
 }
@@ -53,7 +53,7 @@ std::optional<double> pooled(Clouds clouds, std::size_t PointAccuracy::*count,
 std::optional<double> median(Clouds clouds, std::optional<double> PointScores::*value) {
   std::vector<double> values;
   for (const CloudScore& cloud : clouds) {
-    if (const auto one = cloud.points.within_radius.*value) values.push_back(*one);
+    if (const auto one = cloud.points.within_tolerance.*value) values.push_back(*one);
   }
   if (values.empty()) return std::nullopt;
   std::sort(values.begin(), values.end());

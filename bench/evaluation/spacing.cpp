@@ -2,7 +2,9 @@
 #include "bench/evaluation/spacing.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -19,6 +21,14 @@ double spacing_at(const Eigen::Vector3d& point, const PointTree& tree) {
   const std::vector<double> distances = tree.nearest_distances(point, kNeighbours + 1);
   if (distances.size() < 2) return 0;
   return std::accumulate(distances.begin(), distances.end(), 0.) / static_cast<double>(distances.size() - 1);
+}
+
+double spacing_of_place(const Eigen::Vector3d& place, const PointTree& tree) {
+  constexpr std::size_t kAround = 32;
+  const std::vector<double> distances =
+      tree.nearest_distances(place, kAround + 1);  // the first is the point's own
+  if (distances.size() <= kAround) return 0;
+  return distances.back() * std::sqrt(std::numbers::pi / kAround);  // a disc of as many squares
 }
 
 double median_spacing(std::span<const Eigen::Vector3d> points) {

@@ -27,7 +27,8 @@ void mark_steps(std::span<const LoopIds> loops, std::span<const LoopIds> steps,
   const EdgeTree edges = tree_of_steps(steps, positions);
   std::vector<std::size_t> near;
   const auto at = [&](std::size_t loop, std::size_t point) {
-    edges.owners_within(positions[loops[loop][point]], rule.tolerance, near);
+    const std::uint64_t id = loops[loop][point];
+    edges.owners_within(positions[id], rule.tolerance_at(id), near);
     return !near.empty();
   };
   decide_false_loops(loops, truth, positions, rule, EdgeDecision::kStep, &LoopMatch::on_step, at, accuracy);

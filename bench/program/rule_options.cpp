@@ -10,7 +10,7 @@ namespace lacuna::bench {
 void add_rule_options(const tools::Command& command, evaluation::EvaluationRule& rule) {
   command
       .add_option("--tolerance", rule.tolerance,
-                  "How far a loop may be off the true one, spacings of the scan, from 0 on")
+                  "How far a loop may be off the true one, in spacings from 0 on; docs/evaluate.md")
       .real_number()
       .show_default();
   command

@@ -17,14 +17,21 @@
 namespace lacuna::matching {
 namespace {
 
-// Appends the points of all loops to the positions; returns the loops by place there.
-std::vector<LoopIds> place(std::span<const ComparedLoop> loops, std::vector<Eigen::Vector3d>& positions) {
+// The points of all loops.
+struct Curves {
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<double> tolerances;
+};
+
+// Appends the points of loops to the curves; returns the loops by place there.
+std::vector<LoopIds> place(std::span<const ComparedLoop> loops, Curves& curves) {
   std::vector<LoopIds> placed;
   for (const ComparedLoop& loop : loops) {
     LoopIds& ids = placed.emplace_back();
     for (const Eigen::Vector3d& point : loop.points) {
-      ids.push_back(positions.size());
-      positions.push_back(point);
+      ids.push_back(curves.positions.size());
+      curves.positions.push_back(point);
+      curves.tolerances.push_back(loop.tolerance);
     }
   }
   return placed;
@@ -157,13 +164,13 @@ std::string_view name_of(Change change) {
 
 std::vector<LoopChange> compare_loops(const ComparedScan& before, const ComparedScan& after,
                                       double tolerance) {
-  std::vector<Eigen::Vector3d> positions;
-  const std::vector<LoopIds> first = place(before.loops, positions), second = place(after.loops, positions);
-  const MatchRule rule{.tolerance = tolerance, .min_vertices = 0};
-  const std::vector<std::uint64_t> same_places = stand_ins(positions);
+  Curves curves;
+  const std::vector<LoopIds> first = place(before.loops, curves), second = place(after.loops, curves);
+  const MatchRule rule{.tolerance = tolerance, .of_place = curves.tolerances, .min_vertices = 0};
+  const std::vector<std::uint64_t> same_places = stand_ins(curves.positions);
   const auto matches = [&](std::span<const LoopIds> loops, std::span<const LoopIds> others) {
     const std::vector<TrueLoop> truth = loops_through(others, same_places);
-    return match_loops(loops, truth, positions, rule).loops;
+    return match_loops(loops, truth, curves.positions, rule).loops;
   };
   const std::vector<LoopMatch> onto_before = matches(second, first), onto_after = matches(first, second);
   Related related(first.size(), second.size());

@@ -17,6 +17,7 @@ namespace lacuna::matching {
 struct ComparedLoop {
   LoopMeasures measures;
   std::vector<Eigen::Vector3d> points;
+  double tolerance = 0;  // of the place: how far from its points other curves of its hole may lie
 };
 
 struct ComparedScan {
@@ -44,11 +45,13 @@ struct LoopChange {
 
 // Each loop of both results is in one change. Loops of a hole that was divided, or of holes that were joined,
 // share one. Changes with loops of the second result come first, in its order. `tolerance` is the length up
-// to which two curves of one hole may be apart. `match_loops` has the rule of a match.
+// to which two curves of one hole may be apart; a loop's own holds where it is larger. `match_loops` has the
+// rule of a match.
 //
 // The other scan has surface at a loop if half of up to 64 places over it are near the sample. Near is within
-// 1.5 of its spacings. For an outer curve these are places beyond it. Places so near to the loop do not count.
-// The other scan reaches a loop if half of the loop's points are within twice that distance of its sample.
+// 1.5 of its spacings. For an outer curve these are places beyond it. Places so near to the loop do not
+// count. The other scan reaches a loop if half of the loop's points are within twice that distance of its
+// sample.
 std::vector<LoopChange> compare_loops(const ComparedScan& before, const ComparedScan& after,
                                       double tolerance);
 

@@ -39,7 +39,6 @@ bool counts(const TrueLoop& loop, const MatchRule& rule) {
 
 std::vector<Overlap> overlaps_of(std::span<const LoopIds> loops, std::span<const TrueLoop> truth,
                                  Positions positions, const MatchRule& rule) {
-  const double tolerance = rule.tolerance;
   std::vector<Overlap> overlaps(loops.size());
   std::vector<std::size_t> near;
   const EdgeTree true_edges = tree_of_truth(truth, positions);
@@ -48,7 +47,7 @@ std::vector<Overlap> overlaps_of(std::span<const LoopIds> loops, std::span<const
     std::size_t on_any = 0;
     std::map<std::size_t, std::size_t> on;  // points, by true loop
     for (const std::uint64_t id : loops[loop]) {
-      true_edges.owners_within(positions[id], tolerance, near);
+      true_edges.owners_within(positions[id], rule.tolerance_at(id), near);
       for (const std::size_t hit : near) ++on[hit];
       on_any +=
           std::any_of(near.begin(), near.end(), [&](std::size_t hit) { return counts(truth[hit], rule); });
@@ -61,7 +60,7 @@ std::vector<Overlap> overlaps_of(std::span<const LoopIds> loops, std::span<const
     const double share = 1 / static_cast<double>(truth[hit].vertices.size());
     std::map<std::size_t, std::size_t> covered;  // vertices, by loop
     for (const std::uint64_t id : truth[hit].vertices) {
-      loop_edges.owners_within(positions[id], tolerance, near);
+      loop_edges.owners_within(positions[id], rule.tolerance_at(id), near);
       for (const std::size_t loop : near) ++covered[loop];
     }
     for (const auto& [loop, vertices] : covered) {

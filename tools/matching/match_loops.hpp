@@ -4,24 +4,31 @@
 
 #include "tools/matching/true_loops.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace lacuna::matching {
 
-// A loop lies on a true loop if `share` of its points are within the tolerance of an edge of the true loop.
-// It covers the true loop if `share` of the true loop's vertices are within the tolerance of an edge of the
-// loop. It matches if both hold.
+// A loop lies on a true loop if `share` of its points are within their tolerance of an edge of the true loop.
+// It covers the true loop if `share` of the true loop's vertices are within theirs of an edge of the loop. It
+// matches if both hold.
 //
 // A loop that matches none may lie on all true loops that count together. Then `share` of its points are
 // within the tolerance of an edge of any. Such a loop is `joined` if it covers one of them, or lies on no
 // single one; then it runs along several. Else it is `parted`: it lies on one, and covers too little of it.
 struct MatchRule {
-  double tolerance = 0;  // a length
+  double tolerance = 0;                // a length: the least anywhere
+  std::span<const double> of_place{};  // tolerances of points, by id; empty: `tolerance` everywhere
   double share = 0.7;
   std::size_t min_vertices = 8;  // true loops with fewer do not count, and neither do narrow ones
+
+  double tolerance_at(std::uint64_t id) const {
+    return of_place.empty() ? tolerance : std::max(tolerance, of_place[id]);
+  }
 };
 
 enum class EdgeDecision {

@@ -60,7 +60,7 @@ TEST_CASE("the tree of edges finds what a look at each finds") {
   }
 }
 
-TEST_CASE("flagged points are right at a true vertex, or within the radius of a true edge") {
+TEST_CASE("flagged points are right at a true vertex, or within the tolerance of a true edge") {
   Drawing drawing;
   const LoopIds ring = drawing.ring(10, 0, 0);
   const std::uint64_t same = drawing.point(drawing.positions[0].x(), drawing.positions[0].y());
@@ -73,7 +73,7 @@ TEST_CASE("flagged points are right at a true vertex, or within the radius of a 
   const std::vector<LoopIds> rings = {ring};
   const auto truth = loops_through(rings, stands_for);
   const auto score = [&](const Ids& flagged) {
-    return score_points(flagged, truth, drawing.positions, stands_for, 0.5);
+    return score_points(flagged, truth, drawing.positions, stands_for, {.tolerance = 0.5});
   };
 
   const PointAccuracy result = score({same, ring[0], ring[1], near, between, far});
@@ -82,15 +82,15 @@ TEST_CASE("flagged points are right at a true vertex, or within the radius of a 
   CHECK(result.by_id.precision == 0.4);
   CHECK(result.by_id.recall == 0.2);
   CHECK(*result.by_id.f1 == Approx(4 / 15.));
-  CHECK(result.within_radius.precision == 0.8);
-  CHECK(result.within_radius.recall == Approx(0.3));
+  CHECK(result.within_tolerance.precision == 0.8);
+  CHECK(result.within_tolerance.recall == Approx(0.3));
 
   CHECK(score(ring).by_id.f1 == 1);
   CHECK(score({far}).by_id.f1 == 0);
   CHECK_FALSE(score({}).by_id.precision);
   CHECK(score({}).by_id.recall == 0);
   CHECK(score({}).by_id.f1 == 0);
-  const PointAccuracy none = score_points({}, {}, drawing.positions, stands_for, 1);
+  const PointAccuracy none = score_points({}, {}, drawing.positions, stands_for, {});
   CHECK_FALSE(none.by_id.f1);
 }
 
