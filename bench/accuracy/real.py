@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Holds the loops that `lacuna detect` reports on real scans against loops of the same scans that were judged by eye.
+bench/accuracy/README.md has the table, and real/index.tsv says where each scan comes from. A scan that is absent is
+skipped."""
+
+import argparse
+import collections
+import json
+import os
+import shutil
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from sets import run  # noqa: E402
+
+JUDGED = Path(__file__).resolve().parent / "real"
+RIGHT, PARTLY, WRONG = "R", "P", "GVN"  # as real/*.eye.txt have them; G, V and N are three ways to be wrong
+KINDS = ("hole", "outer")
+SURE = 0.9
+
+
+def judged_loops(file):
+    """Letter, kind and ids of each."""
+    lines = (line.split() for line in file.read_text(encoding="utf-8").splitlines())
+    return [(words[0], words[1], words[2:]) for words in lines if words and words[0] != "#"]
+
+
+def present_scans(folder):
+    """The names of the judged scans that are in the folder, and how many there are in all."""
+    names = [file.name.removesuffix(".eye.txt") for file in sorted(JUDGED.glob("*.eye.txt"))]
+    return [name for name in names if (folder / f"{name}.ply").exists()], len(names)
+
+
+def reported_loops(arguments, name, options):
+    """The loops of `lacuna detect`, each with the place of the judged loop that it matches, or None; and the judged
+    loops."""
+    judged = judged_loops(JUDGED / f"{name}.eye.txt")
+    folder = arguments.work / "out" / "real" / name
+    shutil.rmtree(folder, ignore_errors=True)  # another version's results would be refused
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    truth = folder.with_suffix(".loops.txt")
+    truth.write_text("".join(" ".join(ids) + "\n" for _, _, ids in judged), encoding="utf-8")
+    scan = arguments.scans / f"{name}.ply"
+    run([arguments.lacuna, "detect", scan, "--out", folder, "--quiet", "--threads", 1, "--sample-points", 0, "--unit", "m",
+         *options])
+    loops = json.loads((folder / "holes.json").read_text(encoding="utf-8"))["loops"]
+    scores = json.loads(run([arguments.bench, "evaluate", folder, truth, "--scan", scan, "--json", "--min-vertices", 1]))
+    places = [match["true_loop"] if match["verdict"] in ("found", "repeated") else None
+              for match in scores["loop_matches"]]
+    return list(zip(loops, places, strict=True)), judged
+
+
+def count(arguments, name):
+    """Counts of one scan: (kind, letter) of reported loops, with None where none was judged; (kind, letter, "sure");
+    (kind, "judged") and (kind, "found") of the right ones."""
+    reported, judged = reported_loops(arguments, name, arguments.detect_options)
+    counts = collections.Counter()
+    for loop, place in reported:
+        letter = None if place is None else judged[place][0]
+        counts[loop["kind"], letter] += 1
+        if loop["confidence"] >= SURE:
+            counts[loop["kind"], letter, "sure"] += 1
+    found = {place for _, place in reported}
+    for place, (letter, kind, _) in enumerate(judged):
+        if letter == RIGHT:
+            counts[kind, "judged"] += 1
+            counts[kind, "found"] += place in found
+    return counts
+
+
+def share(part, whole):
+    return f"{part / whole:.2f}" if whole else "-"
+
+
+def row(title, kind, counts):
+    right, partly, wrong = (sum(counts[kind, letter] for letter in letters) for letters in (RIGHT, PARTLY, WRONG))
+    sure, sure_wrong = (sum(counts[kind, letter, "sure"] for letter in letters) for letters in (RIGHT, WRONG))
+    return (f"| {title} | {kind} | {right} | {partly} | {wrong} | {share(right, right + wrong)} "
+            f"| {share(sure, sure + sure_wrong)} | {counts[kind, None]} "
+            f"| {share(counts[kind, 'found'], counts[kind, 'judged'])} of {counts[kind, 'judged']} |")
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--lacuna", type=Path, required=True, help="the program that finds holes")
+    parser.add_argument("--bench", type=Path, required=True, help="the program lacuna-bench")
+    parser.add_argument("--work", type=Path, required=True, help="results")
+    parser.add_argument("--scans", type=Path, required=True, help="folder of the scans, NAME.ply")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="scans at a time")
+    parser.add_argument("detect_options", nargs="*", help="after --: for every lacuna detect")
+    return parser.parse_args()
+
+
+def main():
+    arguments = parse_arguments()
+    present, judged = present_scans(arguments.scans)
+    print(f"{len(present)} of {judged} scans are there\n")
+    groups = collections.defaultdict(collections.Counter)
+    with ThreadPoolExecutor(arguments.jobs) as pool:
+        for name, counts in zip(present, pool.map(lambda name: count(arguments, name), present)):
+            for title in (name.split("-")[0], "all"):
+                groups[title].update(counts)
+    print("| scans | loops | right | partly | wrong | right of right and wrong | the same at 0.9 and more | not judged "
+          "| reported of the judged right |\n|---" + "|---" * 8 + "|")
+    for title in sorted(groups, key=lambda title: (title == "all", title)):
+        for kind in KINDS:
+            print(row(title, kind, groups[title]))
+
+
+if __name__ == "__main__":
+    main()
