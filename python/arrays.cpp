@@ -177,7 +177,7 @@ py::dict loops_of(const io::ExplainedDetection& detection) {
   all["normal"] = vectors(loops, [](const M& m) { return m.normal; });
   all["planarity"] = measures<double>(loops, [](const M& m) { return m.planarity; });
   all["mean_probability"] = measures<double>(loops, [](const M& m) { return m.mean_probability; });
-  all["emptiness"] = measures<double>(loops, [](const M& m) { return m.track.evidence.emptiness; });
+  all["prominence"] = measures<double>(loops, [](const M& m) { return m.track.evidence.prominence; });
   all["first_scale"] = measures<double>(loops, [](const M& m) { return m.track.first_scale; });
   py::array_t<double> shares = table<double>(loops.size(), io::kCauses);
   for (std::size_t i = 0; i < loops.size(); ++i)

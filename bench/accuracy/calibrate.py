@@ -1,19 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Fits the confidence of the method `tangential`, so that it is a probability. Of the loops said to be 0.7 sure, 7 in
-10 are true. Prints the coefficients of `log_odds` in engine/loops/confidence.cpp, and how well they hold on the scans
-of the fit. Likewise it prints how well the program's own confidence holds on these scans, and on those of run.py.
+10 are true. Prints the coefficients of `log_odds` in engine/loops/confidence.cpp, for each kind of loop, and how well
+they hold on the scans of the fit. It also prints how well the program's own confidence holds on those of run.py.
 bench/accuracy/README.md has more.
 
 The scans of the fit are none of run.py's. `lacuna detect` finds the loops that stand, whatever their confidence, and
-the evidence of each. Whether a loop is true is known from `lacuna-bench evaluate`. Logistic regression gives the
-coefficients."""
+the evidence of each. Whether a loop is true is known from `lacuna-bench evaluate`, on real scans from the eye (real.py).
+Logistic regression gives the coefficients."""
 
 import argparse
 import itertools
 import json
 import math
 import os
+import shutil
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -22,10 +23,13 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from degrade import Scan, doubled, falling_by_ten, halved, kept_with  # noqa: E402
 from range_map import SCENES, range_map  # noqa: E402
+import real as eye  # noqa: E402
 from sets import (GROUPS, RANGE_NOISES, SYNTH_KINDS, cut_mesh, degraded, fail, is_lidar, made_mesh,  # noqa: E402
                   quick_sets, real, run, synth)
 
-UNDECIDED = ("joined", "parted")  # such loops are neither right nor wrong
+UNDECIDED = ("joined", "parted", "P", "U")  # such loops are neither right nor wrong
+JUDGED = "judged"  # group of the loops that were judged by eye
+OF_JUDGED = 0.3  # their weight, over the weight of all others
 REPORTED = 0.5  # the least confidence, by default
 MESH_SEEDS = (11, 12, 13, 14)
 CONTRAST = 6  # of densities that vary
@@ -144,14 +148,14 @@ def test_sets(arguments):
 @dataclass
 class Loop:
     group: str  # of the set
-    verdict: str  # of `lacuna-bench evaluate`
+    verdict: str  # of `lacuna-bench evaluate`, or a letter of the eye
+    kind: str
     confidence: float  # of the program
     terms: tuple = ()  # what the coefficients belong to
-    known: float = 0  # the rest of the log-odds
 
     @property
     def is_true(self):
-        return self.verdict not in ("false", "step")
+        return self.verdict not in ("false", "step", *eye.WRONG)
 
 
 def verdicts(arguments, case, result):
@@ -171,31 +175,46 @@ def octaves(ratio):
     return power + 2 * mantissa - 2
 
 
-def terms(loop):
-    """As `log_odds` in engine/loops/confidence.cpp has them."""
-    evidence = loop["evidence"]
-    return (min(evidence["clearness"], 0.7), evidence["surface"], evidence["roundness"],
-            octaves(min(max(evidence["width"], 0.5), 8)), evidence["sampling_gap"],
-            min(evidence["persistence"], 2.0), 1.0)
+def octaves_within(ratio, least, most):
+    return octaves(min(max(ratio, least), most))
 
 
-def of_emptiness(loop):
-    """What the emptiness adds to the log-odds. It is not fitted: hardly any true loop has less than 0.8."""
-    return 20 * (min(loop["emptiness"], 0.8) - 0.8)
+# As `log_odds` in engine/loops/confidence.cpp has them.
+TERMS = {"surface": lambda loop: loop["evidence"]["surface"],
+         "width": lambda loop: octaves_within(loop["evidence"]["width"], 0.5, 5),
+         "compactness": lambda loop: octaves_within(loop["evidence"]["compactness"], 1 / 16, 1),
+         "persistence": lambda loop: min(loop["evidence"]["persistence"], 2.0),
+         "sampling_gap": lambda loop: octaves_within(loop["evidence"]["sampling_gap"], 0.25, 1),
+         "1": lambda loop: 1.0,
+         "prominence": lambda loop: octaves_within(loop["prominence"], 1, 32)}
 
 
-def formula(coefficients):
-    names = ("clearness", "surface", "roundness", "width", "sampling_gap", "persistence", "1")
-    return " ".join(f"{coefficient:+.2f} {name}" for coefficient, name in zip(coefficients, names))
+def names_of(kind):
+    return [name for name in TERMS if kind == "hole" or name != "prominence"]
+
+
+def formula(kind, coefficients):
+    return " ".join(f"{coefficient:+.2f} {name}" for coefficient, name in zip(coefficients, names_of(kind)))
+
+
+def rated(group, loop, verdict):
+    return Loop(group, verdict, loop["kind"], loop["confidence"], tuple(TERMS[name](loop) for name in names_of(loop["kind"])))
 
 
 def standing_loops(arguments, case):
     folder = arguments.work / "out" / "calibrate" / case.name
+    shutil.rmtree(folder, ignore_errors=True)  # another version's results would be refused
     run([arguments.lacuna, "detect", case.scan, "--out", folder, "--quiet", "--threads", 1, "--sample-points", 0,
          "--min-confidence", 0])
     found = json.loads((folder / "holes.json").read_text(encoding="utf-8"))["loops"]
-    return [Loop(case.group, verdict, loop["confidence"], terms(loop), of_emptiness(loop))
+    return [rated(case.group, loop, verdict)
             for loop, verdict in zip(found, verdicts(arguments, case, folder), strict=True)]
+
+
+def judged_loops(arguments, name):
+    """The loops that stand on a real scan and were judged by eye."""
+    reported, judged = eye.reported_loops(arguments, name, ["--min-confidence", 0])
+    return [rated(JUDGED, loop, judged[place][0]) for loop, place in reported if place is not None]
 
 
 def of_all(arguments, cases, loops_of):
@@ -227,19 +246,29 @@ def solve(rows, right):
 
 
 def log_odds(coefficients, loop):
-    return loop.known + sum(a * b for a, b in zip(coefficients, loop.terms))
+    return sum(a * b for a, b in zip(coefficients, loop.terms))
+
+
+def weighted(loops):
+    """Each loop with its weight. In each group the true loops weigh the same in total; judged loops weigh alike."""
+    groups = by_group(loops)
+    judged = groups.pop(JUDGED, [])
+    pairs = [(loop, 1 / max(1, sum(other.is_true for other in own))) for own in groups.values() for loop in own]
+    if judged:
+        weight = OF_JUDGED * sum(weight for _, weight in pairs) / len(judged)
+        pairs += [(loop, weight) for loop in judged]
+    return pairs
 
 
 def fit(loops):
-    """The coefficients under which the truth is likeliest, by Newton's method. In each group the true loops weigh the
-    same in total."""
-    weighted = [(loop, 1 / sum(other.is_true for other in own)) for own in by_group(loops).values() for loop in own]
+    """The coefficients under which the truth is likeliest, by Newton's method."""
+    pairs = weighted(loops)
     size = len(loops[0].terms)
     coefficients = [0.0] * size
     for _ in range(50):
         gradient = [0.0] * size  # of the log likelihood
         bends = [[0.0] * size for _ in range(size)]  # its second derivatives, negated
-        for loop, weight in weighted:
+        for loop, weight in pairs:
             sure = probability(log_odds(coefficients, loop))
             error, bend = weight * (loop.is_true - sure), weight * sure * (1 - sure)
             for i, term in enumerate(loop.terms):
@@ -300,7 +329,9 @@ def parse_arguments():
     parser.add_argument("--work", type=Path, required=True, help="sets and results; sets are kept")
     parser.add_argument("--data", type=Path, required=True, help="folder of the real scans")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="scans at a time")
-    return parser.parse_args()
+    arguments = parser.parse_args()
+    arguments.scans = arguments.data / "real"
+    return arguments
 
 
 def main():
@@ -313,10 +344,13 @@ def main():
             print(f"calibrate: {case.name}", file=sys.stderr)
         case.ensure()
     loops = of_all(arguments, fitted, standing_loops)
-    coefficients = fit(decided(loops))
-    print(formula(coefficients), flush=True)
+    loops += of_all(arguments, eye.present_scans(arguments.scans)[0], judged_loops)
+    coefficients = {}
+    for kind in eye.KINDS:
+        coefficients[kind] = fit([loop for loop in decided(loops) if loop.kind == kind])
+        print(f"{kind}: {formula(kind, coefficients[kind])}", flush=True)
     print_section("The loops that stand on the scans of the fit, with these coefficients:", loops,
-                  lambda loop: probability(log_odds(coefficients, loop)))
+                  lambda loop: probability(log_odds(coefficients[loop.kind], loop)))
     print_section("The loops that stand on the test scans, as the program has them:",
                   of_all(arguments, tested, standing_loops), lambda loop: loop.confidence)
 

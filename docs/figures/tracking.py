@@ -172,41 +172,47 @@ def is_within(polygon, x, y):
     return crossed % 2 == 1
 
 
-def lid(loop, centroid, area):
-    """Places on the lid."""
+def nearest(pixel, marked):
+    """The squared distance to the nearest of the marked pixels, and that pixel."""
+    return min(((pixel[0] - row) ** 2 + (pixel[1] - column) ** 2, (row, column)) for row, column in marked)
+
+
+def prominence(loop, centroid, area, length, points):
     size = norm(area)
+    width = 2 * size / length
     normal = tuple(x / size for x in area)
     least = min(range(3), key=lambda i: abs(normal[i]))
     u = cross(normal, tuple(float(i == least) for i in range(3)))
     u = tuple(x / norm(u) for x in u)
-    v = cross(normal, u)
-    rim = [tuple(dot(axis, sub(p, centroid)) for axis in (u, v, normal)) for p in loop.places]
-    lows, highs = ([extreme(p[i] for p in rim) for i in range(2)] for extreme in (min, max))
-    extent = [high - low for low, high in zip(lows, highs)]
-    step = max(math.sqrt(max(size / 64, extent[0] * extent[1] / 4096)), max(extent) / 4096)
-    nodes = []
-    for axis in range(2):
-        count = int(extent[axis] / step) + 1
-        middle = (lows[axis] + highs[axis]) / 2
-        nodes.append([middle + step * (i - (count - 1) / 2) for i in range(count)])
-    for y in nodes[1]:
-        for x in nodes[0]:
-            if not is_within([p[:2] for p in rim], x, y):
-                continue
-            weights = [1 / max((x - p[0]) ** 2 + (y - p[1]) ** 2, 1e-300) for p in rim]
-            z = sum(w * p[2] for w, p in zip(weights, rim)) / sum(weights)
-            yield tuple(c + x * a + y * b + z * n for c, a, b, n in zip(centroid, u, v, normal))
+    axes = (u, cross(normal, u), normal)
+    rim = [tuple(dot(axis, sub(p, centroid)) for axis in axes) for p in loop.places]
+    lows, highs = ([extreme(p[i] for p in rim) + grow for i in range(2)] for extreme, grow in ((min, -width), (max, width)))
+    side = max(high - low for low, high in zip(lows, highs))
+    edge = min(max(loop.spacing / 2, side / 255), side / 24)
+    counts = [int((high - low) / edge) + 1 for low, high in zip(lows, highs)]
+    corner = [(low + high - edge * count) / 2 for low, high, count in zip(lows, highs, counts)]
 
+    def pixel_of(place):
+        return tuple(math.floor((place[i] - corner[i]) / edge) for i in (1, 0))
 
-def emptiness(loop, centroid, area, points):
-    to_points = to_rim = 0.0
-    for place in lid(loop, centroid, area):
-        rim = min(math.dist(place, p) for p in loop.places)
-        distance = min(rim, min(math.dist(place, p) for p in points))
-        if distance >= 0.8 * loop.spacing:
-            to_points += min(distance, 4 * loop.spacing)
-            to_rim += min(rim, 4 * loop.spacing)
-    return to_points / to_rim if to_rim > 0 else 1.0
+    heights = {pixel_of(p): p[2] for p in rim}
+    sampled = set()
+    for p in points:
+        place = tuple(dot(axis, sub(p, centroid)) for axis in axes)
+        row, column = pixel_of(place)
+        if 0 <= row < counts[1] and 0 <= column < counts[0]:
+            if abs(place[2] - heights[nearest((row, column), heights)[1]]) <= width:
+                sampled.add((row, column))
+    deepest, around = 0, []
+    for row in range(counts[1]):
+        for column in range(counts[0]):
+            x, y = (corner[i] + edge * (at + 0.5) for i, at in enumerate((column, row)))
+            if is_within([p[:2] for p in rim], x, y):
+                deepest = max(deepest, nearest((row, column), sampled)[0])
+            elif nearest((row, column), heights)[0] <= (width / edge) ** 2:
+                around.append(nearest((row, column), sampled)[0])
+    gap = sorted(around)[int(0.9 * len(around))]
+    return (math.sqrt(deepest) + 0.5) / (math.sqrt(gap) + 0.5)
 
 
 def octaves(ratio):
@@ -214,14 +220,22 @@ def octaves(ratio):
     return power - 1 + 2 * mantissa - 1
 
 
+def octaves_within(ratio, least, most):
+    return octaves(min(max(ratio, least), most))
+
+
 def own_log_odds(loop, points):
     """Without the persistence. `points`: of the loop's level."""
     centroid, area, length, is_hole = shape_of(loop)
-    size = norm(area)
-    empty = (emptiness(loop, centroid, area, points) if size > 0 else 0.0) if is_hole else 1.0
-    width = 2 * size / length / loop.spacing
-    return (12.4 * min(loop.clearness, 0.7) + 9.3 * loop.surface + 4.1 * math.sqrt(4 * math.pi * size) / length
-            + octaves(min(max(width, 0.5), 8.0)) - 12.4 * loop.gap - 13.7 + 20 * (min(empty, 0.8) - 0.8))
+    width = 2 * norm(area) / length / loop.spacing
+    wide, gap = octaves_within(width, 0.5, 5.0), octaves_within(loop.gap, 0.25, 1.0)
+    compact = octaves_within(width / len(loop.places), 1 / 16, 1.0)
+    if not is_hole:
+        return 3.6 * loop.surface + 1.9 * wide + 0.7 * compact - 3.2 * gap - 6.4
+    rest = 9.3 * loop.surface + 3.1 * wide + 1.4 * compact - 7.4 * gap - 16.4
+    if rest + 1.4 * 5 + 0.7 * 2 <= 0 or norm(area) == 0:  # no prominence could make it probable
+        return rest
+    return rest + 1.4 * octaves_within(prominence(loop, centroid, area, length, points), 1.0, 32.0)
 
 
 def rated(levels):
@@ -244,7 +258,7 @@ def rated(levels):
     for i, loop in enumerate(loops):
         loop.first, loop.last = edges[firsts[i]], edges[lasts[i]]
         persistence = octaves(loop.last / loop.spacing) if loop.last > loop.spacing else 0.0
-        loop.odds += 0.8 * min(persistence, 2)
+        loop.odds += (0.7 if shape_of(loop)[3] else 1.1) * min(persistence, 2)
         loop.confidence = 1 / (1 + math.exp(-loop.odds))
     return loops, near, [min(x.odds, 4) - 0.8 * (x.level + 0.5 * x.scale) for x in loops]
 

@@ -13,6 +13,9 @@ double octaves(double ratio);
 // Returns the logarithm of the odds.
 double log_odds(const LoopEvidence& evidence);
 
+// Returns whether some prominence and persistence would make the loop more likely true than false.
+bool could_be_probable(LoopEvidence evidence);
+
 double probability_of(double log_odds);
 
 }  // namespace lacuna

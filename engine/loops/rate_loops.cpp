@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/loops/rate_loops.hpp"
 
-#include "engine/loops/emptiness.hpp"
+#include "engine/loops/confidence.hpp"
 #include "engine/loops/measure_loop.hpp"
-
-#include <cmath>
-#include <numbers>
+#include "engine/loops/prominence.hpp"
 
 namespace lacuna {
 
@@ -14,9 +12,10 @@ void rate_loops(const TileStore& points, Loops& loops, Job& job) {
     const LoopShape shape = shape_of(loop, scratch);
     LoopEvidence evidence = loops.evidence(i);
     evidence.width = 2 * shape.area / shape.perimeter / evidence.spacing;
-    evidence.roundness = std::sqrt(4 * std::numbers::pi * shape.area) / shape.perimeter;
-    if (shape.kind == LoopKind::kHole)
-      evidence.emptiness = emptiness(points, loop, shape, evidence.spacing, scratch);
+    evidence.compactness = evidence.width / static_cast<double>(loop.size());
+    evidence.kind = shape.kind;
+    if (evidence.kind == LoopKind::kHole && could_be_probable(evidence))
+      evidence.prominence = prominence(points, loop, shape, evidence.spacing, scratch);
     loops.set_evidence(i, evidence);
   });
 }

@@ -9,7 +9,8 @@
 namespace lacuna {
 
 // Adds the evidence that the curves do not have, but not the persistence, which tracking finds. `points`: of
-// the level. Cost: `emptiness` of each hole.
+// the level. Cost: linear in the points of loops, and
+// `prominence` of the holes that it could make probable.
 void rate_loops(const TileStore& points, Loops& loops, Job& job);
 
 }  // namespace lacuna

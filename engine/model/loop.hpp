@@ -39,9 +39,11 @@ struct LoopEvidence {
   double sampling_gap = 0;  // radius of empty circles of the sampling over the distance to the neighbours
   bool is_coarse = false;   // found within the coarse bound
   // The loop among the points of its level.
-  double width = 0;      // 2 area / perimeter, in spacings
-  double roundness = 0;  // perimeter of the circle of the same area over its own, [0, 1]
-  double emptiness = 1;  // of the space over the lid of a hole, [0, 1]; 1 for an outer curve
+  LoopKind kind = LoopKind::kHole;
+  double width = 0;  // 2 area / perimeter, in spacings
+  double compactness =
+      0;  // width over the number of points: about 1/6 for a circle, 0 for a line there and back
+  double prominence = 0;  // of a hole over the gaps around it; 0: not measured
   // The track.
   double persistence = 0;  // octaves from the spacing to the last scale, 0 or more
 

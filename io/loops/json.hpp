@@ -20,7 +20,7 @@ namespace lacuna::io {
 class FileScan;
 
 // The form of holes.json, which docs/holes.schema.json describes.
-inline constexpr std::string_view kHolesSchema = "holes 2";
+inline constexpr std::string_view kHolesSchema = "holes 3";
 
 using Json = nlohmann::ordered_json;  // keys stay in the order given; what is not finite is printed as null
 

@@ -30,7 +30,7 @@ inline constexpr auto kLoopMeasures = std::to_array<LoopMeasure>({
      true},
     {"points", [](const ExplainedLoop& loop) { return static_cast<double>(loop.points); }, true},
     {"confidence", [](const ExplainedLoop& loop) { return loop.track.confidence; }},
-    {"emptiness", [](const ExplainedLoop& loop) { return loop.track.evidence.emptiness; }},
+    {"prominence", [](const ExplainedLoop& loop) { return loop.track.evidence.prominence; }},
     {"first_scale", [](const ExplainedLoop& loop) { return loop.track.first_scale; }},
     {"last_scale", [](const ExplainedLoop& loop) { return loop.track.last_scale; }},
     {"perimeter", [](const ExplainedLoop& loop) { return loop.perimeter; }},

@@ -120,9 +120,13 @@ void write_list(std::string_view key, OutputFile& out,
 }
 
 Json evidence_json(const LoopEvidence& evidence) {
-  return {{"clearness", evidence.clearness},       {"surface", evidence.surface},
-          {"sampling_gap", evidence.sampling_gap}, {"width", evidence.width},
-          {"roundness", evidence.roundness},       {"persistence", evidence.persistence}};
+  return {{"clearness", evidence.clearness},
+          {"surface", evidence.surface},
+          {"spacing", evidence.spacing},
+          {"sampling_gap", evidence.sampling_gap},
+          {"width", evidence.width},
+          {"compactness", evidence.compactness},
+          {"persistence", evidence.persistence}};
 }
 
 // Writes point by point, since a loop may be larger than memory.
@@ -132,7 +136,7 @@ void write_loop(std::size_t id, const ExplainedDetection& detection, bool with_c
                      {"kind", name_of(measures.kind)},
                      {"parent", measures.parent < 0 ? Json() : Json(measures.parent)},
                      {"confidence", measures.track.confidence},
-                     {"emptiness", measures.track.evidence.emptiness},
+                     {"prominence", measures.track.evidence.prominence},
                      {"evidence", evidence_json(measures.track.evidence)},
                      {"first_scale", measures.track.first_scale},
                      {"last_scale", measures.track.last_scale},

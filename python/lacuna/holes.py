@@ -26,7 +26,7 @@ MEASURES = (
     "diameter",
     "planarity",
     "mean_probability",
-    "emptiness",
+    "prominence",
     "first_scale",
     "last_scale",
 )
@@ -61,7 +61,7 @@ class Loop:
     normal: np.ndarray  # unit; right hand rule about the loop's direction; 0 where it encloses nothing
     planarity: float  # 1: in one plane
     mean_probability: float
-    emptiness: float  # of the space over the lid of a hole, [0, 1]; 1 for an outer curve
+    prominence: float  # of a hole over the gaps of the sampling around it; 0: not measured
     first_scale: float
     last_scale: float
     cause_shares: np.ndarray  # of its area, in the order of `lacuna.CAUSES`; NaN where no station is known

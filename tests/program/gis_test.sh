@@ -91,7 +91,7 @@ import math
 from pathlib import Path
 
 SHARES = ("hidden", "opening", "out_of_view", "no_return", "filtered")
-MEASURES = ("id", "kind", "cause", "unit", "parent", "points", "confidence", "emptiness", "first_scale", "last_scale", "perimeter",
+MEASURES = ("id", "kind", "cause", "unit", "parent", "points", "confidence", "prominence", "first_scale", "last_scale", "perimeter",
             "area", "diameter", "planarity", "mean_probability", *SHARES)
 
 

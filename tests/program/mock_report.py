@@ -68,7 +68,7 @@ def measures(number, is_hole, vertices, confidence, planarity):
         diameter = max(diameter, 2 * math.dist(a, centre))
     area = math.hypot(*normal)
     return {"id": number, "kind": "hole" if is_hole else "outer", "parent": None, "points": len(vertices), "confidence": confidence,
-            "emptiness": short(confidence), "first_scale": 0, "last_scale": 0.5,
+            "prominence": short(confidence), "first_scale": 0, "last_scale": 0.5,
             "perimeter": short(perimeter), "area": short(area), "diameter": short(diameter), "planarity": planarity,
             "mean_probability": short(0.6 + 0.35 * confidence), "centroid": [round(value, 5) for value in centre],
             "normal": [short(value / (area or 1.0)) for value in normal], "vertices": vertices}
@@ -244,7 +244,7 @@ def assemble(arguments, points, spacing, probabilities, normals, colours, raw_lo
     for value in probabilities:
         histogram[min(19, value * 20 // 256)] += 1
     has_colours = bool(arguments.colours and colours)
-    columns = ["id", "kind", "parent", "points", "confidence", "emptiness", "first_scale", "last_scale", "perimeter", "area", "diameter", "planarity", "mean_probability",
+    columns = ["id", "kind", "parent", "points", "confidence", "prominence", "first_scale", "last_scale", "perimeter", "area", "diameter", "planarity", "mean_probability",
                "centroid", "normal", "cause", "hidden_by", "hidden_from", "hidden_from_place", *CAUSES]
     holes = sum(loop["kind"] == "hole" for loop in loops)
     report = {

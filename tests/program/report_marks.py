@@ -149,7 +149,7 @@ def check_file(driver, loop):
 
     words = load(driver, text.replace('"real"', '"maybe"'))
     require('marks[0].mark: ' in words and "real" in words, f"a wrong file: {words}")
-    require("holes 2" in load(driver, '{"schema": "holes 2"}'), "another file is refused by its schema")
+    require("holes 3" in load(driver, '{"schema": "holes 3"}'), "another file is refused by its schema")
     require("not JSON" in load(driver, text[:-5]), "so is half of a file")
     require(mark(driver, loop) == "done", "a wrong file changes nothing")
 

@@ -196,7 +196,7 @@ TEST_CASE("results that are missing or not Lacuna's are an error of one line") {
     refused("holes.json");
   }
   write("{\"schema\": \"holes 9\", \"loops\": []}");
-  refused("\"holes 2\" is read");
+  refused("\"holes 3\" is read");
   write("[1, 2]");
   refused("holes.json");
   const std::string points = "\"points\":";

@@ -50,7 +50,7 @@ std::string Detected::bytes() const {
     const LoopMeasures& m = loop.measures;
     for (const double value :
          {m.perimeter, m.area, m.diameter, m.planarity, m.mean_probability, m.track.confidence,
-          m.track.evidence.emptiness, m.track.first_scale, m.track.last_scale})
+          m.track.evidence.prominence, m.track.first_scale, m.track.last_scale})
       put(bytes, value);
     put(bytes, m.kind);
     put(bytes, m.points);

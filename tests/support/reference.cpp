@@ -1036,59 +1036,91 @@ bool is_within(const std::vector<Eigen::Vector2d>& polygon, double x, double y) 
   return is_odd;
 }
 
-// How empty the space over the lid is: method.md, D.3.
-double emptiness(const FoundLoop& loop, const Shape& shape, const Positions& points) {
+// How far the hole stands out of the gaps around it: method.md, D.3.
+double prominence(const FoundLoop& loop, const Shape& shape, const Positions& points) {
   const double size = shape.area.stableNorm();
   if (!(size > 0)) return 0;
-  const Vector3d normal = shape.area / size;
-  Eigen::Index least = 0;
-  normal.cwiseAbs().minCoeff(&least);
-  const Vector3d u = normal.cross(Vector3d::Unit(least)).normalized(), v = normal.cross(u);
+  const double width = 2 * size / shape.length;
+  Eigen::Matrix3d axes;
+  axes.col(2) = shape.area / size;
+  axes.col(0) = Vector3d(axes.col(2)).unitOrthogonal();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  const auto flat = [&](const Vector3d& p) -> Vector3d { return axes.transpose() * (p - shape.centroid); };
   std::vector<Eigen::Vector2d> rim;
   Eigen::AlignedBox2d box;
   for (const Vector3d& p : loop.places) {
-    rim.emplace_back(u.dot(p - shape.centroid), v.dot(p - shape.centroid));
+    rim.emplace_back(flat(p).head<2>());
     box.extend(rim.back());
   }
-  const Eigen::Vector2d extent = box.sizes();
-  const double step =
-      std::max(std::sqrt(std::max(size / 64, extent.prod() / 4096)), extent.maxCoeff() / 4096);
-  const int columns = static_cast<int>(extent.x() / step) + 1, rows = static_cast<int>(extent.y() / step) + 1;
-  double sum = 0, sum_to_loop = 0;
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      const double x = box.center().x() - step / 2 * (columns - 1) + column * step,
-                   y = box.center().y() - step / 2 * (rows - 1) + row * step;
-      if (!is_within(rim, x, y)) continue;
-      double weights = 0, heights = 0;
-      for (std::size_t i = 0; i < rim.size(); ++i) {
-        const double weight = 1 / std::max((rim[i] - Eigen::Vector2d(x, y)).squaredNorm(), 1e-300);
-        weights += weight;
-        heights += weight * normal.dot(loop.places[i] - shape.centroid);
+  box.min().array() -= width;
+  box.max().array() += width;
+  const double side = box.sizes().maxCoeff(), edge = std::clamp(loop.spacing / 2, side / 255, side / 24);
+  const Eigen::Vector2i count(int(box.sizes().x() / edge) + 1, int(box.sizes().y() / edge) + 1);
+  const Eigen::Vector2d corner = box.center() - edge / 2 * count.cast<double>();
+  using Pixel = std::pair<int, int>;  // row, column
+  const auto pixel_of = [&](const Vector3d& p) {
+    return Pixel(int(std::floor((p.y() - corner.y()) / edge)), int(std::floor((p.x() - corner.x()) / edge)));
+  };
+  const auto distance = [](const Pixel& a, const Pixel& b) {
+    return (a.first - b.first) * (a.first - b.first) + (a.second - b.second) * (a.second - b.second);
+  };
+  // The nearest pixel of a set, the first of equally near ones: ring by ring.
+  const auto nearest = [&](const Pixel& at, const auto& among) {
+    std::optional<Pixel> best;
+    for (int ring = 0; ring < 512 && (!best || ring * ring <= distance(at, *best)); ++ring) {
+      for (int row = at.first - ring; row <= at.first + ring; ++row) {
+        const bool is_end = std::abs(row - at.first) == ring;
+        for (int column = at.second - ring; column <= at.second + ring;
+             column += is_end || ring == 0 ? 1 : 2 * ring) {
+          const Pixel pixel(row, column);
+          if (!among.contains(pixel)) continue;
+          if (!best || std::pair(distance(at, pixel), pixel) < std::pair(distance(at, *best), *best))
+            best = pixel;
+        }
       }
-      const Vector3d place = shape.centroid + x * u + y * v + heights / weights * normal;
-      const auto nearest = [&](const Positions& among) {
-        double distance = std::numeric_limits<double>::infinity();
-        for (const Vector3d& p : among) distance = std::min(distance, (p - place).norm());
-        return distance;
-      };
-      const double to_loop = nearest(loop.places), distance = std::min(nearest(points), to_loop);
-      if (distance < 0.8 * loop.spacing) continue;
-      sum += std::min(distance, 4 * loop.spacing);
-      sum_to_loop += std::min(to_loop, 4 * loop.spacing);
+    }
+    return *best;
+  };
+  std::map<Pixel, float> heights;
+  for (const Vector3d& p : loop.places) heights[pixel_of(flat(p))] = float(flat(p).z());
+  std::set<Pixel> sampled;
+  for (const Vector3d& p : points) {
+    const Vector3d at = flat(p);
+    if (((at.head<2>() - corner).array() < 0).any() ||
+        ((at.head<2>() - corner).array() / edge >= count.cast<double>().array()).any())
+      continue;
+    if (std::abs(at.z() - heights.at(nearest(pixel_of(at), heights))) <= width) sampled.insert(pixel_of(at));
+  }
+  int deepest = 0;
+  std::vector<int> around;
+  for (int row = 0; row < count.y(); ++row) {
+    for (int column = 0; column < count.x(); ++column) {
+      const Pixel pixel(row, column);
+      const Eigen::Vector2d middle = corner + edge * Eigen::Vector2d(column + 0.5, row + 0.5);
+      if (is_within(rim, middle.x(), middle.y())) {
+        deepest = std::max(deepest, distance(pixel, nearest(pixel, sampled)));
+      } else if (distance(pixel, nearest(pixel, heights)) <= width * width / (edge * edge)) {
+        around.push_back(distance(pixel, nearest(pixel, sampled)));
+      }
     }
   }
-  return sum_to_loop > 0 ? sum / sum_to_loop : 1;
+  if (around.empty()) around.push_back(0);
+  std::sort(around.begin(), around.end());
+  return (std::sqrt(deepest) + 0.5) / (std::sqrt(around[std::size_t(0.9 * double(around.size()))]) + 0.5);
 }
 
 // The logarithm of the odds that the loop is true, without its persistence. `points`: of its level.
 double own_log_odds(const FoundLoop& loop, const Positions& points) {
   const Shape shape = shape_of(loop);
-  const double area = shape.area.stableNorm(), width = 2 * area / shape.length / loop.spacing;
-  const double empty = shape.is_hole ? emptiness(loop, shape, points) : 1;
-  return 12.4 * std::min(loop.clearness, 0.7) + 9.3 * loop.surface +
-         4.1 * std::sqrt(4 * pi * area) / shape.length + octaves(std::clamp(width, 0.5, 8.)) -
-         12.4 * loop.sampling_gap - 13.7 + 20 * (std::min(empty, 0.8) - 0.8);
+  const double width = 2 * shape.area.stableNorm() / shape.length / loop.spacing;
+  const double wide = octaves(std::clamp(width, 0.5, 5.)),
+               compact = octaves(std::clamp(width / double(loop.places.size()), 1 / 16., 1.)),
+               gap = octaves(std::clamp(loop.sampling_gap, 0.25, 1.));
+  if (!shape.is_hole) return 3.6 * loop.surface + 1.9 * wide + 0.7 * compact - 3.2 * gap - 6.4;
+  const double rest = 9.3 * loop.surface + 3.1 * wide + 1.4 * compact - 7.4 * gap - 16.4;
+  // Another one could not make the loop probable.
+  if (rest + 1.4 * octaves(32) + 0.7 * 2 <= 0) return rest;
+  return rest + 1.4 * octaves(std::clamp(prominence(loop, shape, points), 1., 32.));
 }
 
 struct Tracked {
@@ -1119,7 +1151,8 @@ Tracked track(const Loops& loops, const std::vector<double>& edges, const std::v
     for (std::size_t b = a + 1; b < count; ++b)
       if (loops[a].level != loops[b].level && is_same(a, b)) last[a] = std::max(last[a], last[b]);
     const double ratio = edges[last[a]] / loops[a].spacing;
-    odds[a] = loops[a].log_odds + 0.8 * (ratio > 1 ? std::min(octaves(ratio), 2.) : 0);
+    odds[a] = loops[a].log_odds +
+              (shape_of(loops[a]).is_hole ? 0.7 : 1.1) * (ratio > 1 ? std::min(octaves(ratio), 2.) : 0);
     ranks[a] = std::min(odds[a], 4.) -
                0.8 * (static_cast<double>(loops[a].level) + 0.5 * double(loops[a].scale == 1));
   }

@@ -82,7 +82,13 @@ ComparedResult read_result(const fs::path& folder) {
 Comparison::Comparison(ComparedResult first, ComparedResult second, double length)
     : before(std::move(first)), after(std::move(second)), tolerance(length) {
   constexpr double kDistances = 2;
-  if (tolerance == 0) tolerance = kDistances * std::max(before.median_distance, after.median_distance);
+  if (tolerance == 0) {
+    tolerance = kDistances * std::max(before.median_distance, after.median_distance);
+    for (ComparedResult* result : {&before, &after}) {
+      for (ComparedLoop& loop : result->scan.loops)
+        loop.tolerance = kDistances * loop.measures.track.evidence.spacing;
+    }
+  }
   changes = compare_loops(before.scan, after.scan, tolerance);
 }
 
@@ -138,8 +144,8 @@ void add_compare_command(const Command& program) {
       .type("DIR");
   command
       .add_option("--tolerance", arguments->tolerance,
-                  "How far apart the curves of one hole may be, in units of the scan; 0: twice the larger "
-                  "median distance of neighbours")
+                  "How far apart the curves of one hole may be, in units of the scan; 0: twice the "
+                  "spacing of the place, and at least twice the median distance of neighbours")
       .type("LENGTH");
   command.add_flag("--json", arguments->json, "Print the same as JSON, for programs");
   command.runs([arguments] { run_compare(*arguments); });

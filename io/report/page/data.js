@@ -96,7 +96,7 @@ function read_loops(loops, has_causes) {
     id: column("id"),
     points: column("points"),
     confidence: column("confidence"),
-    emptiness: column("emptiness"),
+    prominence: column("prominence"),
     first_scale: column("first_scale"),
     last_scale: column("last_scale"),
     perimeter: column("perimeter"),

@@ -239,7 +239,7 @@ class LoopTable {
     const text = (value) => (Number.isFinite(value) ? String(value) : "");
     const quoted = (words) => (/[",\r\n]/.test(words) ? `"${words.replace(/"/g, '""')}"` : words);
     const place = (value) => (Number.isFinite(value) ? String(short_place(value)) : "");
-    const names = ["points", "confidence", "emptiness", "first_scale", "last_scale", "perimeter", "area", "diameter", "planarity", "mean_probability"];
+    const names = ["points", "confidence", "prominence", "first_scale", "last_scale", "perimeter", "area", "diameter", "planarity", "mean_probability"];
     // As in holes.csv.
     const causes = loops.has_causes ? kCauses.map(({name}) => name) : [];
     const more = loops.has_causes ? ["cause", ...["x", "y", "z"].map((axis) => `hidden_by_${axis}${unit}`)] : [];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How sure a loop is: what its evidence adds, and how empty its lid is.
+// How sure a loop is: what its evidence adds, and how far it stands out of the gaps around it.
 #include "engine/loops/rate_loops.hpp"
 
 #include "engine/loops/confidence.hpp"
@@ -46,74 +46,95 @@ LoopMeasures hole_of(const Cloud& cloud) {
   return holes[0];
 }
 
-TEST_CASE("a hole is empty, and sparse points all over it make it less so and unsure") {
+TEST_CASE("a hole stands out of the gaps around it, and the less the more points lie in it") {
   const LoopMeasures empty = hole_of(punched_plane());
-  CHECK(empty.track.evidence.emptiness > 0.999);
+  // A radius of 10 spacings over a gap of half a diagonal of the grid.
+  CHECK(empty.track.evidence.prominence > 8);
+  CHECK(empty.track.evidence.prominence < 16);
   CHECK(empty.track.evidence.width == Approx(kRadius).margin(1.5));
-  CHECK(empty.track.evidence.roundness == Approx(1).margin(0.1));
+  CHECK(empty.track.evidence.compactness == Approx(1 / (2 * std::numbers::pi)).margin(0.04));
   CHECK(empty.track.confidence > 0.95);
   const LoopMeasures sparse = hole_of(with_patch(punched_plane(), kRadius, 3)),
-                     sparser = hole_of(with_patch(punched_plane(), kRadius, 4));
-  CHECK(sparse.track.evidence.emptiness < sparser.track.evidence.emptiness);
-  CHECK(sparser.track.evidence.emptiness < 0.7);
-  CHECK(sparse.track.confidence < 0.5);
+                     sparser = hole_of(with_patch(punched_plane(), kRadius, 6));
+  CHECK(sparse.track.evidence.prominence < sparser.track.evidence.prominence);
+  CHECK(sparser.track.evidence.prominence < empty.track.evidence.prominence / 2);
+  CHECK(sparse.track.confidence < sparser.track.confidence);
   CHECK(sparser.track.confidence < empty.track.confidence);
 }
 
-TEST_CASE("an island as dense as the surface leaves a hole likely, and a small one leaves it sure") {
-  CHECK(hole_of(with_patch(punched_plane(), 5, 1)).track.confidence > 0.5);
+TEST_CASE("a hole with an island is as prominent as the ring around the island is wide") {
+  const double prominence = hole_of(with_patch(punched_plane(), 5, 1)).track.evidence.prominence;
+  CHECK(prominence > 1.5);
+  CHECK(prominence < 5);
   CHECK(hole_of(with_patch(punched_plane(), 3, 1)).track.confidence > 0.9);
 }
 
-TEST_CASE("what lies far before or behind a hole leaves it empty") {
-  const LoopMeasures hole = hole_of(with_patch(punched_plane(), 8, 1, 12));
-  CHECK(hole.track.evidence.emptiness > 0.999);
+TEST_CASE("what lies far before or behind a hole leaves it prominent") {
+  const auto of = [](const Cloud& cloud) { return hole_of(cloud).track.evidence.prominence; };
+  CHECK(of(with_patch(punched_plane(), 8, 1, 12)) == of(punched_plane()));
 }
 
-TEST_CASE("the lid follows its rim: a hole in a cylinder is empty, and points on the cylinder fill it") {
+TEST_CASE("the height of a hole follows its loop: points on a cylinder fill a hole in it") {
   const auto bent = [](Cloud cloud) {
     for (Eigen::Vector3d& p : cloud.positions)
       p = {25 * std::sin((p.x() - 29.5) / 25), p.y(), 25 * std::cos((p.x() - 29.5) / 25)};
     return cloud;
   };
-  CHECK(hole_of(bent(punched_plane())).track.evidence.emptiness > 0.99);
-  CHECK(hole_of(bent(with_patch(punched_plane(), kRadius, 3))).track.evidence.emptiness < 0.6);
+  CHECK(hole_of(bent(punched_plane())).track.evidence.prominence > 8);
+  CHECK(hole_of(bent(with_patch(punched_plane(), kRadius, 3))).track.evidence.prominence < 4);
 }
 
-TEST_CASE("outer curves have no lid") {
+TEST_CASE("a turn or a move of the scan changes no prominence by more than a pixel") {
+  const double before = hole_of(punched_plane()).track.evidence.prominence;
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  Cloud moved = punched_plane();
+  for (Eigen::Vector3d& p : moved.positions) p = turn * p + Eigen::Vector3d(456'000, 5'432'000, 100);
+  CHECK(hole_of(moved).track.evidence.prominence == Approx(before).epsilon(0.25));
+}
+
+TEST_CASE("outer curves have no prominence") {
   for (const ReportedLoop& loop : run_engine(punched_plane(), {}).loops) {
-    if (loop.measures.kind == LoopKind::kOuter) CHECK(loop.measures.track.evidence.emptiness == 1);
+    if (loop.measures.kind == LoopKind::kOuter) CHECK(loop.measures.track.evidence.prominence == 0);
   }
 }
 
-TEST_CASE("log-odds rise with each evidence of a hole, and fall with gaps of the sampling") {
-  const LoopEvidence plain{.clearness = 0.6,
-                           .surface = 0.8,
-                           .sampling_gap = 0.55,
-                           .width = 4,
-                           .roundness = 0.5,
-                           .emptiness = 0.75};
+TEST_CASE("log-odds rise with each evidence of a loop, and fall with gaps of the sampling") {
+  const LoopKind kind = GENERATE(LoopKind::kHole, LoopKind::kOuter);
+  const LoopEvidence plain{
+      .surface = 0.8, .sampling_gap = 0.55, .kind = kind, .width = 4, .compactness = 0.1, .prominence = 2};
   const auto with = [&](auto change) {
     LoopEvidence changed = plain;
     change(changed);
     return log_odds(changed);
   };
   const double before = log_odds(plain);
-  CHECK(with([](LoopEvidence& e) { e.clearness = 0.65; }) > before);
-  CHECK(with([](LoopEvidence& e) { e.surface = 0.9; }) > before);
-  CHECK(with([](LoopEvidence& e) { e.emptiness = 0.8; }) > before);
-  CHECK(with([](LoopEvidence& e) { e.roundness = 0.9; }) > before);
   CHECK(with([](LoopEvidence& e) { e.width = 5; }) > before);
   CHECK(with([](LoopEvidence& e) { e.persistence = 1; }) > before);
   CHECK(with([](LoopEvidence& e) { e.sampling_gap = 0.6; }) < before);
   // Beyond these, a number says nothing more.
-  CHECK(with([](LoopEvidence& e) { e.clearness = 0.7; }) == with([](LoopEvidence& e) { e.clearness = 1; }));
-  CHECK(with([](LoopEvidence& e) { e.emptiness = 0.8; }) == with([](LoopEvidence& e) { e.emptiness = 1; }));
-  CHECK(with([](LoopEvidence& e) { e.width = 8; }) == with([](LoopEvidence& e) { e.width = 800; }));
+  CHECK(with([](LoopEvidence& e) { e.width = 5; }) == with([](LoopEvidence& e) { e.width = 800; }));
   CHECK(with([](LoopEvidence& e) { e.width = 0.5; }) == with([](LoopEvidence& e) { e.width = 0; }));
   CHECK(with([](LoopEvidence& e) { e.persistence = 2; }) == with([](LoopEvidence& e) { e.persistence = 9; }));
+  if (kind == LoopKind::kHole) {
+    CHECK(with([](LoopEvidence& e) { e.surface = 0.9; }) > before);
+    CHECK(with([](LoopEvidence& e) { e.compactness = 0.15; }) > before);
+    CHECK(with([](LoopEvidence& e) { e.prominence = 3; }) > before);
+    CHECK(with([](LoopEvidence& e) { e.prominence = 32; }) ==
+          with([](LoopEvidence& e) { e.prominence = 99; }));
+    CHECK(with([](LoopEvidence& e) { e.compactness = 0; }) ==
+          with([](LoopEvidence& e) { e.compactness = 0.0625; }));
+  }
   CHECK(probability_of(0) == 0.5);
   CHECK(probability_of(2) + probability_of(-2) == Approx(1));
+}
+
+TEST_CASE("a hole is measured for prominence if that could make it probable") {
+  LoopEvidence evidence{.surface = 0.9, .sampling_gap = 0.6, .width = 2, .compactness = 0.1};
+  CHECK(log_odds(evidence) < 0);
+  CHECK(could_be_probable(evidence));
+  evidence.surface = 0.3;
+  CHECK_FALSE(could_be_probable(evidence));
 }
 
 }  // namespace

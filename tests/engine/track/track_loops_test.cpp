@@ -44,7 +44,8 @@ class Drawn {
                                   .sampling_gap = 0.5,
                                   .is_coarse = loop.is_coarse,
                                   .width = 8,
-                                  .roundness = 1};
+                                  .compactness = 1 / (2 * std::numbers::pi),
+                                  .prominence = 8};
       level.loops.add(static_cast<std::uint64_t>(count), evidence, [&](std::uint64_t i) {
         const double angle = 2 * std::numbers::pi * static_cast<double>(i) / count;
         const Eigen::Vector3d p =

@@ -72,7 +72,7 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
 
   const auto json = report(folder / "out");
   CHECK(json.at("lacuna") == "0.1.0");
-  CHECK(json.at("schema") == "holes 2");
+  CHECK(json.at("schema") == "holes 3");
   for (const Parameter& parameter : parameters(config)) {
     const auto run = run_of(folder / "out");
     const auto& place = parameter.section == "run" ? run : json;
@@ -93,8 +93,8 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
   CHECK(json.at("loops")[1].at("kind") == "outer");
   CHECK(json.at("loops")[1].at("area").is_null());
   const nlohmann::json hole = nlohmann::json::parse(R"({
-      "id": 0, "kind": "hole", "parent": null, "confidence": 1.0, "emptiness": 1.0,
-      "evidence": {"clearness": 1.0, "surface": 1.0, "sampling_gap": 0.0, "width": 0.0, "roundness": 0.0,
+      "id": 0, "kind": "hole", "parent": null, "confidence": 1.0, "prominence": 0.0,
+      "evidence": {"clearness": 1.0, "surface": 1.0, "spacing": 0.0, "sampling_gap": 0.0, "width": 0.0, "compactness": 0.0,
                    "persistence": 0.0},
       "first_scale": 0.0, "last_scale": 0.0, "perimeter": 0.1, "area": 0.0, "diameter": 0.0,
       "planarity": 0.0, "mean_probability": 0.0, "centroid": [1, 2, 3], "normal": [0, 0, 1], "cause": null,

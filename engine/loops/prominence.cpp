@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plane of the loop is a raster. A pixel is sampled where a point lies over it, near the height of the
+// loop. The distances from all pixels to sampled ones say how empty the hole is, and how empty its
+// surroundings are. All decisions are made on whole numbers of pixels, so the order in which points arrive
+// changes nothing.
+#include "engine/loops/prominence.hpp"
+
+#include "engine/loops/loop_plane.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+namespace lacuna {
+namespace {
+
+constexpr std::uint32_t kNowhere = UINT32_MAX;
+
+class Raster {
+ public:
+  Raster(const Eigen::AlignedBox2d& box, double spacing) {
+    constexpr double kFewest = 24, kMost = 255;  // pixels of the longer side
+    const double side = box.sizes().maxCoeff();
+    edge = std::clamp(spacing / 2, side / kMost, side / kFewest);
+    columns = static_cast<std::uint32_t>(box.sizes().x() / edge) + 1;
+    rows = static_cast<std::uint32_t>(box.sizes().y() / edge) + 1;
+    corner_ = box.center() - edge / 2 * Eigen::Vector2d(columns, rows);
+  }
+  std::size_t size() const { return std::size_t{columns} * rows; }
+  std::uint32_t pixel(std::uint32_t column, std::uint32_t row) const { return row * columns + column; }
+  // Returns the pixel over which a place lies, or kNowhere.
+  std::uint32_t pixel_at(const Eigen::Vector3d& place) const {
+    const double column = std::floor((place.x() - corner_.x()) / edge),
+                 row = std::floor((place.y() - corner_.y()) / edge);
+    if (!(column >= 0 && column < columns && row >= 0 && row < rows)) return kNowhere;
+    return pixel(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
+  }
+  double y(std::uint32_t row) const { return corner_.y() + (row + 0.5) * edge; }
+  // Return the first row, or column, whose middle is not below a coordinate.
+  std::uint32_t first_row(double y) const { return first((y - corner_.y()) / edge, rows); }
+  std::uint32_t first_column(double x) const { return first((x - corner_.x()) / edge, columns); }
+  // Returns the squared distance of two pixels, in edges.
+  std::uint32_t squared_distance(std::uint32_t a, std::uint32_t b) const {
+    const std::int32_t x = static_cast<std::int32_t>(a % columns) - static_cast<std::int32_t>(b % columns),
+                       y = static_cast<std::int32_t>(a / columns) - static_cast<std::int32_t>(b / columns);
+    return static_cast<std::uint32_t>(x * x + y * y);
+  }
+
+  double edge;
+  std::uint32_t columns, rows;
+
+ private:
+  static std::uint32_t first(double place, std::uint32_t most) {
+    return static_cast<std::uint32_t>(std::clamp(std::ceil(place - 0.5), 0.0, static_cast<double>(most)));
+  }
+  Eigen::Vector2d corner_;
+};
+
+// Returns for each pixel the nearest marked one, of equally near ones the first, or kNowhere. The search goes
+// along columns, then along rows (Rosenfeld, Pfaltz, *Sequential operations in digital picture processing*,
+// 1966). Cost: pixels times distances.
+std::span<std::uint32_t> nearest_marked(const Raster& raster, std::span<const std::uint8_t> is_marked,
+                                        Scratch& scratch) {
+  const std::span<std::uint32_t> in_column = scratch.array<std::uint32_t>(raster.size()),
+                                 nearest = scratch.array<std::uint32_t>(raster.size());
+  for (std::uint32_t column = 0; column < raster.columns; ++column) {
+    std::uint32_t last = kNowhere;
+    for (std::uint32_t row = 0; row < raster.rows; ++row) {
+      const std::uint32_t at = raster.pixel(column, row);
+      if (is_marked[at] != 0) last = at;
+      in_column[at] = last;
+    }
+    last = kNowhere;
+    for (std::uint32_t row = raster.rows; row-- > 0;) {
+      const std::uint32_t at = raster.pixel(column, row);
+      if (is_marked[at] != 0) last = at;
+      if (last != kNowhere && (in_column[at] == kNowhere || last - at < at - in_column[at]))
+        in_column[at] = last;
+    }
+  }
+  for (std::uint32_t at = 0; at < raster.size(); ++at) {
+    const std::uint32_t column = at % raster.columns;
+    std::uint32_t best = UINT32_MAX;
+    nearest[at] = kNowhere;
+    const auto take = [&](std::uint32_t other) {
+      if (in_column[other] == kNowhere) return;
+      const std::uint32_t distance = raster.squared_distance(at, in_column[other]);
+      if (distance > best || (distance == best && in_column[other] > nearest[at])) return;
+      best = distance;
+      nearest[at] = in_column[other];
+    };
+    for (std::uint32_t d = 0; d < raster.columns && d * d <= best; ++d) {
+      if (d <= column) take(at - d);
+      if (column + d < raster.columns) take(at + d);
+    }
+  }
+  return nearest;
+}
+
+// Calls visit(point) for each point in the box, and for some around it.
+template <class Visit>
+void for_each_point_near(const TileStore& store, const Eigen::AlignedBox3d& box, Visit&& visit) {
+  const Tiling& tiling = store.tiling();
+  std::vector<std::uint32_t> nodes(tiling.nodes.empty() ? 0 : 1);
+  while (!nodes.empty()) {
+    const CellNode& node = tiling.nodes[nodes.back()];
+    nodes.pop_back();
+    if (!node.box.intersects(box)) continue;
+    if (node.left != 0) {
+      nodes.insert(nodes.end(), {node.left, node.right});
+      continue;
+    }
+    for (std::uint32_t cell = node.first; cell < node.last; ++cell) {
+      if (!Eigen::AlignedBox3d(tiling.cells[cell].box).intersects(box)) continue;
+      for (const ScanPoint& point : store.cell(cell)) visit(point.position());
+    }
+  }
+}
+
+// A loop in its plane, with its surroundings: as wide as the loop.
+struct FlatLoop {
+  LoopPlane plane;
+  double width;  // of the surroundings, and the largest height over the loop that counts
+  Eigen::AlignedBox3d box = {};
+
+  FlatLoop(std::span<const LoopPoint> loop, const LoopShape& shape, Scratch& scratch)
+      : plane(shape.centroid, shape.normal, shape.normal.unitOrthogonal()),
+        width(2 * shape.area / shape.perimeter) {
+    scratch.for_each(loop, [&](const LoopPoint& p) { box.extend(plane(p.position())); });
+    box.min().array() -= width;
+    box.max().array() += width;
+  }
+  Eigen::AlignedBox2d flat_box() const { return {box.min().head<2>().eval(), box.max().head<2>().eval()}; }
+  Eigen::AlignedBox3d box_in_space() const {
+    Eigen::AlignedBox3d space;
+    for (int i = 0; i < 8; ++i)
+      space.extend(plane.point_at(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i))));
+    return space;
+  }
+};
+
+// Marks the pixels that lie within the loop: those with an odd number of edges to their right.
+void mark_within(std::span<const LoopPoint> loop, const LoopPlane& plane, const Raster& raster,
+                 std::span<std::uint8_t> is_within, Scratch& scratch) {
+  Eigen::Vector3d a = plane(loop.back().position());
+  scratch.for_each(loop, [&](const LoopPoint& p) {
+    const Eigen::Vector3d b = plane(p.position());
+    const std::uint32_t last = raster.first_row(std::max(a.y(), b.y()));
+    for (std::uint32_t row = raster.first_row(std::min(a.y(), b.y())); row < last; ++row) {
+      const double x = a.x() + (raster.y(row) - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+      const std::uint32_t end = raster.first_column(x);
+      for (std::uint32_t column = 0; column < end; ++column) is_within[raster.pixel(column, row)] ^= 1;
+    }
+    a = b;
+  });
+}
+
+}  // namespace
+
+double prominence(const TileStore& points, std::span<const LoopPoint> loop, const LoopShape& shape,
+                  double spacing, Scratch& scratch) {
+  constexpr double kGap = 0.9;  // of the pixels around the hole are nearer to a point than its gap
+  if (!(shape.area > 0) || !std::isfinite(shape.area)) return 0;
+  const FlatLoop flat(loop, shape, scratch);
+  const Raster raster(flat.flat_box(), spacing);
+  const auto marks = [&] { return scratch.array<std::uint8_t>(raster.size()); };
+
+  const std::span<std::uint8_t> is_within = marks(), is_on_loop = marks(), is_sampled = marks();
+  const std::span<float> height = scratch.array<float>(raster.size());
+  mark_within(loop, flat.plane, raster, is_within, scratch);
+  scratch.for_each(loop, [&](const LoopPoint& p) {
+    const Eigen::Vector3d at = flat.plane(p.position());
+    const std::uint32_t pixel = raster.pixel_at(at);
+    is_on_loop[pixel] = 1;
+    height[pixel] = static_cast<float>(at.z());
+  });
+  const std::span<const std::uint32_t> to_loop = nearest_marked(raster, is_on_loop, scratch);
+  for_each_point_near(points, flat.box_in_space(), [&](const Eigen::Vector3d& point) {
+    const Eigen::Vector3d at = flat.plane(point);
+    const std::uint32_t pixel = raster.pixel_at(at);
+    if (pixel != kNowhere && std::abs(at.z() - height[to_loop[pixel]]) <= flat.width) is_sampled[pixel] = 1;
+  });
+
+  const std::span<const std::uint32_t> to_sample = nearest_marked(raster, is_sampled, scratch);
+  const double most_around = flat.width * flat.width / (raster.edge * raster.edge);
+  std::uint32_t deepest = 0;
+  std::vector<std::uint32_t> around;
+  for (std::uint32_t pixel = 0; pixel < raster.size(); ++pixel) {
+    if (to_sample[pixel] == kNowhere) continue;
+    const std::uint32_t distance = raster.squared_distance(pixel, to_sample[pixel]);
+    if (is_within[pixel] != 0) {
+      deepest = std::max(deepest, distance);
+    } else if (raster.squared_distance(pixel, to_loop[pixel]) <= most_around) {
+      around.push_back(distance);
+    }
+  }
+  const auto gap = around.begin() + static_cast<std::ptrdiff_t>(kGap * static_cast<double>(around.size()));
+  std::nth_element(around.begin(), gap, around.end());
+  // Half a pixel more: a distance is known to no more than that.
+  const double of_gap = around.empty() ? 0 : std::sqrt(*gap);
+  return (std::sqrt(deepest) + 0.5) / (of_gap + 0.5);
+}
+
+}  // namespace lacuna
