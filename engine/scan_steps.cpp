@@ -159,10 +159,6 @@ std::string step_of_level(std::string_view name, std::size_t level) {
   return std::string(name) + "-" + std::to_string(level);
 }
 
-bool can_share_reading(const PointSource& scan, const Config& config) {
-  return !scan.parts().empty() && first_edge(config.scale) == 0;
-}
-
 TaskSurvey survey_of_task(const Run& run, std::size_t task) {
   const PartKey key = key_of(run, kSurvey, task, run.parts.made_from);
   return shared_parts(run).get(key, SurveyForm(), [&] {
@@ -214,11 +210,11 @@ Level first_level(const Run& run) {
   for (std::size_t task = 0; task < share_of(run, 0).tasks; ++task)
     shares.push_back(share_of_first_level(run, task));
   Level level = join_levels(std::move(shares), run.job);
-  if (run.parts.plan.reads) {
-    run.scan.select(0, run.scan.parts().size(), PointId{0});
+  if (run.parts.plan.reads) run.scan.select(0, run.scan.parts().size(), PointId{0});
+  if (run.parts.are_kept()) {
+    run.scan.set_pass_counts(level.input);
     for (const std::string_view step : {kSurvey, kTiles, kBucket}) run.parts.drop(std::string(step));
   }
-  if (run.parts.are_kept()) run.scan.set_pass_counts(level.input);
   choose_normals(level, run.job);
   return level;
 }
