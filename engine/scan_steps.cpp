@@ -18,9 +18,12 @@ namespace {
 // Forms of parts.
 struct SurveyForm {
   static std::optional<TaskSurvey> read(const PartReader& part) {
-    return TaskSurvey{{part.record<SurveyTotals>("survey"), part.records<CountedCell>("cells")},
-                      part.records<std::uint64_t>("input"),
-                      line_of(part.checksum())};
+    TaskSurvey task;
+    static_cast<SurveyTotals&>(task.survey) = part.record<SurveyTotals>("survey");
+    task.survey.cells = part.records<CountedCell>("cells");
+    task.pass_counts = part.records<std::uint64_t>("input");
+    task.seal = line_of(part.checksum());
+    return task;
   }
   static void write(const TaskSurvey& task, PartWriter& part) {
     part.add_one<SurveyTotals>("survey", task.survey);
@@ -32,7 +35,7 @@ struct SurveyForm {
 struct TilesForm {
   static std::optional<ScanTiles> read(const PartReader& part) {
     return ScanTiles{{part.record<PlanTotals>("plan"), part.records<CountedCell>("cells"),
-                      part.records<Tile>("tiles"), part.records<CountedCell>("aside")},
+                      part.records<Tile>("tiles"), part.records<CountedCell>("heavy")},
                      part.record<SurveyTotals>("survey"),
                      part.records<std::uint64_t>("input"),
                      part.records<std::uint64_t>("first ids"),
@@ -42,7 +45,7 @@ struct TilesForm {
     part.add_one<PlanTotals>("plan", tiles.plan);
     part.add("cells", tiles.plan.cells);
     part.add("tiles", tiles.plan.tiles);
-    part.add("aside", tiles.plan.aside);
+    part.add("heavy", tiles.plan.heavy);
     part.add_one("survey", tiles.survey);
     part.add("input", tiles.pass_counts);
     part.add("first ids", tiles.first_ids);
