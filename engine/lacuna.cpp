@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/lacuna.hpp"
 
-#include "engine/store/temporary_storage.hpp"
+#include "engine/store/temporary_folder.hpp"
 
 #include <memory>
 #include <span>
@@ -12,7 +12,7 @@ namespace lacuna {
 Holes find_holes(PointSource& scan, const Config& given, Progress* progress) {
   Config config = given;
   config.results.sample_points = 0;
-  const TemporaryStorage scratch(scan, config.run);
+  const TemporaryFolder scratch(temporary_parent(config.run.scratch), "lacuna-");
   NoProgress silence;
   const std::unique_ptr<Detection> detection =
       detect(scan, config, scratch.path(), progress == nullptr ? silence : *progress);

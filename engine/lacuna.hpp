@@ -44,9 +44,8 @@ struct Holes {
 // Throws `Error` for parameters that contradict each other, for a coordinate beyond `kFarthest`, and where
 // the scratch folder cannot be made or written to.
 //
-// Temporary data of a run stays in memory where it fits within half of `run.memory_limit`. Else it goes to a
-// folder in `run.scratch`, or in the system's folder for temporary files. The run removes that folder at its
-// end.
+// Temporary data of a run goes to a folder in `run.scratch`, or in the system's folder for temporary files.
+// The run removes that folder at its end.
 //
 // Cost: time is nearly linear in the points of a surface. Memory holds the input, the results, and what
 // `run.memory_limit` allows. A folder takes some 100 bytes per point (docs/usage.md says how many). Calls

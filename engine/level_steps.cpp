@@ -16,20 +16,26 @@
 namespace lacuna {
 namespace {
 
+// The numbers of found loops, as the part has them.
+struct BoundaryNumbers {
+  std::uint64_t edges, components;
+  std::int64_t minimum_loop;
+};
+
 struct LoopsForm {
   double extent;
   const Job& job;
 
   std::optional<FoundLevel> read(const PartReader& part) const {
-    const auto numbers = part.records<std::uint64_t>("boundary");
-    return FoundLevel{read_totals(part, extent),
-                      {Loops::read(part, job.file("loops")), numbers.at(0), numbers.at(1),
-                       static_cast<std::int64_t>(numbers.at(2))}};
+    const auto numbers = part.record<BoundaryNumbers>("boundary");
+    return FoundLevel{
+        read_totals(part, extent),
+        {Loops::read(part, job.file("loops")), numbers.edges, numbers.components, numbers.minimum_loop}};
   }
   static void write(const FoundLevel& found, PartWriter& part) {
     write_totals(found.totals, part);
-    part.add("boundary", std::vector<std::uint64_t>{found.boundary.edges, found.boundary.components,
-                                                    static_cast<std::uint64_t>(found.boundary.minimum_loop)});
+    part.add_one("boundary", BoundaryNumbers{found.boundary.edges, found.boundary.components,
+                                             found.boundary.minimum_loop});
     found.boundary.loops.write(part);
   }
 };

@@ -14,9 +14,8 @@
 namespace lacuna {
 
 // Finds the boundary probability of every point and the loops around every hole of `scan`. Data that does not
-// fit in memory goes to `temporary`, an existing empty folder that must outlive the result. An empty path
-// stands for files in memory. Throws `Error`, and what `progress` throws. The result is the same, bit for
-// bit, for every `config.run`.
+// fit in memory goes to `temporary`, an existing empty folder that must outlive the result. Throws `Error`,
+// and what `progress` throws. The result is the same, bit for bit, for every `config.run`.
 //
 // The config may name an existing folder that is kept. Then parts of finished steps stay there. A later call
 // makes again only what differs (parts/parts.hpp).

@@ -18,9 +18,12 @@ namespace {
 // Forms of parts.
 struct SurveyForm {
   static std::optional<TaskSurvey> read(const PartReader& part) {
-    return TaskSurvey{{part.record<SurveyTotals>("survey"), part.records<CountedCell>("cells")},
-                      part.records<std::uint64_t>("input"),
-                      line_of(part.checksum())};
+    TaskSurvey task;
+    static_cast<SurveyTotals&>(task.survey) = part.record<SurveyTotals>("survey");
+    task.survey.cells = part.records<CountedCell>("cells");
+    task.pass_counts = part.records<std::uint64_t>("input");
+    task.seal = line_of(part.checksum());
+    return task;
   }
   static void write(const TaskSurvey& task, PartWriter& part) {
     part.add_one<SurveyTotals>("survey", task.survey);
@@ -32,7 +35,7 @@ struct SurveyForm {
 struct TilesForm {
   static std::optional<ScanTiles> read(const PartReader& part) {
     return ScanTiles{{part.record<PlanTotals>("plan"), part.records<CountedCell>("cells"),
-                      part.records<Tile>("tiles"), part.records<CountedCell>("aside")},
+                      part.records<Tile>("tiles"), part.records<CountedCell>("heavy")},
                      part.record<SurveyTotals>("survey"),
                      part.records<std::uint64_t>("input"),
                      part.records<std::uint64_t>("first ids"),
@@ -42,7 +45,7 @@ struct TilesForm {
     part.add_one<PlanTotals>("plan", tiles.plan);
     part.add("cells", tiles.plan.cells);
     part.add("tiles", tiles.plan.tiles);
-    part.add("aside", tiles.plan.aside);
+    part.add("heavy", tiles.plan.heavy);
     part.add_one("survey", tiles.survey);
     part.add("input", tiles.pass_counts);
     part.add("first ids", tiles.first_ids);
@@ -159,10 +162,6 @@ std::string step_of_level(std::string_view name, std::size_t level) {
   return std::string(name) + "-" + std::to_string(level);
 }
 
-bool can_share_reading(const PointSource& scan, const Config& config) {
-  return !scan.parts().empty() && first_edge(config.scale) == 0;
-}
-
 TaskSurvey survey_of_task(const Run& run, std::size_t task) {
   const PartKey key = key_of(run, kSurvey, task, run.parts.made_from);
   return shared_parts(run).get(key, SurveyForm(), [&] {
@@ -214,11 +213,11 @@ Level first_level(const Run& run) {
   for (std::size_t task = 0; task < share_of(run, 0).tasks; ++task)
     shares.push_back(share_of_first_level(run, task));
   Level level = join_levels(std::move(shares), run.job);
-  if (run.parts.plan.reads) {
-    run.scan.select(0, run.scan.parts().size(), PointId{0});
+  if (run.parts.plan.reads) run.scan.select(0, run.scan.parts().size(), PointId{0});
+  if (run.parts.are_kept()) {
+    run.scan.set_pass_counts(level.input);
     for (const std::string_view step : {kSurvey, kTiles, kBucket}) run.parts.drop(std::string(step));
   }
-  if (run.parts.are_kept()) run.scan.set_pass_counts(level.input);
   choose_normals(level, run.job);
   return level;
 }

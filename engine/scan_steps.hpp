@@ -30,10 +30,6 @@ struct Run {
 inline constexpr std::string_view kSurvey = "survey", kTiles = "tiles", kBucket = "bucket", kLevel = "level";
 std::string step_of_level(std::string_view name, std::size_t level);  // "level-0"
 
-// Returns whether tasks can share the reading of the scan. It has parts, and all of its points are in the
-// level.
-bool can_share_reading(const PointSource& scan, const Config& config);
-
 // The counts of the points that a task reads.
 struct TaskSurvey {
   SurveyedScan survey;

@@ -2,7 +2,7 @@
 // A run of the engine for Python: its scan, its parameters, and what it has found.
 #pragma once
 
-#include "engine/store/temporary_storage.hpp"
+#include "engine/store/temporary_folder.hpp"
 #include "io/options/options.hpp"
 #include "io/scan/file_scan.hpp"
 #include "io/stations/cause.hpp"
@@ -24,7 +24,7 @@ struct Found {
   io::FilesConfig config;
   pybind11::object arrays;  // that the scan reads
   std::unique_ptr<io::FileScan> scan;
-  std::unique_ptr<TemporaryStorage> scratch;
+  std::unique_ptr<TemporaryFolder> scratch;
   std::optional<io::ExplainedDetection> detection;  // reads the scratch
   std::vector<std::string> warnings;
 };

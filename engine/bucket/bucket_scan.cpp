@@ -21,16 +21,16 @@ constexpr std::size_t kBatches = 4;  // in flight
 // aside.
 struct Destinations {
   explicit Destinations(const TilePlan& plan)
-      : index(plan.grid, plan.cells, std::span(plan.aside).first(plan.heavy)),
-        of_cell(plan.cells.size() + plan.heavy),
+      : index(plan.grid, plan.cells, plan.heavy),
+        of_cell(plan.cells.size() + plan.heavy.size()),
         aside(static_cast<std::uint32_t>(plan.tiles.size())),
-        far(aside + static_cast<std::uint32_t>(plan.heavy)),
+        far(aside + static_cast<std::uint32_t>(plan.heavy.size())),
         end(aside + static_cast<std::uint32_t>(plan.groups())) {
     for (std::uint32_t t = 0; t < aside; ++t) {
       const Tile& tile = plan.tiles[t];
       std::fill(of_cell.begin() + tile.first_cell, of_cell.begin() + tile.last_cell, t);
     }
-    std::iota(of_cell.end() - static_cast<std::ptrdiff_t>(plan.heavy), of_cell.end(), aside);
+    std::iota(of_cell.end() - static_cast<std::ptrdiff_t>(plan.heavy.size()), of_cell.end(), aside);
   }
 
   // Returns `end` where no point was counted.
@@ -130,7 +130,7 @@ std::uint64_t least_store_bytes(const TilePlan& plan, Precision precision) {
 
 TilePlan plan_tiles(SurveyedScan& survey, const Job& job) {
   const std::uint64_t points = survey.points - survey.dropped;
-  TilePlan plan = split_tiles(std::move(survey.cells), survey.grid, points, job.tile_points(points));
+  TilePlan plan = split_tiles(survey, job.tile_points(points));
   plan.cell_points = job.cell_points(points);
   require_space(job.temporary, least_store_bytes(plan, survey.precision()));
   return plan;

@@ -32,15 +32,12 @@ struct CellIndex::Grid {
 };
 
 CellIndex::CellIndex(const CellGrid& grid, std::span<const CountedCell> cells,
-                     std::span<const CountedCell> aside)
+                     std::span<const CountedCell> heavy)
     : grid_(std::make_unique<Grid>(Grid{grid})) {
   auto numbers = grid_->numbers->getUnsafeAccessor();
   std::int32_t number = 0;
-  for (const std::span<const CountedCell> part : {cells, aside}) {
-    for (const CountedCell& cell : part) {
-      if (!cell.is_far) numbers.setValueOn(coord_of(cell.coord), number);
-      ++number;
-    }
+  for (const std::span<const CountedCell> part : {cells, heavy}) {
+    for (const CountedCell& cell : part) numbers.setValueOn(coord_of(cell.coord), number++);
   }
 }
 

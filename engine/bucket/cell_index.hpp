@@ -11,14 +11,14 @@
 
 namespace lacuna {
 
-// A grid of OpenVDB with a number in each cell. Far cells have no number: each would take 300 KB.
+// A grid of OpenVDB with a number in each cell.
 class CellIndex {
  public:
   static constexpr std::uint32_t kNoCell = std::numeric_limits<std::uint32_t>::max();
 
-  // `cells`, then `aside`, numbered from 0.
+  // `cells`, then `heavy`, numbered from 0.
   CellIndex(const CellGrid& grid, std::span<const CountedCell> cells,
-            std::span<const CountedCell> aside = {});
+            std::span<const CountedCell> heavy = {});
   CellIndex(CellIndex&&) noexcept;
   ~CellIndex();
 

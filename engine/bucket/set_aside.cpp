@@ -76,9 +76,9 @@ bool SetAside::Before::operator()(const Record& a, const Record& b) const {
 SetAside::SetAside(const TilePlan& plan, const Eigen::AlignedBox3d& bounds, std::filesystem::path file,
                    std::uint64_t memory)
     : plan_(plan), counts_(plan.groups()), sort_(std::move(file), memory) {
-  for (std::size_t cell = 0; cell < plan.heavy; ++cell)
-    curves_.emplace_back(plan.grid.box(plan.aside[cell].coord, plan.aside[cell].coord).intersection(bounds));
-  if (plan.has_far()) curves_.emplace_back(bounds);
+  for (const CountedCell& cell : plan.heavy)
+    curves_.emplace_back(plan.grid.box(cell.coord, cell.coord).intersection(bounds));
+  if (plan.far_points > 0) curves_.emplace_back(bounds);
 }
 
 void SetAside::add(std::uint32_t group, const ScanPoint& point, const PlainNormal& normal) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points of cells that hold more points than a tile may, and of unbounded cells. They are far denser, or
-// far farther away, than the survey's cells allow.
+// Points of cells that hold more points than a tile may, and points far from all others. They are far denser,
+// or far farther away, than the survey's cells allow.
 #pragma once
 
 #include "engine/bucket/split.hpp"

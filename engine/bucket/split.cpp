@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/bucket/split.hpp"
 
-#include "engine/survey/cell_tree.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -123,13 +121,8 @@ class Splitter {
 }  // namespace
 
 std::uint64_t TilePlan::group_points(std::size_t group) const {
-  std::uint64_t sum = 0;
-  const bool is_far = group == heavy;
-  for (std::size_t cell = group; cell < (is_far ? aside.size() : group + 1); ++cell) {
-    if (aside[cell].points == kMostCounted) return points;  // counting ended there
-    sum += aside[cell].points;
-  }
-  return sum;
+  const std::uint64_t counted = group < heavy.size() ? heavy[group].points : far_points;
+  return counted < kMostCounted ? counted : points;  // counting ended there
 }
 
 std::uint64_t TilePlan::most_tiles() const {
@@ -139,16 +132,18 @@ std::uint64_t TilePlan::most_tiles() const {
   return most;
 }
 
-TilePlan split_tiles(std::vector<CountedCell> cells, const CellGrid& grid, std::uint64_t points,
-                     std::uint64_t tile_points) {
-  TilePlan plan{{.grid = grid, .points = points, .tile_points = tile_points}, std::move(cells), {}, {}};
-  const auto begin = plan.cells.begin(), end = plan.cells.end();
-  const auto far = std::partition(begin, end, [](const CountedCell& cell) { return !cell.is_far; });
-  const auto heavy =
-      std::partition(begin, far, [&](const CountedCell& cell) { return cell.points <= tile_points; });
-  plan.heavy = static_cast<std::size_t>(far - heavy);
-  plan.aside.assign(heavy, end);
-  plan.cells.erase(heavy, end);
+TilePlan split_tiles(SurveyedScan& survey, std::uint64_t tile_points) {
+  TilePlan plan{{.grid = survey.grid,
+                 .far_points = survey.far_points,
+                 .points = survey.points - survey.dropped,
+                 .tile_points = tile_points},
+                std::move(survey.cells),
+                {},
+                {}};
+  const auto heavy = std::partition(plan.cells.begin(), plan.cells.end(),
+                                    [&](const CountedCell& cell) { return cell.points <= tile_points; });
+  plan.heavy.assign(heavy, plan.cells.end());
+  plan.cells.erase(heavy, plan.cells.end());
   if (!plan.cells.empty()) Splitter(plan).split();
   std::uint64_t row = 0;
   for (Tile& tile : plan.tiles) {

@@ -4,8 +4,8 @@
 
 #include "engine/model/cell_grid.hpp"
 #include "engine/model/tiling.hpp"
+#include "engine/survey/survey.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -15,7 +15,7 @@ namespace lacuna {
 // The numbers of a plan, as plain data.
 struct PlanTotals {
   CellGrid grid;
-  std::uint64_t heavy = 0;        // cells that are set aside for more points than a tile may hold
+  std::uint64_t far_points = 0;   // which are set aside, since they are far from almost all others
   std::uint64_t points = 0;       // finite ones of the scan
   std::uint64_t tile_points = 0;  // the most that a tile may hold
   std::uint64_t cell_points = 0;  // the most in a cell of the index
@@ -25,12 +25,10 @@ struct PlanTotals {
 struct TilePlan : PlanTotals {
   std::vector<CountedCell> cells;  // in the order of the tree, tile after tile
   std::vector<Tile> tiles;         // tiles of these cells; their rows begin where all copies would fit
-  // Cells in no tile, since their points are set aside. First come the `heavy` ones, one by one. Then come
-  // the cells far from all others, together.
-  std::vector<CountedCell> aside;
+  std::vector<CountedCell> heavy;  // cells that are set aside for more points than a tile may hold
 
-  bool has_far() const { return aside.size() > heavy; }
-  std::size_t groups() const { return heavy + has_far(); }
+  // The groups of points that are set aside: each heavy cell, and then all far points.
+  std::size_t groups() const { return heavy.size() + (far_points > 0); }
   std::uint64_t group_points(std::size_t group) const;  // or more, where a cell has `kMostCounted`
   // Returns a number no less than the number of tiles in the end.
   std::uint64_t most_tiles() const;
@@ -38,9 +36,8 @@ struct TilePlan : PlanTotals {
 
 // Halves the cells along the longest side of their box, at the point count's median. A run that holds at most
 // `tile_points` points becomes a tile. Halving goes on below, down to few cells, so that cells near in the
-// order are near in space. Far cells are set aside: they would widen the boxes of all runs. Cost: n log n in
-// cells.
-TilePlan split_tiles(std::vector<CountedCell> cells, const CellGrid& grid, std::uint64_t points,
-                     std::uint64_t tile_points);
+// order are near in space. Far points are set aside: they would widen the boxes of all runs. Consumes the
+// survey's cells. Cost: n log n in cells.
+TilePlan split_tiles(SurveyedScan& survey, std::uint64_t tile_points);
 
 }  // namespace lacuna

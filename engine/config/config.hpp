@@ -115,14 +115,12 @@ struct ResultsConfig {
   std::int64_t sample_points = 1000000;  // of an even sample of the scan, at most; 0: none
 };
 
-inline constexpr std::uint64_t kLeastMemoryLimit = std::uint64_t{64} << 20;
-
 struct RunConfig {
   std::int64_t threads = 0;        // 0: one per core
   std::uint64_t memory_limit = 0;  // bytes; 0: half of the machine's memory
   std::int64_t tile_points = 0;    // points per tile at most; 0: chosen from threads and memory limit
   std::string workspace;           // the kept folder, of a run that can go on later; empty: it cannot
-  std::string scratch;             // folder for temporary files; empty: in the kept or the output folder
+  std::string scratch;             // folder for temporary files; empty: in the kept, output or system's
   std::string note;                // no parameter: text of the caller that is kept for it
 };
 

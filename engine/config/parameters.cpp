@@ -10,6 +10,7 @@ namespace lacuna {
 namespace {
 
 constexpr double kAboveZero = std::numeric_limits<double>::min();
+constexpr double kLeastMemory = 64.0 * 1024 * 1024;
 
 // In the order of their enumerations.
 constexpr std::string_view kMethods[] = {"tangential", "paper"};
@@ -149,7 +150,7 @@ std::vector<Parameter> parameters(Config& config) {
 
       {"run", "threads", Changes::kProcess, &run.threads, 0, 1024,
        "a whole number from 0 (one per core) to 1024", "Threads at work; 0: one per core."},
-      {"run", "memory_limit", Changes::kProcess, &run.memory_limit, kLeastMemoryLimit, 0x1p60,
+      {"run", "memory_limit", Changes::kProcess, &run.memory_limit, kLeastMemory, 0x1p60,
        "0 (automatic) or a size of at least 64MiB, such as 512MiB, 2GiB or 4000000000",
        "Memory that the run may take; 0: half of the machine's."},
       {"run", "tile_points", Changes::kNothingKept, &run.tile_points, 0, 1e9,

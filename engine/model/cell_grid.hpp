@@ -50,8 +50,6 @@ struct CellGrid {
 struct CountedCell {
   CellCoord coord{};
   std::uint32_t points = 0;
-  bool is_far = false;                    // from almost all other points
-  std::array<std::uint8_t, 3> padding{};  // all bytes are in the checksum of a part
 };
 
 }  // namespace lacuna

@@ -11,8 +11,13 @@ namespace {
 namespace fs = std::filesystem;
 
 // The number changes with the records in the parts.
-constexpr const char* kProgram = "lacuna " LACUNA_VERSION ", parts of form 7";
+constexpr const char* kProgram = "lacuna " LACUNA_VERSION ", parts of form 8";
 constexpr const char* kPlanPart = "plan.lacuna";
+
+// The numbers of a plan, as the part has them.
+struct PlanNumbers {
+  std::uint64_t tasks, levels, tile_points, reads;
+};
 
 // Returns "key = value" of the parameters that change this, a line each.
 std::string parameter_lines(const Config& config, Changes changed) {
@@ -60,6 +65,10 @@ void refuse_others(const fs::path& folder) {
 
 }  // namespace
 
+bool can_share_reading(const PointSource& scan, const Config& config) {
+  return !scan.parts().empty() && first_edge(config.scale) == 0;
+}
+
 std::string evaluation_parameters(const Config& config) {
   return parameter_lines(config, Changes::kEvaluation);
 }
@@ -70,16 +79,22 @@ std::string output_parameters(const Config& config) {
 
 void write_plan(const fs::path& folder, const TaskPlan& plan) {
   PartWriter part(folder / kPlanPart);
-  part.add("plan", std::vector<std::uint64_t>{plan.tasks, plan.levels, plan.tile_points, plan.reads});
+  part.add_one("plan", PlanNumbers{plan.tasks, plan.levels, plan.tile_points, plan.reads});
   part.seal("");
 }
 
 std::optional<TaskPlan> read_plan(const fs::path& folder) {
   const std::optional<PartReader> part = PartReader::open(folder / kPlanPart, "");
   if (!part) return std::nullopt;
-  const std::vector<std::uint64_t> plan = part->records<std::uint64_t>("plan");
-  if (plan.size() != 4) return std::nullopt;
-  return TaskPlan{.tasks = plan[0], .levels = plan[1], .tile_points = plan[2], .reads = plan[3] != 0};
+  try {
+    const auto plan = part->record<PlanNumbers>("plan");
+    return TaskPlan{.tasks = plan.tasks,
+                    .levels = plan.levels,
+                    .tile_points = plan.tile_points,
+                    .reads = plan.reads != 0};
+  } catch (const DamagedFile&) {
+    return std::nullopt;
+  }
 }
 
 Config with_planned_tiles(Config config) {
@@ -123,6 +138,10 @@ Parts open_parts(const PointSource& scan, const Config& config, Progress& progre
     const auto [line, now] = first_difference(*was, parts.made_from);
     throw Error(folder.string() + ": was planned for another run: \"" + line + "\" there, \"" + now +
                 "\" here; allowed: the input and parameters of the plan, or lacuna plan again");
+  }
+  if (parts.plan.reads && !can_share_reading(scan, config)) {  // it was planned for another run
+    parts.plan.reads = false;
+    write_plan(folder, parts.plan);
   }
   if (opener == Opener::kRun) {
     for (const fs::path& file : kept_files(folder))

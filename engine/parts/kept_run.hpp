@@ -18,9 +18,13 @@ namespace lacuna {
 // processes at work: its input and parameters must be those of the plan.
 enum class Opener { kRun, kPlan, kUnit };
 
+// Returns whether tasks can share the reading of the scan. It has parts, and all of its points are in the
+// first level. Tasks that thin alone would leave several points in cells at their borders.
+bool can_share_reading(const PointSource& scan, const Config& config);
+
 // Opens the kept folder that the config names, for this input; without a name, nothing is kept. Where it is
-// of another input or other parameters, the parts that differ are made again. Throws `Error`, also where
-// files of others have the names of parts.
+// of another input or other parameters, the parts that differ are made again. Tasks share only what they
+// can share with these. Throws `Error`, also where files of others have the names of parts.
 Parts open_parts(const PointSource& scan, const Config& config, Progress& progress, Opener opener);
 
 // Return further parameters, a line each. The evaluation of a tile depends on the first, and the others say
@@ -39,7 +43,7 @@ KeptRun read_run(const std::filesystem::path& folder);
 // run makes it again.
 std::optional<std::vector<std::string>> made_from_of(const std::filesystem::path& folder);
 
-// Write and read the plan of a run. The result is empty where none was made.
+// Write and read the plan of a run. The result is empty where none was made, or where it is damaged.
 void write_plan(const std::filesystem::path& folder, const TaskPlan& plan);
 std::optional<TaskPlan> read_plan(const std::filesystem::path& folder);
 // Returns the config with tiles as large as the plan of its folder has them, unless it says how large.

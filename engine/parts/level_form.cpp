@@ -63,11 +63,12 @@ fs::path column_of(const LevelForm& form, const Digest& digest, const char* kind
   return column(form, digits.str(), kind);
 }
 
-// Removes the columns of a level that are replaced.
-void remove_other_columns(const LevelForm& form, const fs::path& points, const fs::path& normals) {
+// Removes what a level of one share replaces: its columns, and shares of an earlier plan.
+void remove_replaced(const LevelForm& form, const fs::path& points, const fs::path& normals) {
+  const fs::path part = part_file(form.parts.folder, form.step, "0");
   for (const fs::path& file : kept_files(form.parts.folder)) {
-    const bool is_column = file.stem().has_extension() && file.extension() != kUnsealed;
-    if (is_of_step(file, form.step) && is_column && file != points && file != normals) remove_kept(file);
+    const bool is_own = file == part || file == points || file == normals;
+    if (is_of_step(file, form.step) && !is_own && file.extension() != kUnsealed) remove_kept(file);
   }
 }
 
@@ -130,7 +131,8 @@ void LevelForm::write(Level& level, PartWriter& part) const {
   const fs::path normals_path = column_of(*this, numbers.normals_digest, kNormals);
   points.seal(points_path);
   normals.seal(normals_path);
-  if (!parts.is_unit && parts.plan.tasks == 1) remove_other_columns(*this, points_path, normals_path);
+  if (!parts.is_unit && parts.plan.tasks_of_level(level.number) == 1)
+    remove_replaced(*this, points_path, normals_path);
 
   part.add_one("level", numbers);
   part.add("tiles", tiling.tiles);

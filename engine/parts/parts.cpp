@@ -24,7 +24,8 @@ std::string first_other(const std::vector<std::string>& lines, const std::vector
 }  // namespace
 
 std::string PartKey::text() const {
-  return made_from + "share " + std::to_string(share.task) + " of " + std::to_string(share.tasks) + "\n";
+  return "step " + step + "\n" + made_from + "share " + std::to_string(share.task) + " of " +
+         std::to_string(share.tasks) + "\n";
 }
 
 std::string Reason::words() const {
@@ -84,7 +85,9 @@ fs::path Parts::file_of(const PartKey& key) const {
   return part_file(folder, key.step, std::to_string(key.share.task));
 }
 
-void Parts::fail_replaced() const {
+// A task whose level is whole drops the parts that led to it, also those that another task has just sealed.
+void Parts::fail_replaced(const fs::path& file) const {
+  if (!fs::exists(file)) throw DamagedFile(file);  // so the work begins again
   throw Error(folder.string() +
               ": another process has replaced parts of it; the same command goes on from there");
 }

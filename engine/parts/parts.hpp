@@ -26,7 +26,7 @@ struct PartKey {
   TaskShare share;
   std::string made_from;  // a line each
 
-  std::string text() const;  // what the part was made from, with its share
+  std::string text() const;  // the step, what the part was made from, and its share
 };
 
 // Why a part is made.
@@ -91,7 +91,7 @@ struct Parts {
     if (!are_kept()) return made;
     write(key, form, std::move(made));
     auto kept = find(key, form);
-    if (!kept) fail_replaced();
+    if (!kept) fail_replaced(file_of(key));
     return *std::move(kept);
   }
 
@@ -112,7 +112,7 @@ struct Parts {
     form.write(made, part);
     part.seal(key.text());
   }
-  [[noreturn]] void fail_replaced() const;
+  [[noreturn]] void fail_replaced(const std::filesystem::path& file) const;
 };
 
 // Returns a checksum as a line.

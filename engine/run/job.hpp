@@ -23,7 +23,7 @@ struct Job {
   Job(const Config& config, std::filesystem::path temporary, Progress& progress);
 
   const Config& config;
-  std::filesystem::path temporary;  // the folder of temporary files; empty: they are in memory
+  std::filesystem::path temporary;  // the folder of temporary files
   Progress& progress;
   TaskArena arena;
   Memory memory;

@@ -179,7 +179,7 @@ void PartReader::read(std::string_view stream, std::uint64_t key, std::span<std:
 
 void PartReader::read(const Extent& extent, std::span<std::byte> to) const {
   file_.read(extent.offset, to);
-  if (digest_of(std::span<const std::byte>(to)) != extent.digest) throw DamagedFile(file_.path());
+  if (digest_of(std::span<const std::byte>(to)) != extent.digest) fail_damaged();
 }
 
 std::span<const PartReader::Extent> PartReader::extents(std::string_view stream, std::uint64_t key) const {
@@ -190,8 +190,8 @@ std::span<const PartReader::Extent> PartReader::extents(std::string_view stream,
   return at->second;
 }
 
-void PartReader::fail_record_size(std::string_view stream) const {
-  throw Error(file_.path().string() + ": the stream " + std::string(stream) + " is not of whole records");
+void PartReader::fail_damaged() const {
+  throw DamagedFile(file_.path());
 }
 
 }  // namespace lacuna

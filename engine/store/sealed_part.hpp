@@ -107,14 +107,16 @@ class PartReader {
   // Reads an entry. `to` has `size` bytes. Reading throws `DamagedFile` where the bytes have another
   // digest than the table says.
   void read(std::string_view stream, std::uint64_t key, std::span<std::byte> to) const;
-  // Returns the records of an entry, and an empty vector where there is no entry. Throws `Error` where the
-  // bytes are no whole number of records.
+  // Returns the records of an entry, and an empty vector where there is no entry. Throws `DamagedFile` where
+  // the bytes are no whole number of records.
   template <class Record>
   std::vector<Record> records(std::string_view stream, std::uint64_t key = 0) const;
-  // Returns the record of a stream that has one.
+  // Returns the record of a stream that has one. Throws `DamagedFile` where it has none, or several.
   template <class Record>
   Record record(std::string_view stream) const {
-    return records<Record>(stream).at(0);
+    const std::vector<Record> all = records<Record>(stream);
+    if (all.size() != 1) fail_damaged();
+    return all.front();
   }
   // Calls visit(records) for one entry after the other.
   template <class Record, class Visit>
@@ -128,7 +130,7 @@ class PartReader {
   explicit PartReader(StoreFile file) : file_(std::move(file)) {}
   void read(const Extent& extent, std::span<std::byte> to) const;
   std::span<const Extent> extents(std::string_view stream, std::uint64_t key) const;
-  [[noreturn]] void fail_record_size(std::string_view stream) const;
+  [[noreturn]] void fail_damaged() const;
 
   StoreFile file_;
   Digest checksum_{};
@@ -140,7 +142,7 @@ void PartReader::for_each(std::string_view stream, std::uint64_t key, Visit&& vi
   static_assert(std::is_trivially_copyable_v<Record>);
   std::vector<Record> records;
   for (const Extent& extent : extents(stream, key)) {
-    if (extent.bytes % sizeof(Record) != 0) fail_record_size(stream);
+    if (extent.bytes % sizeof(Record) != 0) fail_damaged();
     records.resize(extent.bytes / sizeof(Record));
     read(extent, std::as_writable_bytes(std::span(records)));
     visit(std::span<const Record>(records));

@@ -11,6 +11,7 @@
 #include <optional>
 #include <queue>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace lacuna {
@@ -44,7 +45,7 @@ class SortedRuns {
   template <class Visit>
   void for_each(Visit&& visit) {
     if (runs_.empty()) {
-      std::sort(buffer_.begin(), buffer_.end(), less_);
+      if (!std::exchange(is_sorted_, true)) std::sort(buffer_.begin(), buffer_.end(), less_);
       for (const Record& record : buffer_) visit(record);
       return;
     }
@@ -133,6 +134,7 @@ class SortedRuns {
   std::vector<Record> buffer_;
   std::vector<Run> runs_;
   std::uint64_t size_ = 0;
+  bool is_sorted_ = false;  // the buffer, of the only run
 };
 
 }  // namespace lacuna

@@ -48,11 +48,9 @@ StoreFile::StoreFile(std::filesystem::path path, Name name)
     : path_(std::move(path)), has_own_name_(name == Name::kKept) {
   static std::mutex one_at_a_time;  // several threads may use the same name
   const std::lock_guard lock(one_at_a_time);
-  const bool is_in_memory = !path_.has_parent_path();
-  descriptor_ = is_in_memory ? ::memfd_create(path_.c_str(), MFD_CLOEXEC)
-                             : ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (descriptor_ < 0) fail_with(errno, path_, "create");
-  if (name == Name::kRemoved && !is_in_memory) ::unlink(path_.c_str());
+  if (name == Name::kRemoved) ::unlink(path_.c_str());
 }
 
 std::optional<StoreFile> StoreFile::open_sealed(const std::filesystem::path& path) {

@@ -27,8 +27,7 @@ class StoreFile {
                // ends
     kKept,     // until it is sealed or closed
   };
-  // Creates an empty file. `path` must not exist. A path without a folder creates a file in memory, which has
-  // no name.
+  // Creates an empty file. `path` must not exist.
   explicit StoreFile(std::filesystem::path path, Name name = Name::kRemoved);
   // Opens a sealed file, to be read only. Returns nothing where there is no regular file. Throws `Error`.
   static std::optional<StoreFile> open_sealed(const std::filesystem::path& path);

@@ -65,6 +65,14 @@ void TemporaryFolder::keep() {
   is_kept_ = true;
 }
 
+fs::path temporary_parent(const std::string& scratch) {
+  if (!scratch.empty()) return scratch;
+  std::error_code error;
+  fs::path folder = fs::temp_directory_path(error);
+  if (error) throw Error("TMPDIR names no folder for temporary files: " + error.message());
+  return folder;
+}
+
 std::vector<RemainingFolder> remaining_folders() {
   const std::lock_guard lock(mutex);
   std::vector<RemainingFolder> remaining;

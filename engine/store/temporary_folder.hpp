@@ -32,6 +32,10 @@ class TemporaryFolder {
   bool is_kept_ = false;
 };
 
+// Returns the folder in which a run makes its temporary folder, where no results and no kept run have one.
+// It is `scratch`, or the system's where that is empty. Throws `Error` where the system has none.
+std::filesystem::path temporary_parent(const std::string& scratch);
+
 struct RemainingFolder {
   std::filesystem::path folder;
   std::string reason;

@@ -2,11 +2,14 @@
 #include "engine/survey/survey.hpp"
 
 #include "engine/run/error.hpp"
+#include "engine/store/openvdb.hpp"
 
 #include <algorithm>
 #include <array>
+#include <climits>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <utility>
@@ -21,13 +24,18 @@ constexpr int kMaxExponent = 500;
 // A scan of an unknown number of points counts as this many: cells are rather too fine than too coarse.
 constexpr std::uint64_t kUnknownPoints = 1 << 24;
 
-// Counts take at most this much memory, even where more is allowed. The cells of surfaces take 12 bytes for
-// each point at most. Where outliers or clusters need more, passes over their many small cells would take
-// most of the time.
+// A survey takes at most this much memory, even where more is allowed. Surfaces need no more. Where points
+// lie apart, passes over their many small cells would take most of the time.
 constexpr std::uint64_t kFewBytes = std::uint64_t{32} << 20, kBytesPerPoint = 8;
+
+// The table has space for so many cells in any case.
+constexpr std::uint64_t kFewestCells = 2048;
 
 // A cell's share of the index and the tree built from it.
 constexpr std::uint64_t kBytesPerCell = 96;
+
+// Regions of 128^3 cells.
+constexpr int kRegionDoublings = 7;
 
 bool finite(const Eigen::Vector3d& p) {
   return p.allFinite();
@@ -62,24 +70,15 @@ Whereabouts whereabouts_of(const PointBatch& batch) {
   return place;
 }
 
-constexpr std::size_t kMostRuns = 256;
-
-// Calls visit(some) with the runs that are counted at a time.
-template <class Visit>
-void for_each_part(std::span<const CellRun> runs, Visit&& visit) {
-  for (; !runs.empty(); runs = runs.subspan(std::min(runs.size(), kMostRuns)))
-    visit(runs.first(std::min(runs.size(), kMostRuns)));
-}
-
-// Returns whether most cells, or leaves, did not merge when the size doubled. A surface keeps a quarter of
-// them, a line keeps half. Below `kEnough` cells nothing follows.
+// Returns whether most cells did not merge when the size doubled. A surface keeps a quarter of them, a line
+// keeps half. Below `kEnough` cells nothing follows.
 bool are_sparse(std::uint64_t before, std::uint64_t after) {
   constexpr std::uint64_t kEnough = 64;
   return before >= kEnough && 4 * after > 3 * before;
 }
 
-// A region of 128^3 cells with fewer points is far from the others. A surface that passes through a region
-// has hundreds of thousands of points there.
+// A region with fewer points is far from the others. A surface that passes through a region has hundreds of
+// thousands of points there.
 std::uint64_t few_points(std::uint64_t points) {
   return std::min<std::uint64_t>(256, points / 1024);
 }
@@ -91,6 +90,27 @@ void refuse_beyond(const PointBatch& batch) {
   message << "point " << value(batch.id(static_cast<std::size_t>(found - batch.positions.begin())))
           << " lies at " << found->transpose() << "; coordinates must be within 1e153";
   throw Error(message.str());
+}
+
+CellCoord shifted(const CellCoord& cell, int doublings) {
+  return {cell[0] >> doublings, cell[1] >> doublings, cell[2] >> doublings};
+}
+
+// Returns the bytes of OpenVDB's nodes above cells that come along a Z curve.
+std::uint64_t node_bytes(std::span<const CountedCell> cells) {
+  using Upper = openvdb::Int32Tree::RootNodeType::ChildNodeType;
+  using Lower = Upper::ChildNodeType;
+  using Leaf = Lower::ChildNodeType;
+  std::uint64_t bytes = 0;
+  const CountedCell* before = nullptr;
+  for (const CountedCell& cell : cells) {
+    const int joined = before == nullptr ? INT_MAX : doublings_to_join(before->coord, cell.coord);
+    if (joined > int{Leaf::TOTAL}) bytes += sizeof(Leaf) + Leaf::SIZE * sizeof(std::int32_t);
+    if (joined > int{Lower::TOTAL}) bytes += sizeof(Lower);
+    if (joined > int{Upper::TOTAL}) bytes += sizeof(Upper);
+    before = &cell;
+  }
+  return bytes;
 }
 
 }  // namespace
@@ -117,7 +137,7 @@ CellCounts count_cells(const PointBatch& batch, const CellGrid& grid) {
       }
       counts.bounds.extend(p);
       counts.is_single &= p.cast<float>().cast<double>() == p;
-      if (counts.runs.empty() || !same_cell(counts.runs.back().cell, cells[i]))
+      if (counts.runs.empty() || !same_cell(counts.runs.back().coord, cells[i]))
         counts.runs.push_back({cells[i], 0});
       ++counts.runs.back().points;
     }
@@ -127,11 +147,10 @@ CellCounts count_cells(const PointBatch& batch, const CellGrid& grid) {
   return counts;
 }
 
-Survey::Survey(std::uint64_t memory, std::uint64_t expected_points)
-    : memory_(std::min(
-          memory, kFewBytes + kBytesPerPoint * (expected_points > 0 ? expected_points : kUnknownPoints))),
-      is_expected_(expected_points > 0),
-      expected_points_(is_expected_ ? expected_points : kUnknownPoints) {}
+Survey::Survey(std::uint64_t memory, std::uint64_t expected_points, std::filesystem::path file)
+    : expected_points_(expected_points > 0 ? expected_points : kUnknownPoints),
+      memory_(std::min(memory, kFewBytes + kBytesPerPoint * expected_points_)),
+      stored_(std::move(file), memory_ / 4) {}
 
 // A surface of n points and this extent has sqrt(n / 16) cells of 16 points along it. Half of that size is
 // small enough for a first batch from a small area of the scan. A batch that is spread over the whole scan,
@@ -149,42 +168,20 @@ void Survey::choose_cell_size(const PointBatch& batch) {
   int finest = std::clamp(std::ilogb(std::max(edge, 1e-300)), std::max(digit, kMinExponent), kMaxExponent);
   scan_.grid = CellGrid::around(place.middle, finest);
 
-  // Cells grow by the factor by which the batch is thinner than the scan, and again by the number of their
-  // parts.
-  const double thinner = std::max(points / static_cast<double>(batch.size()), 1.0);
-  int doublings = std::ilogb(thinner) / 2;
-  const std::vector<CellRun> runs = count_cells(batch, scan_.grid).runs;
-  CellTree sample;
-  const auto count = [&] {
-    sample = CellTree();
-    for (std::span<const CellRun> rest = runs; !rest.empty();
-         rest = rest.subspan(std::min(rest.size(), kMostRuns))) {
-      if (sample.bytes() > memory_) return false;
-      sample.add(rest.first(std::min(rest.size(), kMostRuns)), doublings);
-    }
-    return true;
-  };
-  while (!count() && doublings < CellGrid::kMaxShift) ++doublings;
+  // Cells grow by the factor by which the batch is thinner than the scan. Those of outliers are alone in a
+  // block of 8^3 cells.
+  const int doublings = std::ilogb(std::max(points / static_cast<double>(batch.size()), 1.0)) / 2;
+  const std::vector<CountedCell> runs = count_cells(batch, scan_.grid).runs;
+  CellTable sample, blocks;
+  sample.add(runs, doublings);
+  blocks.add(runs, doublings + 3);
+  std::size_t together = sample.size();
+  blocks.for_each([&](const CountedCell& block) { together -= block.points == 1; });
   const double most = 2 * points / kPointsPerCell;
-  for (double cells = std::ldexp(static_cast<double>(sample.cells_with_neighbours()), 2 * doublings);
-       cells > most; cells /= 4)
+  for (double cells = std::ldexp(static_cast<double>(together), 2 * doublings); cells > most; cells /= 4)
     ++finest;
   scan_.grid = CellGrid::around(place.middle, finest);
   sized_ = true;
-}
-
-void Survey::double_cell_size(CellTree merged) {
-  counts_ = std::move(merged);
-  ++scan_.grid.shift;
-}
-
-// Merges cells of the tree, unless most of the things that `count(tree)` counts would not merge.
-template <class Count>
-bool Survey::merge_if_dense(Count&& count) {
-  CellTree merged = counts_.merged();
-  if (are_sparse(count(counts_), count(merged))) return false;
-  double_cell_size(std::move(merged));
-  return true;
 }
 
 void Survey::choose_size(const PointBatch& batch) {
@@ -202,41 +199,98 @@ void Survey::add(const CellCounts& counts) {
   scan_.ids = std::max(scan_.ids, counts.ids);
   scan_.bounds.extend(counts.bounds);
   scan_.is_single &= counts.is_single;
-  add_runs(counts.runs, 0);
+  add_runs(counts.runs);
 }
 
-// `shift`: of the cells of the runs.
-void Survey::add_runs(std::span<const CellRun> all, int shift) {
-  for_each_part(all, [&](std::span<const CellRun> runs) {
-    counts_.add(runs, scan_.grid.shift - shift);
-    while (needs_too_much() && can_merge()) double_cell_size(counts_.merged());
-    while (is_too_fine() && can_merge()) {
-      // It counts leaves: in random order cells have few points at first, and hardly merge.
-      if (merge_if_dense([](const CellTree& counts) { return counts.leaves(); })) continue;
-      apart_ = counts_.leaves();
-      break;
+void Survey::add_runs(std::span<const CountedCell> runs) {
+  constexpr std::size_t kTogether = 256;
+  for (; !runs.empty(); runs = runs.subspan(std::min(runs.size(), kTogether))) {
+    table_.add(runs.first(std::min(runs.size(), kTogether)), scan_.grid.shift);
+    if (is_full()) make_space();
+  }
+}
+
+// The table takes half of the memory. More than twice the wanted number of cells only takes time.
+bool Survey::is_full() const {
+  const std::uint64_t wanted = std::max(scan_.points, expected_points_) / kPointsPerCell;
+  return table_.size() > std::min(memory_ / 2 / CellTable::kBytesPerCell, std::max(2 * wanted, kFewestCells));
+}
+
+void Survey::make_space() {
+  if (scan_.grid.shift < CellGrid::kMaxShift) {
+    CellTable larger = table_.merged(scan_.grid.shift + 1);
+    if (!are_sparse(table_.size(), larger.size())) {
+      table_ = std::move(larger);
+      ++scan_.grid.shift;
+      return;
     }
+  }
+  store_cells();
+}
+
+void Survey::store_cells() {
+  table_.for_each([&](const CountedCell& cell) { stored_.add(cell); });
+  table_ = CellTable();
+}
+
+// Returns the number of cells of each size from the finest on.
+std::vector<std::uint64_t> Survey::count_by_shift() {
+  std::vector<std::uint64_t> counts(CellGrid::kMaxShift + 1, 0);
+  std::optional<CellCoord> before;
+  stored_.for_each([&](const CountedCell& cell) {
+    const int joined = before ? doublings_to_join(*before, cell.coord) : CellGrid::kMaxShift + 1;
+    if (joined > 0) ++counts[static_cast<std::size_t>(std::min(joined - 1, CellGrid::kMaxShift))];
+    before = cell.coord;
   });
+  for (std::size_t shift = counts.size() - 1; shift-- > 0;) counts[shift] += counts[shift + 1];
+  return counts;
 }
 
-bool Survey::needs_too_much() const {
-  return counts_.bytes() + counts_.cells() * kBytesPerCell > memory_;
+// Collects the cells of the grid's size, with all of their points. Cells in regions of fewer than `few`
+// points, and unbounded ones, are far; without `few`, no cell is. Ends early with more than `most` cells.
+void Survey::collect_cells(std::optional<std::uint64_t> few, std::uint64_t most) {
+  std::vector<CountedCell>& cells = scan_.cells;
+  cells.clear();
+  scan_.far_points = 0;
+  std::size_t first = 0;  // cell of the region
+  std::uint64_t region_points = 0;
+  const auto end_region = [&] {
+    if (few && region_points < *few) {
+      scan_.far_points += region_points;
+      cells.resize(first);
+    }
+    first = cells.size();
+    region_points = 0;
+  };
+  stored_.for_each([&](const CountedCell& stored) {
+    if (cells.size() > most) return;
+    const CellCoord cell = shifted(stored.coord, scan_.grid.shift);
+    if (few && scan_.grid.is_unbounded(cell)) {
+      scan_.far_points += stored.points;
+      return;
+    }
+    const int joined = cells.size() > first ? doublings_to_join(cells.back().coord, cell) : 0;
+    if (joined > kRegionDoublings) end_region();
+    if (cells.size() == first || joined > 0) cells.push_back({cell, 0});
+    std::uint32_t& points = cells.back().points;
+    points = static_cast<std::uint32_t>(std::min(std::uint64_t{points} + stored.points, kMostCounted));
+    region_points += stored.points;
+  });
+  end_region();
 }
 
-bool Survey::is_too_fine() const {
-  if (counts_.leaves() <= 2 * apart_) return false;
-  // Even if all points to come lie in the same cells, the cells hold too few in the end. A scan of an unknown
-  // number of points may have more than its cells were made for.
-  const std::uint64_t points = std::max(scan_.points, is_expected_ ? expected_points_ : 4 * expected_points_);
-  // In random order, points touch leaves before they fill the cells. A surface fills about 50 cells of each
-  // leaf that it passes through.
-  constexpr std::uint64_t kSurelyFilled = 24;
-  const std::uint64_t most = std::max<std::uint64_t>(points / kPointsPerCell, 1024);
-  return counts_.cells() > most || counts_.leaves() * kSurelyFilled > most;
+bool Survey::does_index_fit() const {
+  return node_bytes(scan_.cells) + scan_.cells.size() * kBytesPerCell <= memory_;
 }
 
 SurveyedScan Survey::counts() {
-  scan_.cells = counts_.counted_cells(0);
+  store_cells();
+  const std::vector<std::uint64_t> cells = count_by_shift();
+  int& shift = scan_.grid.shift;
+  while (cells[static_cast<std::size_t>(shift)] * sizeof(CountedCell) > memory_ &&
+         shift < CellGrid::kMaxShift)
+    ++shift;
+  collect_cells(std::nullopt, UINT64_MAX);
   return std::move(scan_);
 }
 
@@ -251,24 +305,30 @@ void Survey::add(const SurveyedScan& counts) {
     scan_.grid = counts.grid;
     sized_ = true;
   }
-  while (scan_.grid.shift < counts.grid.shift) double_cell_size(counts_.merged());
-  std::vector<CellRun> runs;
-  runs.reserve(counts.cells.size());
-  for (const CountedCell& cell : counts.cells)
-    runs.push_back({cell.coord, static_cast<std::int32_t>(cell.points)});
-  add_runs(runs, counts.grid.shift);
+  scan_.grid.shift = std::max(scan_.grid.shift, counts.grid.shift);
+  for (const CountedCell& cell : counts.cells) {
+    CountedCell finest = cell;
+    for (std::int32_t& coordinate : finest.coord) coordinate <<= counts.grid.shift;
+    add_runs({&finest, 1});
+  }
 }
 
 SurveyedScan Survey::finish() {
-  const std::uint64_t finite_points = scan_.points - scan_.dropped;
-  while (finite_points < kPointsPerCell * counts_.cells() && counts_.cells() > 1 && can_merge() &&
-         merge_if_dense([](const CellTree& counts) { return counts.cells(); })) {
+  store_cells();
+  const std::vector<std::uint64_t> cells = count_by_shift();
+  const std::uint64_t points = scan_.points - scan_.dropped;
+  int& shift = scan_.grid.shift;
+  for (; shift < CellGrid::kMaxShift; ++shift) {
+    const std::uint64_t now = cells[static_cast<std::size_t>(shift)],
+                        doubled = cells[static_cast<std::size_t>(shift) + 1];
+    if (points >= kPointsPerCell * now || now <= 1 || are_sparse(now, doubled)) break;
   }
-  const std::uint64_t few = few_points(finite_points);
-  while (counts_.standard_bytes(few) + counts_.cells() * kBytesPerCell > memory_ && can_merge())
-    double_cell_size(counts_.merged());
-  scan_.cells = counts_.counted_cells(few);
-  for (CountedCell& cell : scan_.cells) cell.is_far |= scan_.grid.is_unbounded(cell.coord);
+  const std::uint64_t few = few_points(points);
+  const auto collect = [&](std::uint64_t most) { collect_cells(few, most + few); };
+  for (collect(memory_ / kBytesPerCell); !does_index_fit() && shift < CellGrid::kMaxShift;) {
+    ++shift;
+    collect(shift < CellGrid::kMaxShift ? memory_ / kBytesPerCell : UINT64_MAX - few);
+  }
   return std::move(scan_);
 }
 

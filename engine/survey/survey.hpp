@@ -6,11 +6,15 @@
 #include "engine/model/plain_box.hpp"
 #include "engine/model/points.hpp"
 #include "engine/store/point_column.hpp"
-#include "engine/survey/cell_tree.hpp"
+#include "engine/store/sorted_runs.hpp"
+#include "engine/survey/cell_table.hpp"
 
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -31,12 +35,13 @@ struct SurveyTotals {
 };
 
 struct SurveyedScan : SurveyTotals {
-  std::vector<CountedCell> cells;  // in an order of the tree; counts from 1 to `kMostCounted`
+  std::vector<CountedCell> cells;  // along a Z curve; counts from 1 to `kMostCounted`
+  std::uint64_t far_points = 0;    // in none of the cells: far from almost all other points
 };
 
 // One batch of points, counted per cell.
 struct CellCounts {
-  std::vector<CellRun> runs;  // in the order of the points
+  std::vector<CountedCell> runs;  // of consecutive points, in finest cells
   Eigen::AlignedBox3d bounds;
   std::uint64_t points = 0;
   std::uint64_t dropped = 0;
@@ -47,15 +52,18 @@ struct CellCounts {
 // overflow.
 CellCounts count_cells(const PointBatch& batch, const CellGrid& grid);
 
-// Counts in an OpenVDB tree. The first batch sets a fine cell size. The size doubles, and counts merge,
-// whenever the cells need more than `memory` bytes or hold too few points each. At the end they merge until a
-// cell holds about `kPointsPerCell` points on average, and until OpenVDB's standard tree of the near cells
-// fits. Cells that would hardly merge stay: they hold outliers, and larger ones would be too large for the
-// other points. Cost: one access of the tree for each run of points in the same cell.
+// Counts in a hash table. The first batch sets a fine cell size. Where the table is full, the size doubles if
+// that merges many cells. Else the cells go to the disk, and the table begins anew: cells of outliers merge
+// at no size that suits the other points. At the end all cells are sorted along a Z curve, so that those of
+// any larger size follow each other. Then the size doubles until a cell holds about `kPointsPerCell` points
+// on average, unless cells would hardly merge. It also doubles until the index of the cells fits.
+//
+// Memory: `memory` bytes, however the points lie. Cost: one access of the table for each run of points in the
+// same cell.
 class Survey {
  public:
-  // `expected_points`: 0 where not known.
-  Survey(std::uint64_t memory, std::uint64_t expected_points);
+  // `expected_points`: 0 where not known. `file`: a temporary file.
+  Survey(std::uint64_t memory, std::uint64_t expected_points, std::filesystem::path file);
 
   void add(const PointBatch& batch);
   // Chooses the cell size by a batch. Does nothing where it is chosen, or where no point of the batch is
@@ -69,7 +77,7 @@ class Survey {
   SurveyedScan finish();
 
   // Another survey, of other points, may count from the same size on. `counts` returns what it has counted,
-  // and `add` adds that. Ids of the added points follow those before.
+  // without far points, and `add` adds that. Ids of the added points follow those before.
   SurveyedScan counts();
   void add(const SurveyedScan& counts);
 
@@ -77,21 +85,20 @@ class Survey {
 
  private:
   void choose_cell_size(const PointBatch& batch);
-  void add_runs(std::span<const CellRun> runs, int shift);
-  bool needs_too_much() const;
-  bool is_too_fine() const;
-  bool can_merge() const { return scan_.grid.shift < CellGrid::kMaxShift; }
-  void double_cell_size(CellTree merged);  // in cells of twice the size
-  template <class Count>
-  bool merge_if_dense(Count&& count);
+  void add_runs(std::span<const CountedCell> runs);
+  bool is_full() const;
+  void make_space();
+  void store_cells();
+  std::vector<std::uint64_t> count_by_shift();
+  void collect_cells(std::optional<std::uint64_t> few, std::uint64_t most);
+  bool does_index_fit() const;
 
-  std::uint64_t memory_;
-  bool is_expected_;  // whether the number of points is known
   std::uint64_t expected_points_;
+  std::uint64_t memory_;
   SurveyedScan scan_;
   std::atomic<bool> sized_ = false;
-  CellTree counts_;
-  std::uint64_t apart_ = 0;  // so many leaves would hardly have merged
+  CellTable table_;
+  SortedRuns<CountedCell, AlongZCurve> stored_;
 };
 
 }  // namespace lacuna

@@ -36,14 +36,14 @@ void count_points(Survey& survey, PointSource& scan, std::uint64_t expected, Job
 SurveyedScan survey_scan(PointSource& scan, Job& job) {
   const std::uint64_t expected = scan.expected_points().value_or(0);
   const MemoryLedger::Lease reading = job.ledger.take(job.memory.reading);
-  Survey survey(job.memory.cells, expected);
+  Survey survey(job.memory.cells, expected, job.file("cells"));
   count_points(survey, scan, expected, job);
   return survey.finish();
 }
 
 SurveyedScan survey_parts(PointSource& scan, const IndexRange& parts, Job& job) {
   const MemoryLedger::Lease reading = job.ledger.take(job.memory.reading);
-  Survey survey(job.memory.cells, scan.expected_points().value_or(0));
+  Survey survey(job.memory.cells, scan.expected_points().value_or(0), job.file("cells"));
   // All tasks count from one size on: the size for the first points of the scan.
   scan.select(0, scan.parts().size(), PointId{0});
   scan.rewind();
@@ -55,7 +55,7 @@ SurveyedScan survey_parts(PointSource& scan, const IndexRange& parts, Job& job) 
 
 SurveyedScan merge_surveys(std::size_t tasks, const std::function<SurveyedScan(std::size_t)>& survey_of_task,
                            std::optional<std::uint64_t> expected_points, const Job& job) {
-  Survey survey(job.memory.cells, expected_points.value_or(0));
+  Survey survey(job.memory.cells, expected_points.value_or(0), job.file("cells"));
   for (std::size_t task = 0; task < tasks; ++task) survey.add(survey_of_task(task));
   return survey.finish();
 }

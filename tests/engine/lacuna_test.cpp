@@ -2,14 +2,17 @@
 // The library's few functions against each other, and against the program.
 #include "engine/lacuna.hpp"
 
-#include "engine/store/temporary_storage.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/memory_scan.hpp"
 #include "tests/support/run_program.hpp"
 
 #include <atomic>
+#include <filesystem>
+#include <set>
 #include <stdexcept>
+#include <string>
+#include <system_error>
 
 #include <catch2/catch.hpp>
 
@@ -17,6 +20,7 @@ namespace lacuna {
 namespace {
 
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 using test::ScratchFolder;
 
 Cloud punched_sheet() {
@@ -108,22 +112,6 @@ TEST_CASE("points of any type and stride are the same to the library", "[library
         bytes_of(find_holes(rounded, rounded, with_points())));
 }
 
-TEST_CASE("points in memory need no folder where their files fit in memory", "[library]") {
-  const Cloud cloud = punched_sheet();
-  PointsInMemory scan(cloud.positions, {});
-  RunConfig run{.memory_limit = 2 * kLeastMemoryLimit};
-  CHECK(TemporaryStorage(scan, run).path().empty());
-  CHECK(run.memory_limit < 2 * kLeastMemoryLimit);
-  CHECK(run.memory_limit >= kLeastMemoryLimit);
-  run.memory_limit = kLeastMemoryLimit;
-  CHECK_FALSE(TemporaryStorage(scan, run).path().empty());
-  const std::vector<Eigen::Vector3d> many(300'000, Eigen::Vector3d::Zero());
-  PointsInMemory large(many, {});
-  run.memory_limit = 2 * kLeastMemoryLimit;
-  CHECK_FALSE(TemporaryStorage(large, run).path().empty());
-  CHECK(run.memory_limit == 2 * kLeastMemoryLimit);
-}
-
 // Ends the run at its n-th call.
 class Impatient final : public Progress {
  public:
@@ -152,11 +140,29 @@ TEST_CASE("an exception of the progress ends a run of the library, wherever it i
   CHECK(patient.ends > 5);
 }
 
+// Notes the removed files that this process has open: the temporary files of a run.
+class OpenFiles final : public Progress {
+ public:
+  void begin(std::string_view, std::uint64_t) override {
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+      const std::string file = std::filesystem::read_symlink(entry.path(), error).string();
+      if (file.ends_with(" (deleted)")) names.insert(file);
+    }
+  }
+  void advance(std::uint64_t) override {}
+  void end() noexcept override {}
+  std::set<std::string> names;
+};
+
 TEST_CASE("the library's temporary files are in the wanted folder, and gone at the end", "[library]") {
   const ScratchFolder scratch;
   Config config;
   config.run.scratch = scratch.path().string();
-  CHECK(find_holes(punched_sheet().positions, config).loops.size() == 3);
+  OpenFiles files;
+  CHECK(find_holes(punched_sheet().positions, config, &files).loops.size() == 3);
+  CHECK(files.names.size() > 3);
+  for (const std::string& file : files.names) CHECK_THAT(file, StartsWith(scratch.path().string()));
   CHECK(test::count_entries(scratch.path()) == 0);
   config.run.scratch = (scratch / "missing").string();
   CHECK_THROWS_WITH(find_holes(punched_sheet().positions, config), Contains("missing"));

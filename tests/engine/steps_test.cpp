@@ -12,6 +12,7 @@
 #include "tests/support/scratch_folder.hpp"
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -150,6 +151,74 @@ TEST_CASE("another plan makes levels of its own, and what an earlier one has lef
   const std::uint64_t before = points(7);
   CHECK(points(2) == before);
   CHECK(run.bytes() == run.expected());
+}
+
+TEST_CASE("a planned folder gives a run with other parameters what a fresh run gives") {
+  std::vector<Config> others(5, SharedRun().config);
+  others[0].scale.min_hole = 8;
+  others[1].scale.min_hole = 50;  // leaves some hundred points
+  others[2].scale.resolution = 1.7;
+  others[3].loops.method = LoopMethod::kPaper;
+  others[4].coherence.threshold = 0.4;
+  std::size_t done = 0;  // steps before the run
+  for (const std::size_t tasks : {3, 7}) {
+    for (const Config& other : others) {
+      SharedRun run;
+      const std::string first = run.expected();
+      const std::vector<Step> steps = run.planned(tasks);
+      done = (done + 1) % steps.size();
+      for (const Step& step : std::span(steps).first(done)) {
+        for (std::size_t task = 0; task < step.tasks; ++task) run.work_on(step, task);
+      }
+      const auto with = [&](Config config) {
+        config.run.workspace = run.config.run.workspace;
+        std::swap(run.config, config);
+        const bool is_fresh = run.bytes() == run.expected();
+        std::swap(run.config, config);
+        return is_fresh;
+      };
+      INFO(tasks << " tasks, " << done << " steps");
+      CHECK(with(other));
+      CHECK(run.bytes() == first);
+    }
+  }
+}
+
+// All pairs of files are exchanged in as many rounds as there are files: a tournament on a circle. The run's
+// own part and its plan stay: without them, nothing else would be of this run.
+TEST_CASE("any two exchanged parts of a planned folder are made again") {
+  SharedRun run;
+  run.cloud = plane(40).jittered(0.3, 5);
+  const std::string expected = run.expected();
+  const fs::path workspace = run.config.run.workspace, all = run.folder / "all";
+  constexpr auto kMissing = fs::copy_options::recursive | fs::copy_options::skip_existing;
+  for (const Step& step : run.planned(2)) {
+    for (std::size_t task = 0; task < step.tasks; ++task) run.work_on(step, task);
+    fs::copy(workspace, all, kMissing);  // what goes once the first level is there
+  }
+  CHECK(run.bytes() == expected);
+  fs::copy(workspace, all, kMissing);
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(all)) {
+    const fs::path name = entry.path().filename();
+    if (name != kRunPart && name != "plan.lacuna") files.push_back(name);
+  }
+  std::ranges::sort(files);
+  if (files.size() % 2 != 0) files.emplace_back();  // a round without a partner
+  for (std::size_t round = 1; round < files.size(); ++round) {
+    fs::remove_all(workspace);
+    fs::copy(all, workspace);
+    for (std::size_t i = 0; i < files.size() / 2; ++i) {
+      const fs::path &a = files[i], &b = files[files.size() - 1 - i];
+      if (a.empty() || b.empty()) continue;
+      fs::rename(workspace / a, run.folder / "other");
+      fs::rename(workspace / b, workspace / a);
+      fs::rename(run.folder / "other", workspace / b);
+    }
+    INFO("round " << round);
+    CHECK(run.bytes() == expected);
+    std::rotate(files.begin() + 1, files.end() - 1, files.end());
+  }
 }
 
 TEST_CASE("a level that the scan does not have is nothing to do") {

@@ -57,6 +57,10 @@ TEST_CASE("a volume of random points stays within the memory limit") {
   check_limit(volume(200'000, 1));
 }
 
+TEST_CASE("two hundred neighbours of each point stay within the memory limit") {
+  check_limit(scattered(80'000, 1), {"--k", "200"});
+}
+
 TEST_CASE("the lid of a large hole stays within the memory limit") {
   check_limit(plane(600).punched({300, 300}, 250).jittered(0.2, 1), {"--lids"});
 }

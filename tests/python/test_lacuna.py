@@ -220,10 +220,11 @@ class Running(Folder):
             thread.join()
         self.assertTrue(all(same_loops(result, expected) for result in results))
 
-    def test_points_in_memory_need_no_folder(self):
+    def test_a_missing_folder_for_temporary_files_is_an_error(self):
         code = "import lacuna, numpy as np; lacuna.find_holes(np.random.default_rng(1).uniform(0, 30, (2000, 3)))"
         environment = {**os.environ, "TMPDIR": "/nonexistent"}
-        subprocess.run([sys.executable, "-c", code], check=True, env=environment)
+        run = subprocess.run([sys.executable, "-c", code], env=environment, stderr=subprocess.PIPE, text=True)
+        self.assertRegex(run.stderr, "lacuna.*Error: TMPDIR names no folder for temporary files")
 
 
 class Files(Folder):

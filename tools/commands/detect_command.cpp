@@ -4,9 +4,7 @@
 #include "engine/kept_state.hpp"
 #include "engine/pipeline.hpp"
 #include "engine/run/error.hpp"
-#include "engine/run/job.hpp"
 #include "engine/store/temporary_folder.hpp"
-#include "engine/store/temporary_storage.hpp"
 #include "io/area/check_area.hpp"
 #include "io/results/results.hpp"
 #include "io/scan/file_scan.hpp"
@@ -162,10 +160,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   const std::unique_ptr<Progress> progress = arguments.show_progress();
 
   const std::unique_ptr<StationViews> stations = watch_stations(scan, config.output, scratch.path());
-  FilesConfig running = config;
-  const bool is_in_memory = !stations && take_files_into_memory(scan, running.run);  // rays are files, too
-  ExplainedDetection detection{*detect(scan, running, is_in_memory ? fs::path() : scratch.path(), *progress)};
-  detection.summary.memory_limit = Memory::share(config.run.memory_limit).limit;  // files included
+  ExplainedDetection detection{*detect(scan, config, scratch.path(), *progress)};
   if (stations) find_causes(*stations, scan, config.run, detection);
   if (area) detection.area = check_area(*area, scan, config, *progress);
   progress->begin("write", 0);

@@ -88,7 +88,7 @@ Listed listed(const Sweep& sweep, const FoundStation& found, const FileScan& sca
 
 // Finds shares of points that can have been measured from the stations, by their lines.
 void find_certainties(std::vector<Listed>& stations, FileScan& scan, const RunConfig& run) {
-  const MadeFolder parent(scratch_folder(run));
+  const MadeFolder parent(temporary_parent(run.scratch));
   const TemporaryFolder folder(parent.path(), "lacuna-");
   const fs::path list = folder.path() / "stations.txt";
   std::ofstream out(list);

@@ -113,7 +113,7 @@ FileInfo read_file_info(const FileScan& scan, std::size_t file, const ReadOption
 RunInfo inspect_run(FileScan& scan, const FilesConfig& config) {
   RunInfo run;
   NoProgress silence;
-  const MadeFolder parent(scratch_folder(config.run));
+  const MadeFolder parent(temporary_parent(config.run.scratch));
   const TemporaryFolder workspace(parent.path(), "lacuna-");
   const auto stations = watch_stations(scan, config.output, workspace.path(), Ranges::kNone);
   run.inspection = inspect(scan, config, workspace.path(), silence);
@@ -189,7 +189,7 @@ void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const 
             << "\n  cells         " << print_count(run.inspection.cells) << ", of size "
             << run.inspection.cell_size << "\n  memory limit  " << print_size(summary.memory_limit)
             << "\n  threads       " << summary.threads << "\n  disk          " << print_sizes(needs.temporary)
-            << " in temporary files, unless they fit in memory, and the results\n  kept folder   " << print_sizes(needs.kept)
+            << " in temporary files, and the results\n  kept folder   " << print_sizes(needs.kept)
             << " more, with --workspace\n  time          " << print_duration(needs.seconds.least) << " to "
             << print_duration(needs.seconds.most) << "\n";
   if (!run.stations.empty())

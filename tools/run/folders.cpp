@@ -83,10 +83,6 @@ Option add_results_folder(const Command& command, fs::path& folder) {
   return command.add_option("DIR", folder, "Folder with the results of lacuna detect").type("DIR").required();
 }
 
-fs::path scratch_folder(const RunConfig& run) {
-  return run.scratch.empty() ? fs::temp_directory_path() : fs::path(run.scratch);
-}
-
 void remove_made_folders() {
   mutex.lock();  // and never unlocked
   for (auto folder = living.rbegin(); folder != living.rend(); ++folder) (*folder)->remove_empty();

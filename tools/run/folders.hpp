@@ -2,7 +2,6 @@
 // The folders that the user names. The program makes missing ones, and locks them.
 #pragma once
 
-#include "engine/config/config.hpp"
 #include "tools/console/command_line.hpp"
 
 #include <filesystem>
@@ -35,10 +34,6 @@ std::filesystem::path parent_of(const std::filesystem::path& folder);
 
 // Adds the argument DIR of commands that begin with the results of a run.
 Option add_results_folder(const Command& command, std::filesystem::path& folder);
-
-// Returns the folder for temporary files of commands without a folder of results: the config's, else the
-// system's.
-std::filesystem::path scratch_folder(const RunConfig& run);
 
 // For the thread that handles signals: removes the folders of all living MadeFolders that are empty. No
 // folder can be made afterwards: a thread that tries stops there, as the process is about to end.

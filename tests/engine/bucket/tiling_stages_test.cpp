@@ -5,12 +5,15 @@
 #include "engine/survey/survey.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/memory_scan.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/tile.hpp"
 #include "tests/support/tiled_scan.hpp"
 
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -19,7 +22,8 @@ namespace {
 
 SurveyedScan survey(const Cloud& cloud, std::uint64_t memory = 1 << 30, std::size_t batch = 1000,
                     bool expected = true) {
-  Survey survey(memory, expected ? cloud.size() : 0);
+  const test::ScratchFolder folder;
+  Survey survey(memory, expected ? cloud.size() : 0, folder / "cells");
   MemoryScan scan(cloud, batch);
   for (PointBatch points; scan.next(points);) survey.add(points);
   return survey.finish();
@@ -39,10 +43,26 @@ std::map<CellCoord, std::uint64_t> counted_plainly(const Cloud& cloud, const Cel
   return counts;
 }
 
+// The cells, and the far points, are those of a plain count. Far points lie in regions of 128^3 cells with no
+// other points, or in unbounded cells.
 void check_counts(const Cloud& cloud, const SurveyedScan& scan) {
   const auto counts = counts_of(scan.cells);
   CHECK(counts.size() == scan.cells.size());
-  CHECK(counts == counted_plainly(cloud, scan.grid));
+  const auto region_of = [](const CellCoord& cell) {
+    return CellCoord{cell[0] >> 7, cell[1] >> 7, cell[2] >> 7};
+  };
+  std::set<CellCoord> regions;
+  for (const auto& [cell, points] : counts) regions.insert(region_of(cell));
+  std::map<CellCoord, std::uint64_t> expected = counted_plainly(cloud, scan.grid);
+  std::uint64_t far_points = 0;
+  std::erase_if(expected, [&](const auto& counted) {
+    const auto& [cell, points] = counted;
+    const bool is_far = scan.grid.is_unbounded(cell) || !regions.contains(region_of(cell));
+    if (is_far) far_points += points;
+    return is_far;
+  });
+  CHECK(counts == expected);
+  CHECK(scan.far_points == far_points);
   for (const Eigen::Vector3d& p : cloud.positions) {
     if (!p.allFinite()) continue;
     const CellCoord cell = scan.grid.cell_of(p);
@@ -55,7 +75,7 @@ void check_counts(const Cloud& cloud, const SurveyedScan& scan) {
 
 TilePlan plan_of(const Cloud& cloud, std::uint64_t tile_points) {
   SurveyedScan scan = survey(cloud);
-  return split_tiles(std::move(scan.cells), scan.grid, scan.points, tile_points);
+  return split_tiles(scan, tile_points);
 }
 
 // The index of a cloud's distinct points, and the points of each of its cells.
@@ -110,12 +130,13 @@ TEST_CASE("surveys of parts of a scan add up to the survey of the scan, in whate
   const Cloud cloud = scattered(20'000, 6).with_outliers(40, 30, 2).with_unusable(10, 1).shuffled(3);
   for (const std::size_t parts : {1, 2, 7}) {
     for (const std::uint64_t memory : {std::uint64_t{1} << 30, std::uint64_t{1} << 20}) {
-      Survey merged(1 << 30, cloud.size());
+      const test::ScratchFolder folder;
+      Survey merged(1 << 30, cloud.size(), folder / "merged");
       MemoryScan scan(cloud);
       PointBatch first;
       scan.next(first);
       for (std::size_t part = 0; part < parts; ++part) {
-        Survey survey(part % 2 == 0 ? memory : 1 << 30, cloud.size());
+        Survey survey(part % 2 == 0 ? memory : 1 << 30, cloud.size(), folder / "cells");
         survey.choose_size(first);
         MemoryScan own(cloud);
         PointBatch points;
@@ -179,22 +200,25 @@ TEST_CASE("a scan has the same cells anywhere on Earth, down to a spacing of a m
   }
 }
 
-TEST_CASE("unbounded cells and cells in regions with few points are far") {
+TEST_CASE("points beyond the grid and in regions with few points are far") {
   Cloud cloud = plane(200).joined(scattered(100, 2).scaled(1e7));
   cloud.positions.push_back({1e30, 0, 0});
   const SurveyedScan scan = survey(cloud);
-  std::uint64_t far_points = 0;
-  std::size_t wrong = 0;
-  for (const CountedCell& cell : scan.cells) {
-    if (cell.is_far) far_points += cell.points;
-    wrong += scan.grid.is_unbounded(cell.coord) && !cell.is_far;
-  }
-  CHECK(wrong == 0);
-  CHECK(far_points >= 90);
-  CHECK(far_points <= 101 + plane(200).size() / 20);
+  check_counts(cloud, scan);
+  CHECK(scan.far_points >= 90);
+  CHECK(scan.far_points <= 101 + plane(200).size() / 20);
 }
 
-TEST_CASE("the standard tree of cells that are not far fits in the memory of the survey, wherever they are") {
+TEST_CASE(
+    "far outliers more than fit in the memory of the survey do not make the cells of a surface larger") {
+  const Cloud cloud = plane(200).joined(scattered(10'000, 2).scaled(1e7)).shuffled(3);
+  const SurveyedScan scan = survey(cloud, 600'000);
+  check_counts(cloud, scan);
+  CHECK(scan.far_points >= 9'900);
+  CHECK(scan.cells.size() >= plane(200).size() / 400);
+}
+
+TEST_CASE("the index of the cells fits in the memory of the survey, wherever they are") {
   Cloud clusters;
   for (int i = 0; i < 600; ++i) {
     const Eigen::Vector3d centre(i % 10 * 1e4, i / 10 % 10 * 1e4, i / 100 * 1e4);
@@ -205,12 +229,11 @@ TEST_CASE("the standard tree of cells that are not far fits in the memory of the
   check_counts(clusters, scan);
   std::set<CellCoord> lower, upper;  // nodes of the tree, of 33 and 270 KB
   for (const CountedCell& cell : scan.cells) {
-    if (cell.is_far) continue;
     lower.insert({cell.coord[0] >> 7, cell.coord[1] >> 7, cell.coord[2] >> 7});
     upper.insert({cell.coord[0] >> 12, cell.coord[1] >> 12, cell.coord[2] >> 12});
   }
   CHECK(lower.size() * 33'000 + upper.size() * 270'000 < kMemory);
-  CHECK(scan.cells.size() > 100);
+  CHECK(scan.cells.size() + scan.far_points > 100);
 }
 
 TEST_CASE("a survey of nothing, of nothing finite and of one place") {
@@ -230,26 +253,22 @@ TEST_CASE("a survey of nothing, of nothing finite and of one place") {
 TEST_CASE("planned tiles hold every cell once, in order, and no more points than allowed") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Cloud cloud = random_cloud(5000 + seed);
-    const auto before = counts_of(survey(cloud).cells);
+    const SurveyedScan scan = survey(cloud);
+    const auto before = counts_of(scan.cells);
     for (const std::uint64_t limit : {1, 20, 300, 1'000'000}) {
       const TilePlan plan = plan_of(cloud, limit);
       INFO("seed " << seed << ", " << limit << " points a tile");
       std::vector<CountedCell> all = plan.cells;
-      all.insert(all.end(), plan.aside.begin(), plan.aside.end());
+      all.insert(all.end(), plan.heavy.begin(), plan.heavy.end());
       CHECK(counts_of(all) == before);
       CHECK(all.size() == before.size());
       std::uint64_t most_tiles = plan.tiles.size();
-      std::uint64_t far = 0;
-      for (std::size_t cell = 0; cell < plan.aside.size(); ++cell) {
-        const std::uint64_t points = plan.aside[cell].points;
-        if (cell < plan.heavy) {
-          CHECK(points > limit);
-          most_tiles += (points + limit - 1) / limit;
-        } else {
-          far += points;
-        }
+      for (const CountedCell& cell : plan.heavy) {
+        CHECK(cell.points > limit);
+        most_tiles += (cell.points + limit - 1) / limit;
       }
-      most_tiles += (far + limit - 1) / limit;
+      CHECK(plan.far_points == scan.far_points);
+      most_tiles += (plan.far_points + limit - 1) / limit;
       CHECK(plan.most_tiles() == most_tiles);
       std::uint32_t next_cell = 0;
       std::uint64_t next_row = 0;
@@ -293,20 +312,29 @@ TEST_CASE("the tree over the cells halves down to few cells, its boxes tight") {
   }
 }
 
-TEST_CASE("a single heavy cell is set aside, as is a far one, and no cells make no tiles") {
-  const std::vector<CountedCell> cells = {
-      {{0, 0, 0}, 5}, {{1, 0, 0}, 10'000}, {{2, 0, 0}, 5}, {{9, 0, 0}, 5}, {{9, 1'000, 0}, 1, true}};
-  const TilePlan plan = split_tiles(cells, CellGrid{}, 10'016, 12);
-  CHECK(counts_of(plan.aside) == std::map<CellCoord, std::uint64_t>{{{1, 0, 0}, 10'000}, {{9, 1'000, 0}, 1}});
-  CHECK(plan.heavy == 1);
+SurveyedScan surveyed(std::vector<CountedCell> cells, std::uint64_t far_points, std::uint64_t points) {
+  SurveyedScan scan;
+  scan.points = points;
+  scan.cells = std::move(cells);
+  scan.far_points = far_points;
+  return scan;
+}
+
+TEST_CASE("a single heavy cell is set aside, as are far points, and no cells make no tiles") {
+  SurveyedScan scan =
+      surveyed({{{0, 0, 0}, 5}, {{1, 0, 0}, 10'000}, {{2, 0, 0}, 5}, {{9, 0, 0}, 5}}, 1, 10'016);
+  const TilePlan plan = split_tiles(scan, 12);
+  CHECK(counts_of(plan.heavy) == std::map<CellCoord, std::uint64_t>{{{1, 0, 0}, 10'000}});
+  CHECK(plan.groups() == 2);
   CHECK(plan.cells.size() == 3);
-  CHECK(split_tiles({}, CellGrid{}, 0, 12).tiles.empty());
+  SurveyedScan nothing;
+  CHECK(split_tiles(nothing, 12).tiles.empty());
 }
 
 TEST_CASE("where the count of a cell ended, there is space for tiles of all points of the scan") {
   constexpr std::uint64_t kPoints = 10'000'000'000, kTile = 1'000'000;
-  const std::vector<CountedCell> cells = {{{0, 0, 0}, kMostCounted}, {{9, 1'000, 0}, 5, true}};
-  const TilePlan plan = split_tiles(cells, CellGrid{}, kPoints, kTile);
+  SurveyedScan scan = surveyed({{{0, 0, 0}, kMostCounted}}, 5, kPoints);
+  const TilePlan plan = split_tiles(scan, kTile);
   CHECK(plan.group_points(0) == kPoints);
   CHECK(plan.group_points(1) == 5);
   CHECK(plan.most_tiles() == kPoints / kTile + 1);

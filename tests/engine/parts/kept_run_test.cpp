@@ -124,17 +124,6 @@ fs::path outputs_of(const ScratchFolder& folder, std::size_t level) {
   return found;
 }
 
-TEST_CASE("parts that are swapped are made again") {
-  const ScratchFolder folder;
-  const Config config = small_tiles();
-  const std::string expected = bytes_of(scan(), config, folder.path());
-  const fs::path a = outputs_of(folder, 0), b = outputs_of(folder, 1);
-  fs::rename(a, folder / "other");
-  fs::rename(b, a);
-  fs::rename(folder / "other", b);
-  CHECK(bytes_of(scan(), config, folder.path()) == expected);
-}
-
 TEST_CASE("later steps take other parameters, and the parts before them are used again") {
   const ScratchFolder folder;
   bytes_of(scan(), small_tiles(), folder.path());
@@ -192,12 +181,16 @@ TEST_CASE("with another input or parameter, what differs is made again, and the 
   CHECK(told(scan().translated({1, 0, 0}), config) == "loops-1: damaged\n");
 }
 
-TEST_CASE("a run whose own part is damaged goes on, and the workspace keeps its state") {
+TEST_CASE("a run whose own part, or plan, is damaged goes on, and the workspace keeps its state") {
   const ScratchFolder folder;
   const std::string expected = bytes_of(scan(), small_tiles(), folder.path());
-  std::string content = test::read_file(folder / "run.lacuna");
-  content[content.size() / 2] ^= 1;
-  fs::rename(folder.write("damaged", content), folder / "run.lacuna");
+  write_plan(folder.path(), {.tasks = 3});
+  for (const char* part : {"run.lacuna", "plan.lacuna"}) {
+    std::string content = test::read_file(folder / part);
+    content[part == std::string("run.lacuna") ? content.size() / 2 : 0] ^= 1;
+    fs::rename(folder.write("damaged", content), folder / part);
+  }
+  CHECK_FALSE(read_plan(folder.path()));
   const auto state = state_of(folder.path());
   REQUIRE(state);
   CHECK(state->made_from.empty());

@@ -14,7 +14,8 @@ namespace lacuna {
 namespace {
 
 SurveyedScan surveyed(const PointBatch& batch) {
-  Survey survey(1 << 20, batch.size());
+  const test::ScratchFolder folder;
+  Survey survey(1 << 20, batch.size(), folder / "cells");
   survey.add(batch);
   return survey.finish();
 }
