@@ -21,7 +21,7 @@ bool take_files_into_memory(const PointSource& scan, RunConfig& run) {
 TemporaryStorage::TemporaryStorage(const PointSource& scan, RunConfig& run) {
   namespace fs = std::filesystem;
   if (!take_files_into_memory(scan, run))
-    folder_.emplace(run.scratch.empty() ? fs::temp_directory_path() : fs::path(run.scratch), "lacuna-");
+    folder_.emplace(run.scratch.empty() ? fs::temp_directory_path() : fs::path(run.scratch), kScratchPrefix);
 }
 
 }  // namespace lacuna

@@ -3,7 +3,6 @@
 #include "engine/inspect.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
-#include "engine/store/temporary_folder.hpp"
 #include "io/formats.hpp"
 #include "io/loops/json.hpp"
 #include "io/scan/file_scan.hpp"
@@ -113,10 +112,9 @@ FileInfo read_file_info(const FileScan& scan, std::size_t file, const ReadOption
 RunInfo inspect_run(FileScan& scan, const FilesConfig& config) {
   RunInfo run;
   NoProgress silence;
-  const MadeFolder parent(scratch_folder(config.run));
-  const TemporaryFolder workspace(parent.path(), "lacuna-");
-  const auto stations = watch_stations(scan, config.output, workspace.path(), Ranges::kNone);
-  run.inspection = inspect(scan, config, workspace.path(), silence);
+  const ScratchFolder scratch(scratch_folder(config.run));
+  const auto stations = watch_stations(scan, config.output, scratch.path(), Ranges::kNone);
+  run.inspection = inspect(scan, config, scratch.path(), silence);
   if (stations) {
     const TaskArena arena(static_cast<std::size_t>(config.run.threads));
     stations->complete(scan, arena);
@@ -189,9 +187,9 @@ void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const 
             << "\n  cells         " << print_count(run.inspection.cells) << ", of size "
             << run.inspection.cell_size << "\n  memory limit  " << print_size(summary.memory_limit)
             << "\n  threads       " << summary.threads << "\n  disk          " << print_sizes(needs.temporary)
-            << " in temporary files, unless they fit in memory, and the results\n  kept folder   " << print_sizes(needs.kept)
-            << " more, with --workspace\n  time          " << print_duration(needs.seconds.least) << " to "
-            << print_duration(needs.seconds.most) << "\n";
+            << " in temporary files, unless they fit in memory, and the results\n  kept folder   "
+            << print_sizes(needs.kept) << " more, with --workspace\n  time          "
+            << print_duration(needs.seconds.least) << " to " << print_duration(needs.seconds.most) << "\n";
   if (!run.stations.empty())
     std::cout << "  stations      " << print_size(run.stations_bytes)
               << " more on disk, where causes of holes are found\n";
