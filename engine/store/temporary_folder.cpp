@@ -198,6 +198,10 @@ std::vector<fs::path> remove_leftovers(const fs::path& parent, const std::string
   return in_use;
 }
 
+bool is_temporary_folder(const fs::path& folder) {
+  return folder.filename().string().size() > kDrawnDigits && open_marked(folder).mark.is_open();
+}
+
 std::vector<RemainingFolder> remaining_folders() {
   const std::lock_guard lock(mutex);
   std::vector<RemainingFolder> remaining;

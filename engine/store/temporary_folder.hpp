@@ -47,6 +47,9 @@ std::vector<std::filesystem::path> remove_leftovers(
     const std::filesystem::path& parent, const std::string& prefix,
     const std::function<void(const std::filesystem::path&)>& rescue = [](const auto&) {});
 
+// Returns whether a process has made this folder for itself, and may have left it.
+bool is_temporary_folder(const std::filesystem::path& folder);
+
 struct RemainingFolder {
   std::filesystem::path folder;
   std::string reason;

@@ -72,6 +72,10 @@ TEST_CASE("kept and temporary files are not put into results, which are replaced
   CHECK_THROWS_WITH(refuse("out/w", "out"), Contains("is in the folder of results"));
   refuse("w", "out");
   refuse("w", "w/out");
+  const TemporaryFolder left(folder.path(), ".holes.lacuna-");
+  CHECK_THROWS_WITH(refuse(left.path().filename() / "w", "out"),
+                    Contains("is in the temporary folder of a run"));
+  CHECK_THROWS_WITH(OutFolder(left.path() / "out", "holes.json"), Contains("is in the temporary folder"));
 }
 
 TEST_CASE("folders made for a run go if they are empty, and a detour is not made") {

@@ -31,6 +31,26 @@ fs::path without_detours(const fs::path& folder) {
   return folder;
 }
 
+// Returns the folder and those that it is in, without links, innermost first.
+std::vector<fs::path> folders_around(const fs::path& folder) {
+  std::error_code error;
+  fs::path around = fs::weakly_canonical(fs::absolute(folder), error);
+  if (error) around = fs::absolute(folder);
+  if (!around.has_filename()) around = around.parent_path();
+  std::vector<fs::path> all = {around};
+  for (; around != around.root_path(); around = around.parent_path()) all.push_back(around.parent_path());
+  return all;
+}
+
+// A later run removes what a killed one has left.
+void require_lasting(const fs::path& folder) {
+  for (const fs::path& around : folders_around(folder)) {
+    if (is_temporary_folder(around))
+      throw UsageError(folder.string() + ": is in the temporary folder of a run " + around.string() +
+                       "; allowed: another place");
+  }
+}
+
 std::recursive_mutex mutex;       // of the list, and while folders are made and removed
 std::vector<MadeFolder*> living;  // in the order made
 
@@ -88,7 +108,8 @@ void MadeFolder::leave() {
   made_.clear();
 }
 
-OutFolder::OutFolder(const fs::path& folder, const std::string& file) : parent_(parent_of(folder)) {
+OutFolder::OutFolder(const fs::path& folder, const std::string& file)
+    : parent_((require_lasting(folder), parent_of(folder))) {
   const RemovalPause pause;  // a signal waits until its line can name the folder
   results_.emplace(folder);
   watch_results(folder, folder / file);
@@ -115,17 +136,13 @@ KeptFolder::~KeptFolder() {
 
 void require_outside_results(const fs::path& folder, const fs::path& out, const std::string& option) {
   if (folder.empty()) return;
-  const auto absolute = [](const fs::path& path) {
-    std::error_code error;
-    const fs::path found = fs::weakly_canonical(fs::absolute(path), error);
-    return error ? fs::absolute(path) : found;
-  };
-  const fs::path results = out.empty() ? out : absolute(out);
-  for (fs::path around = absolute(folder); around != around.root_path(); around = around.parent_path()) {
+  const fs::path results = out.empty() ? out : folders_around(out).front();
+  for (const fs::path& around : folders_around(folder)) {
     if (around == results || io::is_result_folder(around))
       throw UsageError(folder.string() + ": is in the folder of results " + around.string() +
                        "; allowed: another one for " + option);
   }
+  require_lasting(folder);
 }
 
 Option add_results_folder(const Command& command, fs::path& folder) {
