@@ -3,7 +3,6 @@
 
 #include "engine/run/error.hpp"
 
-#include <csignal>
 #include <stdexcept>
 
 #include <sys/wait.h>
@@ -43,12 +42,8 @@ pid_t fork_to(const std::function<void()>& act) {
 
 }  // namespace
 
-void do_and_be_killed(const std::function<void()>& act) {
-  const pid_t child = fork_to([&] {
-    act();
-    std::raise(SIGKILL);
-  });
-  waitpid(child, nullptr, 0);
+void do_apart(const std::function<void()>& act) {
+  waitpid(fork_to(act), nullptr, 0);
 }
 
 std::size_t do_at_once(std::size_t processes,

@@ -7,8 +7,8 @@
 
 namespace lacuna::test {
 
-// Does this in a process of its own, which is killed then.
-void do_and_be_killed(const std::function<void()>& act);
+// Does this in a process of its own, which may kill itself.
+void do_apart(const std::function<void()>& act);
 
 // Does this in so many processes at once. `wait` returns once all others have failed with an `Error`. Returns
 // how many did not fail.

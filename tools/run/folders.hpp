@@ -79,8 +79,8 @@ class ScratchFolder {
   TemporaryFolder folder_;
 };
 
-// Refuses a folder for kept or temporary files in a folder of results, which is replaced as a whole, or in
-// the temporary folder of a run. `out`: the results of this run, if it has any.
+// Refuses a folder for kept or temporary files in a folder of results, which is replaced as a whole. The
+// temporary folder of a run is refused, too. `out`: the results of this run, if it has any.
 void require_outside_results(const std::filesystem::path& folder, const std::filesystem::path& out,
                              const std::string& option);
 

@@ -4,6 +4,7 @@
 #include "tests/io/io_support.hpp"
 #include "tests/support/processes.hpp"
 
+#include <csignal>
 #include <fstream>
 #include <future>
 #include <optional>
@@ -36,9 +37,10 @@ TEST_CASE("a temporary folder goes with all that it holds, and no link is follow
 TEST_CASE("what a killed process has left goes, with its mark alone, and nothing else of its name", "[io]") {
   const ScratchFolder folder;
   const auto left = [&] {
-    do_and_be_killed([&] {
+    do_apart([&] {
       const TemporaryFolder made(folder.path(), ".t-");
       std::ofstream(made.path() / "file") << "x";
+      std::raise(SIGKILL);
     });
     return folder.names();
   };

@@ -100,10 +100,12 @@ TEST_CASE("a folder that holds anything else is refused by name, before the work
   for (const std::string name : {"notes", "points/notes", ".hidden"}) {
     for (const auto& add : additions) {
       write(out, {"a", "points/b"}, "old");
-      ResultFolder results(out);
-      put(results, "a", "new");
-      add(out / name);
-      CHECK_THAT(error_of([&] { results.commit(); }), Contains((out / name).string() + reason));
+      {
+        ResultFolder results(out);
+        put(results, "a", "new");
+        add(out / name);
+        CHECK_THAT(error_of([&] { results.commit(); }), Contains((out / name).string() + reason));
+      }
       CHECK_THAT(error_of([&] { write(out, {"a"}, "new"); }), Contains((out / name).string()));
       CHECK(read_file(out / "a") == "old");
       fs::remove(out / name);
@@ -136,7 +138,7 @@ TEST_CASE("one run at a time writes results of a name, and a killed one leaves n
     const ResultFolder first(out);
     CHECK_THAT(error_of([&] { ResultFolder second(out); }), Contains("another run is at work there"));
   }
-  do_and_be_killed([&] {
+  do_apart([&] {
     const ResultFolder half(out);
     put(half, "a", "half");
     std::raise(SIGKILL);
@@ -181,7 +183,7 @@ TEST_CASE("earlier results that a killed run has moved aside are put back before
   const fs::path out = folder / "out";
   const auto move_aside = [&](const std::function<void()>& then) {
     write(out, {"a", "points/b"}, "old");
-    do_and_be_killed([&] {
+    do_apart([&] {
       const ResultFolder killed(out);
       put(killed, "a", "new");
       fs::rename(out, killed.temporary() / "earlier");
