@@ -12,7 +12,7 @@ namespace lacuna {
 Holes find_holes(PointSource& scan, const Config& given, Progress* progress) {
   Config config = given;
   config.results.sample_points = 0;
-  const TemporaryFolder scratch(temporary_parent(config.run.scratch), "lacuna-");
+  const TemporaryFolder scratch(temporary_parent(config.run.scratch), kScratchPrefix);
   NoProgress silence;
   const std::unique_ptr<Detection> detection =
       detect(scan, config, scratch.path(), progress == nullptr ? silence : *progress);

@@ -4,7 +4,9 @@
 #include "bench/evaluation/print.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
+#include "io/files/new_file.hpp"
 #include "io/report/report.hpp"
+#include "io/report/scene.hpp"
 #include "io/results/results.hpp"
 #include "python/arrays.hpp"
 #include "python/run.hpp"
@@ -80,9 +82,18 @@ void for_each_block(const Found& found, const py::function& visit) {
       [&](PointId first, std::span<const PointResult> block) { visit(block_of(first, block)); });
 }
 
-fs::path write_report(const fs::path& folder) {
+void write_report(const fs::path& folder, const fs::path& file) {
   const py::gil_scoped_release unlocked;
-  return io::write_report(folder, io::Overwrite::kOwn);
+  io::NewFile out(file, io::kReportMark, io::Overwrite::kOwn);
+  io::Scene scene = io::read_scene(folder);
+  scene.next_stations = io::read_next_stations(folder);
+  io::write_report(scene, out.content());
+  out.commit();
+}
+
+std::vector<fs::path> copy_results(const fs::path& from, const fs::path& to) {
+  const py::gil_scoped_release unlocked;
+  return io::copy_results(from, to);
 }
 
 std::string evaluate(const fs::path& result_path, const fs::path& truth_path,
@@ -125,6 +136,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("find_in_files", &find_in_files);
   module.def("check_files", &check_files);
   module.def("write_report", &write_report);
+  module.def("copy_results", &copy_results);
   module.def("evaluate", &evaluate);
   module.def("compare", &compare);
 }

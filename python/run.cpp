@@ -167,7 +167,7 @@ std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig c
                                                      Memory::share(config.run.memory_limit).reading);
         tools::require_lengths(*found->scan);
         found->warnings = tools::input_warnings(*found->scan);
-        found->scratch = std::make_unique<TemporaryFolder>(temporary_parent(config.run.scratch), "lacuna-");
+        found->scratch = std::make_unique<TemporaryFolder>(temporary_parent(config.run.scratch), kScratchPrefix);
         const auto area = io::read_area(*found->scan, config);
         const auto stations = io::watch_stations(*found->scan, config.output, found->scratch->path());
         found->detection.emplace(

@@ -4,6 +4,8 @@
 #include "tools/console/command_line.hpp"
 #include "tools/run/run_program.hpp"
 
+[[gnu::section(".preinit_array"), gnu::used]] static auto* first = lacuna::tools::check_limits;
+
 int main(int argc, char** argv) {
   using namespace lacuna::tools;
   CommandLine line("lacuna", "Lacuna finds holes in scanned surfaces, also in scans larger than memory.",

@@ -98,7 +98,8 @@ std::string line_of(const Digest& checksum) {
 
 bool is_kept_name(const fs::path& file) {
   static const std::regex names(
-      "[a-z]+(-[0-9]+)?(-[0-9a-f]+)?(\\.points|\\.normals)?\\.lacuna(\\.[0-9a-f]{16})?(\\.partial)?");
+      "(run|plan|(survey|tiles|bucket|level|evaluate|loops)(-[0-9]+)?-[0-9a-f]+(\\.points|\\.normals)?)"
+      "\\.lacuna(\\.[0-9a-f]{16})?(\\.partial)?");
   return std::regex_match(file.filename().string(), names);
 }
 
@@ -115,7 +116,7 @@ std::pair<std::string, std::string> first_difference(const std::string& was, con
 }
 
 bool is_kept_folder(const fs::path& folder) {
-  return PartReader::is_part(folder / kRunPart);
+  return !kept_files(folder).empty();
 }
 
 fs::path part_file(const fs::path& folder, const std::string& step, const std::string& task) {
@@ -124,11 +125,13 @@ fs::path part_file(const fs::path& folder, const std::string& step, const std::s
 
 std::vector<fs::path> kept_files(const fs::path& folder) {
   std::vector<fs::path> files;
-  if (!is_kept_folder(folder)) return files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+  std::error_code error;  // a folder that is missing keeps nothing
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     if (fs::is_regular_file(entry.symlink_status()) && is_kept_name(entry.path()))
       files.push_back(entry.path());
   }
+  if (!PartReader::is_part(folder / kRunPart) && std::ranges::none_of(files, PartReader::is_part))
+    files.clear();
   std::sort(files.begin(), files.end());
   return files;
 }

@@ -131,7 +131,8 @@ std::pair<std::string, std::string> first_difference(const std::string& was, con
 // the task, and its kind before the ending.
 std::filesystem::path part_file(const std::filesystem::path& folder, const std::string& step,
                                 const std::string& task);
-// Returns the files of a kept folder, without others in it. Returns nothing where it is none.
+// Returns the files of a kept folder, without others in it. A part proves what the folder is; the run's own
+// may be missing, where a process was at work while the folder was cleaned. Returns nothing where it is none.
 std::vector<std::filesystem::path> kept_files(const std::filesystem::path& folder);
 // Returns whether a file belongs to a step: "level-0".
 bool is_of_step(const std::filesystem::path& file, const std::string& step);

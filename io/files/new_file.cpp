@@ -64,7 +64,9 @@ NewFile::NewFile(const fs::path& file, const FileMark& mark, Overwrite overwrite
       mark_(mark),
       overwrite_(overwrite),
       folder_(file.has_parent_path() ? file.parent_path() : ".", kTemporaryPrefix),
-      content_(file, folder_.path() / "new") {}
+      content_(file, folder_.path() / "new") {
+  remove_leftovers(folder_.path().parent_path(), kTemporaryPrefix);
+}
 
 void NewFile::commit() {
   content_.close();

@@ -4,18 +4,19 @@
 // 1. A name may be free, or the name of an empty folder, or of an *earlier result*: a folder whose list,
 //    `.lacuna`, names all of its files. A folder that holds anything else is refused, and so is a link to no
 //    folder.
-// 2. Files are written to `.NAME.lacuna/results`, next to the folder. One run at a time uses `.NAME.lacuna`;
-//    what a killed run has left there goes with the next run.
+// 2. Files are written to a temporary folder next to it, `.NAME.lacuna-` and drawn digits. A run that sees
+//    the one of another process is refused. What a killed run has left there goes with the next run.
 // 3. commit: the list is added, and all files are brought to the disk. Then one rename gives the folder its
-//    name. An earlier result changes places with the new one, and is removed.
+//    name. An earlier result changes places with the new one, and is removed. A file that came to it after
+//    the last look goes to the new result.
 //
-// A crash leaves the earlier result whole, or the new one, and perhaps `.NAME.lacuna`. On a file system that
-// cannot exchange two names, the earlier result moves to `.NAME.lacuna` first.
+// A crash leaves the earlier result whole, or the new one. On a file system that cannot exchange two names,
+// the earlier result moves to the temporary folder first. If the run is killed then, the next one puts it
+// back before anything else.
 #pragma once
 
 #include "engine/export.hpp"
 #include "engine/store/temporary_folder.hpp"
-#include "io/files/folder_lock.hpp"
 #include "io/files/output_file.hpp"
 
 #include <filesystem>
@@ -35,9 +36,9 @@ class ResultFolder {
   LACUNA_API ~ResultFolder();
 
   const std::filesystem::path& path() const { return folder_; }  // as it was given
-  std::filesystem::path staged() const { return root_ / "results"; }
+  std::filesystem::path staged() const { return temporary() / "results"; }
   // For temporary files: they go with this object.
-  const std::filesystem::path& temporary() const { return root_; }
+  const std::filesystem::path& temporary() const { return temporary_->path(); }
   // Returns the files of the earlier result that are replaced.
   std::vector<std::filesystem::path> earlier_files() const;
 
@@ -52,13 +53,16 @@ class ResultFolder {
   std::vector<std::filesystem::path> commit();
 
  private:
-  std::filesystem::path folder_, target_, root_;  // `target_`: absolute, without links
-  std::optional<FolderLock> lock_;
+  std::filesystem::path folder_, target_;  // `target_`: absolute, without links
   std::optional<TemporaryFolder> temporary_;
 };
 
-// Returns whether a folder has results.
+// Returns whether a folder has results: a list, and a file that it names.
 bool is_result_folder(const std::filesystem::path& folder);
+
+// Copies the results of a folder to another one, as a run writes them there. Returns as commit does.
+std::vector<std::filesystem::path> copy_results(const std::filesystem::path& from,
+                                                const std::filesystem::path& to);
 
 // A later command writes this file to the folder, too. Adds the name to the list of the folder, if it has
 // one.

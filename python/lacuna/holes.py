@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import html
 import os
-import shutil
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -281,26 +280,19 @@ class Holes:
             return list(self._found.save(os.fspath(folder), _checked(params)))
         if params:
             raise _core.Error("loaded results are copied as they are; save the result of a run to have other files")
-        target = Path(folder)
-        copied = self._copy_files(target)
-        if (self._folder / "points").is_dir():
-            copied.append(Path(shutil.copytree(self._folder / "points", target / "points", dirs_exist_ok=True)))
-        return copied
-
-    def _copy_files(self, target: Path) -> list[Path]:
-        target.mkdir(parents=True, exist_ok=True)
-        copied = [Path(shutil.copy2(file, target)) for file in sorted(self._folder.iterdir()) if file.is_file()]
-        return [file for file in copied if not file.name.startswith(".")]
+        return list(_core.copy_results(os.fspath(self._folder), os.fspath(folder)))
 
     def report(self, file: Union[str, os.PathLike]) -> Path:
-        """Writes the scan and its holes in 3D as one HTML file, for a browser. Returns its name."""
-        with tempfile.TemporaryDirectory(prefix="lacuna-") as folder:
-            if self._found is not None:
+        """Writes the scan and its holes in 3D as one HTML file, for a browser. Returns its name.
+
+        It replaces an earlier report, and no other file."""
+        if self._found is None:
+            _core.write_report(os.fspath(self._folder), os.fspath(file))
+        else:
+            with tempfile.TemporaryDirectory(prefix="lacuna-") as folder:
                 self.save(folder)
-            else:
-                self._copy_files(Path(folder))
-            made = _core.write_report(folder)
-            return Path(shutil.copyfile(made, file))
+                _core.write_report(folder, os.fspath(file))
+        return Path(file)
 
     # ---- pictures
 

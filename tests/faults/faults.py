@@ -340,7 +340,7 @@ def kills_at_calls(share, count, add_job):
         for i in range(max(1, round(calls * share))):
             def job(slot, draw, name=name, i=i, calls=max(1, round(calls * share))):
                 case = case_of(slot, name, draw)
-                call = ["rename", "renameat2", "unlink", "fsync", "rmdir"][i % 5]
+                call = ["rename", "renameat2", "unlinkat", "fsync", "rmdir", "mkdir"][i % 6]
                 kill_at(slot, case, call, draw, count, (i + draw.random()) / calls)
             add_job(job)
 

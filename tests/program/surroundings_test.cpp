@@ -123,8 +123,7 @@ TEST_CASE("a signal ends the run while nobody takes its messages") {
       INFO("signal " << signal << ", " << style);
       const fs::path out = scratch / (style + std::to_string(signal));
       Blocked run({LACUNA_PROGRAM, "detect", scan, "--out", out.string(), "--progress", style});
-      const fs::path beside = scratch / ("." + out.filename().string() + ".lacuna");
-      const auto has_workspace = [&] { return fs::exists(beside); };
+      const auto has_workspace = [&] { return !test::temporary_of(out).empty(); };
       for (int i = 0; i < 3000 && !has_workspace(); ++i)
         REQUIRE_FALSE(run.wait(std::chrono::milliseconds(10)));
       REQUIRE_FALSE(run.wait(std::chrono::seconds(1)));  // by now it is blocked
@@ -171,8 +170,8 @@ TEST_CASE("a folder that cannot be removed after a run is named, and the results
   fs::path held;
   bool is_held = true;
   const auto hold = [&](pid_t) {  // what is mounted cannot be removed
-    if (!held.empty() || !fs::exists(scratch / ".out.lacuna")) return;
-    held = scratch / ".out.lacuna/held";
+    if (!held.empty() || test::temporary_of(out).empty()) return;
+    held = test::temporary_of(out) / "held";
     fs::create_directory(held);
     is_held = ::mount("tmpfs", held.c_str(), "tmpfs", 0, "size=4k") == 0;
   };
@@ -215,15 +214,69 @@ TEST_CASE("threads that cannot be started are an error of one line") {
     WARN("cannot run the program as another user: skipped");
     return;
   }
-  // For a user who may have fewer threads, OpenVDB's logging library ends the program before it begins.
-  for (const std::string limit : {"5", "6", "7", "8", "9", "10", "11"}) {
+  // For a user who may have fewer than five, OpenVDB's logging library ends the program before it begins.
+  for (const std::string limit : {"1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11"}) {
     INFO("ulimit -u " << limit);
     const fs::path out = scratch / "open" / limit;
     check_failure(run("ulimit -u " + limit + "; ",
                       {"detect", scan, "--out", out.string(), "--quiet", "--threads", "8"}),
                   1, "thread");
-    CHECK_FALSE(fs::exists(out));
+    CHECK(test::names_of(scratch / "open") == Words{"scan.xyz"});
   }
+}
+
+TEST_CASE("a process that is allowed too little stack or too few files ends with one line") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("scan.xyz", sheet(30));
+  const std::string out = (scratch / "out").string();
+  const std::vector<std::pair<std::string, std::string>> limits = {
+      {"ulimit -s 64; ", "the system allows this process 64 KiB of stack (ulimit -s); allowed: 1024 or more"},
+      {"ulimit -n 5; ", "the system allows this process 5 open files (ulimit -n); allowed: 256 or more"},
+      {"ulimit -d 30000; ", "no more memory or threads"},
+  };
+  for (const auto& [limit, reason] : limits) {
+    for (const Words& command : std::vector<Words>{{"detect", scan, "--out", out}, {"info", scan}})
+      check_failure(run_in_shell(limit, command), 1, reason);
+  }
+  CHECK(scratch.names() == Words{"scan.xyz"});
+  CHECK(run_in_shell("ulimit -s 1024 -n 256; ", {"detect", scan, "--out", out, "--quiet"}).exit_code == 0);
+}
+
+TEST_CASE("a name of thousands of bytes is shortened in the line of its error") {
+  const ScratchFolder scratch;
+  const ProgramResult result =
+      run_program({"info", "@" + scratch.write("list", "begin" + std::string(2400, 'n') + "end.xyz\n")});
+  check_failure(result, 1, " ... ");
+  CHECK(result.err.size() < 1100);
+  CHECK_THAT(result.err, Contains("beginnnn") && Contains("nnnend.xyz: "));
+}
+
+TEST_CASE("a file that comes to earlier results after the last look goes to the new ones") {
+  const ScratchFolder scratch;
+  const std::string scan = scratch.write("scan.xyz", sheet(30));
+  const fs::path out = test::detect(scan, scratch / "out");
+  // The kernel exchanges the folders late.
+  const std::string script =
+      "strace -f -qq -o /dev/null -e trace=renameat2 -e inject=renameat2:delay_enter=2000000 "
+      "\"$0\" detect \"$1\" --out \"$2\" --quiet & "
+      "until ls \"$3\"/.out.lacuna-*/results/.lacuna > /dev/null 2>&1; do kill -0 $! || exit 77; done; "
+      "sleep 1; echo mine > \"$2/notes\"; mkdir \"$2/empty\"; wait $!";
+  const auto run = [&] {
+    return test::run_command(
+        {"bash", "-c", script, LACUNA_PROGRAM, scan, out.string(), scratch.path().string()});
+  };
+  ProgramResult result = run();
+  for (int again = 0; again < 3 && result.exit_code == 1; ++again) {  // it came before the last look
+    fs::remove(out / "notes");
+    fs::remove(out / "empty");
+    result = run();
+  }
+  if (result.exit_code > 1) return test::skip("cannot trace a program");
+  CHECK_THAT(result.err, Contains("out/notes: came while the results took their place; it is kept"));
+  CHECK(test::read_file(out / "notes") == "mine\n");
+  CHECK(fs::exists(out / "empty"));
+  CHECK(fs::exists(out / "holes.json"));
+  CHECK(scratch.names() == Words{"out", "scan.xyz"});
 }
 
 TEST_CASE("an input that is replaced during a run ends it, and leaves nothing") {
@@ -244,7 +297,7 @@ TEST_CASE("an input that is replaced during a run ends it, and leaves nothing") 
   for (const auto& change : changes) {
     const std::string scan = scratch.write("scan.xyz", text);
     const auto change_when_read = [&] {
-      const bool is_read = fs::exists(scratch / ".out.lacuna/results");
+      const bool is_read = fs::exists(test::temporary_of(out) / "results");
       if (is_read) change(scan);
       return is_read;
     };

@@ -93,5 +93,22 @@ TEST_CASE("a plan says in a table what its tasks are, and wrong units are refuse
                 "not the workspace of a run");
 }
 
+TEST_CASE("a task that ends after its workspace was cleaned fails, and its part stands in nobody's way") {
+  const Shared run;
+  REQUIRE(run.plan().exit_code == 0);
+  const fs::path workspace = run.workspace;
+  bool is_cleaned = false;
+  const ProgramResult late =
+      test::run_program_beside({"work", run.workspace, "--step", "evaluate-0"}, [&](pid_t) {
+        if (is_cleaned || !fs::exists(workspace / "level-0-0.lacuna")) return;
+        is_cleaned = run_program({"clean", run.workspace}).exit_code == 0;
+      });
+  CHECK(is_cleaned);
+  check_failure(late, 1, run.workspace);
+  CHECK(run.plan().exit_code == 0);
+  CHECK(run_program({"clean", run.workspace}).exit_code == 0);
+  CHECK_FALSE(fs::exists(workspace));
+}
+
 }  // namespace
 }  // namespace lacuna

@@ -142,6 +142,11 @@ TEST_CASE("clean removes a workspace, but no file of others") {
   check_failure(run_program({"status", run.workspace.string()}), 1, "not the workspace of a run");
   fs::remove(run.workspace / "notes.txt");
   REQUIRE(run_program(run.kept()).exit_code == 0);
+  fs::create_directory_symlink(run.workspace, run.folder / "link");
+  CHECK(run_program({"clean", (run.folder / "link").string()}).exit_code == 0);
+  CHECK(fs::is_empty(run.workspace));
+  CHECK(fs::is_symlink(run.folder / "link"));
+  REQUIRE(run_program(run.kept()).exit_code == 0);
   CHECK(run_program({"clean", run.workspace.string()}).exit_code == 0);
   CHECK_FALSE(fs::exists(run.workspace));
 }

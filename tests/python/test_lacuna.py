@@ -251,6 +251,15 @@ class Files(Folder):
         with self.assertRaisesRegex(lacuna.Error, "holes.csv"):
             holes.save(self.folder)
         self.assertEqual(os.listdir(self.folder), ["holes.csv"])
+        holes.save(self.folder / "out")
+        loaded = lacuna.load(self.folder / "out")
+        for write in (loaded.save, loaded.report, holes.report):
+            (self.folder / "mine").mkdir(exist_ok=True)
+            target = self.folder / "mine" / "holes.csv"
+            target.write_text("mine")
+            with self.assertRaisesRegex(lacuna.Error, "holes.csv"):
+                write(target.parent if write == loaded.save else target)
+            self.assertEqual(target.read_text(), "mine")
         with self.assertRaisesRegex(lacuna.Error, "holes.json: cannot be read"):
             lacuna.load(self.folder / "nothing")
         (self.folder / "holes.json").write_text("{}")

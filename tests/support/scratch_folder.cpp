@@ -46,6 +46,13 @@ std::size_t count_entries(const std::filesystem::path& folder) {
   return count;
 }
 
+std::filesystem::path temporary_of(const std::filesystem::path& results) {
+  const std::string begin = "." + results.filename().string() + ".lacuna-";
+  for (const auto& entry : std::filesystem::directory_iterator(results.parent_path()))
+    if (entry.path().filename().string().starts_with(begin)) return entry.path();
+  return {};
+}
+
 std::string read_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};

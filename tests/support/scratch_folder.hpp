@@ -32,6 +32,9 @@ std::vector<std::string> names_of(const std::filesystem::path& folder);  // of w
 // Without hidden ones, which begin with a dot.
 std::size_t count_entries(const std::filesystem::path& folder);
 
+// Returns the temporary folder of the run that makes these results. It is empty where there is none.
+std::filesystem::path temporary_of(const std::filesystem::path& results);
+
 std::string read_file(const std::filesystem::path& file);
 
 }  // namespace lacuna::test

@@ -2,8 +2,9 @@
 #include "tools/run/folders.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/files/folder_lock.hpp"
+#include "tests/support/processes.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tools/run/folder_lock.hpp"
 
 #include <catch2/catch.hpp>
 #include <sys/resource.h>
@@ -37,10 +38,44 @@ TEST_CASE("a lock that cannot be had is an error that names the folder") {
   const ScratchFolder folder;
   const auto lock = [&](const fs::path& of) {
     const NoMoreFiles limit;
-    io::FolderLock lock(of);
+    FolderLock lock(of);
   };
   CHECK_THROWS_WITH(lock(folder.path()), folder.path().string() + ": cannot be opened: Too many open files");
-  CHECK_THROWS_WITH(io::FolderLock(folder / "none"), Contains("none: cannot be opened: No such file"));
+  CHECK_THROWS_WITH(FolderLock(folder / "none"), Contains("none: cannot be opened: No such file"));
+}
+
+TEST_CASE("of commands that make one kept folder at once, one has it, and the others leave it alone") {
+  const ScratchFolder folder;
+  for (int round = 0; round < 20; ++round) {
+    const auto run = [&](const std::function<void()>& wait) {
+      const KeptFolder kept(folder / "w");
+      wait();
+      if (!fs::is_directory(folder / "w")) throw Error("gone");
+    };
+    CHECK(do_at_once(4, run) == 1);
+    fs::remove(folder / "w");  // another one may have made it
+  }
+}
+
+TEST_CASE("kept and temporary files are not put into results, which are replaced as a whole") {
+  const ScratchFolder folder;
+  fs::create_directories(folder / "holes/deeper");
+  folder.write("holes/holes.json", "{}");
+  folder.write("holes/.lacuna", "holes.json\n");
+  const auto refuse = [&](const std::string& kept, const std::string& out) {
+    require_outside_results(folder / kept, folder / out, "--workspace");
+  };
+  for (const std::string kept : {"holes", "holes/w", "holes/deeper/w"})
+    CHECK_THROWS_WITH(refuse(kept, "other"),
+                      Contains("is in the folder of results " + (folder / "holes").string() +
+                               "; allowed: another one for --workspace"));
+  CHECK_THROWS_WITH(refuse("out/w", "out"), Contains("is in the folder of results"));
+  refuse("w", "out");
+  refuse("w", "w/out");
+  const TemporaryFolder left(folder.path(), ".holes.lacuna-");
+  CHECK_THROWS_WITH(refuse(left.path().filename() / "w", "out"),
+                    Contains("is in the temporary folder of a run"));
+  CHECK_THROWS_WITH(OutFolder(left.path() / "out", "holes.json"), Contains("is in the temporary folder"));
 }
 
 TEST_CASE("folders made for a run go if they are empty, and a detour is not made") {

@@ -38,13 +38,10 @@ void run_check(const CheckArguments& arguments) {
   if (config.area.area.empty()) throw WrongOption("--area is required");
   const std::unique_ptr<FileScan> scan = open_inputs(expand_inputs(arguments.scans, config), config);
   const Area area = *read_area(*scan, config);
-  std::optional<MadeFolder> parent;
-  std::optional<ResultFolder> folder;
+  std::optional<OutFolder> out;
   if (!arguments.run.out.empty()) {
-    parent.emplace(parent_of(arguments.run.out));
-    watch_results(arguments.run.out, arguments.run.out / kVoidsFile);
-    folder.emplace(arguments.run.out);
-    check_not_input(*folder, *scan);
+    out.emplace(arguments.run.out, kVoidsFile);
+    check_not_input(out->results(), *scan);
   }
   const std::unique_ptr<Progress> progress = arguments.run.show_progress();
   const AreaCheck check = check_area(area, *scan, config, *progress);
@@ -61,8 +58,8 @@ void run_check(const CheckArguments& arguments) {
   if (const std::string voids = print_voids(check, unit); !voids.empty()) text += voids + "\n";
   text += "  area  " + print_covered(check, unit) + "\n" + print_classes(check, unit) + "\n" +
           print_basis(check) + "\n";
-  if (folder) {
-    for (const auto& file : write_voids(check, *scan, config.area, *folder))
+  if (out) {
+    for (const auto& file : write_voids(check, *scan, config.area, out->results()))
       text += "written: " + visible(file.string()) + "\n";
     note_complete_results();
   }

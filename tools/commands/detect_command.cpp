@@ -30,6 +30,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,35 +59,20 @@ void require(const Command& command, const std::string& option) {
   if (!command.option(option).is_given()) throw WrongOption(option + " is required");
 }
 
-// The results replace all that their folder has.
-void require_outside(const std::string& folder, const fs::path& out, const std::string& option) {
-  if (folder.empty()) return;
-  const fs::path within =
-      fs::weakly_canonical(fs::absolute(folder)).lexically_relative(fs::weakly_canonical(fs::absolute(out)));
-  if (!within.empty() && *within.begin() != "..")
-    throw UsageError(folder + ": is in the folder of the results; allowed: another one for " + option);
-}
-
-// A workspace that this run alone uses.
-struct UsedWorkspace {
-  explicit UsedWorkspace(const fs::path& folder) : folder(folder), alone(this->folder.path()) {}
-  MadeFolder folder;
-  FolderLock alone;
-};
-
-// Returns nothing if the name is empty.
-std::unique_ptr<UsedWorkspace> use_workspace(const std::string& name) {
-  if (name.empty()) return nullptr;
-  std::error_code error;
-  auto used = std::make_unique<UsedWorkspace>(name);
-  for (const fs::path& left : find_folders(used->folder.path(), "lacuna-"))
-    fs::remove(left, error);  // if it is empty
-  return used;
-}
-
-fs::path scratch_parent(const RunConfig& run, const ResultFolder& out) {
+fs::path scratch_parent(const RunConfig& run, const ResultFolder& results) {
   if (!run.scratch.empty()) return run.scratch;
-  return run.workspace.empty() ? out.temporary() : fs::path(run.workspace);
+  return run.workspace.empty() ? results.temporary() : fs::path(run.workspace);
+}
+
+// Makes the kept folder of a run, if it has one.
+std::unique_ptr<KeptFolder> use_workspace(const fs::path& folder) {
+  if (folder.empty()) return nullptr;
+  auto workspace = std::make_unique<KeptFolder>(folder);
+  remove_leftovers(workspace->path(), kScratchPrefix);
+  watch_workspace(workspace->path());
+  if (const std::optional<KeptState> state = state_of(workspace->path()))
+    spdlog::info("goes on in {}: {}", workspace->path().string(), print_state(*state));
+  return workspace;
 }
 
 }  // namespace
@@ -137,25 +123,19 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
                       const ResultArguments& arguments) {
   if (config.run.note.empty()) config.run.note = print_config(config);
   const Clock::time_point start = Clock::now();
-  require_outside(config.run.workspace, arguments.out, "--workspace");
-  require_outside(config.run.scratch, arguments.out, "--scratch");
+  require_outside_results(config.run.workspace, arguments.out, "--workspace");
+  require_outside_results(config.run.scratch, arguments.out, "--scratch");
   const std::unique_ptr<FileScan> opened = open_inputs(inputs, config);
   FileScan& scan = *opened;
 
   const std::optional<Area> area = read_area(scan, config);
-  const MadeFolder out_parent(parent_of(arguments.out));
-  watch_results(arguments.out, arguments.out / "holes.json");  // from the first temporary file on
-  ResultFolder out(arguments.out);
-  check_results(scan, config, out);
-  const std::unique_ptr<UsedWorkspace> workspace = use_workspace(config.run.workspace);
-  if (workspace) {
-    const fs::path& folder = workspace->folder.path();
-    watch_workspace(folder);
-    if (const std::optional<KeptState> state = state_of(folder))
-      spdlog::info("goes on in {}: {}", folder.string(), print_state(*state));
-  }
-  const MadeFolder parent(scratch_parent(config.run, out));
-  const TemporaryFolder scratch(parent.path(), "lacuna-");
+  // Each of these may use the one before, and goes before it.
+  OutFolder out(arguments.out, "holes.json");
+  ResultFolder& results = out.results();
+  check_results(scan, config, results);
+  const std::unique_ptr<KeptFolder> workspace = use_workspace(config.run.workspace);
+  const ScratchFolder scratch(scratch_parent(config.run, results));
+
   print_warnings(memory_warnings(config));
   const std::unique_ptr<Progress> progress = arguments.show_progress();
 
@@ -164,7 +144,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   if (stations) find_causes(*stations, scan, config.run, detection);
   if (area) detection.area = check_area(*area, scan, config, *progress);
   progress->begin("write", 0);
-  const std::vector<fs::path> written = write_results(detection, scan, with_min_hole(config), out);
+  const std::vector<fs::path> written = write_results(detection, scan, with_min_hole(config), results);
   note_complete_results();
   progress->end();
   if (detection.area) print_warnings(area_warnings(*detection.area));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/error.hpp"
-#include "engine/store/temporary_folder.hpp"
 #include "io/stations/find_station.hpp"
 #include "io/stations/list_lines.hpp"
 #include "io/stations/station_views.hpp"
@@ -88,14 +87,13 @@ Listed listed(const Sweep& sweep, const FoundStation& found, const FileScan& sca
 
 // Finds shares of points that can have been measured from the stations, by their lines.
 void find_certainties(std::vector<Listed>& stations, FileScan& scan, const RunConfig& run) {
-  const MadeFolder parent(temporary_parent(run.scratch));
-  const TemporaryFolder folder(parent.path(), "lacuna-");
-  const fs::path list = folder.path() / "stations.txt";
+  const ScratchFolder scratch(temporary_parent(run.scratch));
+  const fs::path list = scratch.path() / "stations.txt";
   std::ofstream out(list);
   for (const Listed& station : stations) out << station.line << "\n";
   out.close();
   if (!out) throw Error(list.string() + ": cannot be written");
-  StationViews views(scan, list, folder.path());
+  StationViews views(scan, list, scratch.path());
   views.complete(scan, TaskArena(static_cast<std::size_t>(run.threads)));
   const std::vector<StationSummary> summaries = views.summaries();
   for (std::size_t i = 0; i < stations.size(); ++i) stations[i].certainty = summaries[i].certainty;

@@ -3,7 +3,6 @@
 #include "engine/inspect.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
-#include "engine/store/temporary_folder.hpp"
 #include "io/formats.hpp"
 #include "io/loops/json.hpp"
 #include "io/scan/file_scan.hpp"
@@ -113,10 +112,9 @@ FileInfo read_file_info(const FileScan& scan, std::size_t file, const ReadOption
 RunInfo inspect_run(FileScan& scan, const FilesConfig& config) {
   RunInfo run;
   NoProgress silence;
-  const MadeFolder parent(temporary_parent(config.run.scratch));
-  const TemporaryFolder workspace(parent.path(), "lacuna-");
-  const auto stations = watch_stations(scan, config.output, workspace.path(), Ranges::kNone);
-  run.inspection = inspect(scan, config, workspace.path(), silence);
+  const ScratchFolder scratch(temporary_parent(config.run.scratch));
+  const auto stations = watch_stations(scan, config.output, scratch.path(), Ranges::kNone);
+  run.inspection = inspect(scan, config, scratch.path(), silence);
   if (stations) {
     const TaskArena arena(static_cast<std::size_t>(config.run.threads));
     stations->complete(scan, arena);

@@ -5,7 +5,6 @@
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
 #include "engine/steps.hpp"
-#include "engine/store/temporary_folder.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/detect_command.hpp"
 #include "tools/console/command_line.hpp"
@@ -70,12 +69,12 @@ void run_plan(const PlanArguments& arguments) {
   FilesConfig config = arguments.run.start();
   const fs::path workspace = config.run.workspace;
   if (workspace.empty()) throw WrongOption("--workspace is required");
+  require_outside_results(workspace, "", "--workspace");
   constexpr std::uint64_t kMemoryOfTask = std::uint64_t{4} << 30;
   if (config.run.memory_limit == 0) config.run.memory_limit = kMemoryOfTask;
   const std::unique_ptr<FileScan> scan = open_inputs(expand_inputs(arguments.scans, config), config);
   config.run.note = print_config(config);
-  const MadeFolder folder(workspace);
-  const FolderLock alone(folder.path());
+  const KeptFolder folder(workspace);
   const std::vector<std::uint64_t> parts = scan->parts();
   const std::uint64_t points = std::accumulate(parts.begin(), parts.end(), std::uint64_t{0});
   print_plan(arguments, plan(*scan, config, arguments.tasks, points), config.run.memory_limit);
@@ -101,9 +100,12 @@ void run_work(const WorkArguments& arguments) {
   FileScan scan(inputs_of(stored.names), config.input, read_options(config).memory);
   watch_workspace(arguments.workspace);
   const fs::path parent = config.run.scratch.empty() ? arguments.workspace : fs::path(config.run.scratch);
-  const TemporaryFolder scratch(parent, "lacuna-");
+  const ScratchFolder scratch(parent);
   const std::unique_ptr<Progress> progress = arguments.run.show_progress();
   const bool exists = work(scan, config, *step, arguments.task, scratch.path(), *progress);
+  if (!fs::exists(arguments.workspace / kRunPart))
+    throw Error(arguments.workspace.string() +
+                ": its run was removed meanwhile; lacuna clean removes what this task has left");
   if (!arguments.run.quiet)
     std::cout << arguments.step << ", task " << arguments.task << (exists ? ": done\n" : ": nothing to do\n");
 }

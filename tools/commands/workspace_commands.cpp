@@ -20,7 +20,8 @@
 #include <optional>
 #include <regex>
 #include <sstream>
-#include <system_error>
+
+#include <unistd.h>
 
 namespace lacuna::tools {
 namespace {
@@ -73,10 +74,10 @@ void clean(const fs::path& folder) {
   const KeptState state = kept_state(folder);
   const FolderLock alone(folder);
   for (const fs::path& file : kept_files(folder)) remove_kept(file);
-  std::error_code error;
-  const bool is_gone = fs::remove(folder, error);  // unless it has other files
+  remove_leftovers(folder, kScratchPrefix);
+  const bool has_others = ::rmdir(folder.c_str()) != 0 && !fs::is_empty(folder);  // of a link, it stays
   std::cout << "removed: " << print_size(state.bytes) << " of " << visible(folder.string())
-            << (is_gone ? "" : ", where other files stay") << "\n";
+            << (has_others ? ", where other files stay" : "") << "\n";
 }
 
 template <class Run>

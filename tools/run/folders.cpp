@@ -2,6 +2,7 @@
 #include "tools/run/folders.hpp"
 
 #include "engine/run/error.hpp"
+#include "tools/run/signals.hpp"
 
 #include <cerrno>
 #include <cstring>
@@ -30,8 +31,34 @@ fs::path without_detours(const fs::path& folder) {
   return folder;
 }
 
-std::mutex mutex;                       // of the list, and while folders are made
-std::vector<const MadeFolder*> living;  // in the order made
+// Returns the folder and those that it is in, without links, innermost first.
+std::vector<fs::path> folders_around(const fs::path& folder) {
+  std::error_code error;
+  fs::path around = fs::weakly_canonical(fs::absolute(folder), error);
+  if (error) around = fs::absolute(folder);
+  if (!around.has_filename()) around = around.parent_path();
+  std::vector<fs::path> all = {around};
+  for (; around != around.root_path(); around = around.parent_path()) all.push_back(around.parent_path());
+  return all;
+}
+
+// A later run removes what a killed one has left.
+void require_lasting(const fs::path& folder) {
+  for (const fs::path& around : folders_around(folder)) {
+    if (is_temporary_folder(around))
+      throw UsageError(folder.string() + ": is in the temporary folder of a run " + around.string() +
+                       "; allowed: another place");
+  }
+}
+
+std::recursive_mutex mutex;       // of the list, and while folders are made and removed
+std::vector<MadeFolder*> living;  // in the order made
+
+// Returns the folder that holds, or will hold, the folder of this name.
+fs::path parent_of(const fs::path& folder) {
+  const fs::path name = folder.has_filename() ? folder : folder.parent_path();
+  return name.has_parent_path() ? name.parent_path() : ".";
+}
 
 }  // namespace
 
@@ -68,15 +95,54 @@ MadeFolder::~MadeFolder() {
   remove_empty();
 }
 
-void MadeFolder::remove_empty() const {
+void MadeFolder::remove_empty() {
+  const std::lock_guard lock(mutex);
   for (const fs::path& folder : made_) {
-    if (rmdir(folder.c_str()) != 0) return;  // it holds something, for which it was made
+    if (rmdir(folder.c_str()) != 0) break;  // it holds something, for which it was made
   }
+  leave();
 }
 
-fs::path parent_of(const fs::path& folder) {
-  const fs::path name = folder.has_filename() ? folder : folder.parent_path();
-  return name.has_parent_path() ? name.parent_path() : ".";
+void MadeFolder::leave() {
+  const std::lock_guard lock(mutex);
+  made_.clear();
+}
+
+OutFolder::OutFolder(const fs::path& folder, const std::string& file)
+    : parent_((require_lasting(folder), parent_of(folder))) {
+  const RemovalPause pause;  // a signal waits until its line can name the folder
+  results_.emplace(folder);
+  watch_results(folder, folder / file);
+}
+
+KeptFolder::KeptFolder(const fs::path& folder) {
+  do {  // another process may remove the empty folder before it is locked
+    lock_.reset();
+    folder_.emplace(folder);
+    try {
+      lock_.emplace(path());
+    } catch (const FolderInUse&) {
+      folder_->leave();
+      throw;
+    } catch (const Error&) {
+      if (fs::exists(path())) throw;
+    }
+  } while (!lock_ || !lock_->holds(path()));
+}
+
+KeptFolder::~KeptFolder() {
+  folder_->remove_empty();  // before another process can lock it
+}
+
+void require_outside_results(const fs::path& folder, const fs::path& out, const std::string& option) {
+  if (folder.empty()) return;
+  const fs::path results = out.empty() ? out : folders_around(out).front();
+  for (const fs::path& around : folders_around(folder)) {
+    if (around == results || io::is_result_folder(around))
+      throw UsageError(folder.string() + ": is in the folder of results " + around.string() +
+                       "; allowed: another one for " + option);
+  }
+  require_lasting(folder);
 }
 
 Option add_results_folder(const Command& command, fs::path& folder) {

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The folders that the user names. The program makes missing ones, and locks them.
+// The folders of a command: those that the user names, and those for its temporary files.
 #pragma once
 
+#include "engine/store/temporary_folder.hpp"
+#include "io/files/result_folder.hpp"
 #include "tools/console/command_line.hpp"
+#include "tools/run/folder_lock.hpp"
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace lacuna::tools {
@@ -22,15 +27,61 @@ class MadeFolder {
   // Returns the folder as named, but of a/../b only b, so that no `a` is made on the way.
   const std::filesystem::path& path() const { return folder_; }
 
-  void remove_empty() const;  // the folders that it made, innermost first, up to one that holds something
+  // Removes the folders that it made, innermost first, up to one that holds something.
+  void remove_empty();
+  void leave();  // it removes none any more
 
  private:
   std::filesystem::path folder_;
   std::vector<std::filesystem::path> made_;  // innermost first
 };
 
-// Returns the folder that holds, or will hold, the folder of this name.
-std::filesystem::path parent_of(const std::filesystem::path& folder);
+// The folder of results that a command writes, with its parents. From now on the line about a signal says
+// whether it is as it was.
+class OutFolder {
+ public:
+  // `file`: the result whose identity shows that the results have been replaced.
+  OutFolder(const std::filesystem::path& folder, const std::string& file);
+
+  io::ResultFolder& results() { return *results_; }
+
+ private:
+  MadeFolder parent_;
+  std::optional<io::ResultFolder> results_;
+};
+
+// The kept folder of a run, which this process alone uses. It goes at the end if it was made and is still
+// empty.
+class KeptFolder {
+ public:
+  // Throws `Error`, also if another process uses it.
+  explicit KeptFolder(const std::filesystem::path& folder);
+  ~KeptFolder();
+
+  const std::filesystem::path& path() const { return folder_->path(); }
+
+ private:
+  std::optional<MadeFolder> folder_;
+  std::optional<FolderLock> lock_;
+};
+
+// A folder in `parent` for the temporary files of a command.
+class ScratchFolder {
+ public:
+  explicit ScratchFolder(const std::filesystem::path& parent)
+      : parent_(parent), folder_(parent_.path(), kScratchPrefix) {}
+
+  const std::filesystem::path& path() const { return folder_.path(); }
+
+ private:
+  MadeFolder parent_;
+  TemporaryFolder folder_;
+};
+
+// Refuses a folder for kept or temporary files in a folder of results, which is replaced as a whole. The
+// temporary folder of a run is refused, too. `out`: the results of this run, if it has any.
+void require_outside_results(const std::filesystem::path& folder, const std::filesystem::path& out,
+                             const std::string& option);
 
 // Adds the argument DIR of commands that begin with the results of a run.
 Option add_results_folder(const Command& command, std::filesystem::path& folder);

@@ -6,6 +6,7 @@
 #include "tools/console/command_line.hpp"
 #include "tools/console/terminal.hpp"
 #include "tools/console/visible_text.hpp"
+#include "tools/run/folders.hpp"
 #include "tools/run/signals.hpp"
 
 #include <cerrno>
@@ -21,10 +22,13 @@
 
 #include <fcntl.h>
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace lacuna::tools {
 namespace {
+
+constexpr const char* kNoMoreThreads = "the system has no more memory or threads for this process";
 
 enum ExitCode { kDone = 0, kFailed = 1, kWrongUsage = 2, kNotDecided = 3 };
 
@@ -47,8 +51,11 @@ void warn_of_remaining_folders() {
     spdlog::warn("{}: is not needed any more, but cannot be removed: {}", folder.string(), reason);
 }
 
+// Returns a line. The middle of a long one is left out, such as of a name that a file has.
 std::string one_line(std::string text) {
+  constexpr std::size_t kMost = 1000;
   while (!text.empty() && text.back() == '\n') text.pop_back();
+  if (text.size() > kMost) text.replace(kMost / 2, text.size() - kMost, " ... ");
   for (char& c : text) {
     if (c == '\n' || c == '\r') c = ' ';
   }
@@ -67,6 +74,24 @@ void open_standard_descriptors() {
   }
 }
 
+struct Least {
+  __rlimit_resource resource;
+  rlim_t least, unit;
+  const char *what, *name;
+};
+constexpr Least kLeast[] = {{RLIMIT_STACK, 1 << 20, 1 << 10, "KiB of stack", "ulimit -s"},
+                            {RLIMIT_NOFILE, 256, 1, "open files", "ulimit -n"}};
+
+const char* started_as = "lacuna";
+
+// For the time before `main`, where no library works yet.
+template <class... Values>
+[[noreturn]] void end_at_start(const char* format, Values... values) {
+  ::dprintf(STDERR_FILENO, "%s: error: ", started_as);
+  ::dprintf(STDERR_FILENO, format, values...);
+  ::_exit(kFailed);
+}
+
 void prepare_process(const std::string& name) {
   open_standard_descriptors();
   // These signals would end the process. Ignored, they are errors of writing, which it reports after it has
@@ -77,13 +102,27 @@ void prepare_process(const std::string& name) {
   show_output_visibly(stdout);
   // A library may throw where nothing can catch it, such as for a thread that cannot be started.
   std::set_terminate([] {
-    print_error("the system has no more memory or threads for this process");
+    remove_temporary_folders();
+    remove_made_folders();
+    print_error(kNoMoreThreads);
     std::_Exit(kFailed);
   });
   handle_signals();
 }
 
 }  // namespace
+
+void check_limits(int, char** words, char**) {
+  if (const char* const end = words[0] ? std::strrchr(words[0], '/') : nullptr) started_as = end + 1;
+  std::set_terminate([] { end_at_start("%s\n", kNoMoreThreads); });
+  for (const auto& [resource, least, unit, what, name] : kLeast) {
+    rlimit limit{};
+    if (::getrlimit(resource, &limit) == 0 && limit.rlim_cur < least)
+      end_at_start("the system allows this process %llu %s (%s); allowed: %llu or more\n",
+                   static_cast<unsigned long long>(limit.rlim_cur / unit), what, name,
+                   static_cast<unsigned long long>(least / unit));
+  }
+}
 
 int run_program(const std::string& name, CommandLine& line, int argc, char** argv) {
   try {

@@ -14,6 +14,10 @@ struct AnswerIsNo {
   bool is_decided = true;  // false: neither yes nor no
 };
 
+// Ends the process with one line if the system allows it too little. Libraries start threads before `main`.
+// So a program names this function in its section .preinit_array, which comes before them.
+void check_limits(int count, char** words, char** environment);
+
 // Runs the command that the arguments name. `name` is the program's, before each line on stderr. Returns the
 // exit code. 0: done; 1: failed, or the answer is no; 2: wrong usage; 3: the answer is not decided. But for 0
 // there is one line on stderr. A signal n ends the process with the exit code 128 + n.

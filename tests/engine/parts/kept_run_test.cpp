@@ -209,18 +209,28 @@ TEST_CASE("a folder with others' files of the names of parts is refused, and the
   CHECK(kept_files(folder.path()).empty());
 }
 
+TEST_CASE("parts without the run's own, which a late task leaves, are a workspace as any other") {
+  const ScratchFolder folder;
+  const std::string expected = bytes_of(scan(), small_tiles(), folder.path());
+  fs::remove(folder / "run.lacuna");
+  CHECK(state_of(folder.path()));
+  CHECK(bytes_of(scan(), small_tiles(), folder.path()) == expected);
+}
+
 TEST_CASE("other files in a workspace stay, and what was not finished goes") {
   const ScratchFolder folder;
   folder.write("notes.txt", "x");
   bytes_of(scan(), small_tiles(), folder.path());
   folder.write("evaluate-0-0123456789abcdef.lacuna.0123456789abcdef.partial", "x");
   folder.write("level-3-0123456789abcdef.points.lacuna.partial", "x");
-  folder.write("other.partial", "x");
-  folder.write("results.csv", "x");
+  const std::vector<std::string> others = {"other.partial", "results.csv", "notes.lacuna",
+                                           "notes.lacuna.partial"};
+  for (const std::string& other : others) folder.write(other, "x");
   bytes_of(scan(), small_tiles(), folder.path());
   CHECK(fs::exists(folder / "notes.txt"));
-  CHECK(fs::exists(folder / "other.partial"));
-  for (const fs::path& file : kept_files(folder.path())) CHECK(file.filename() != "results.csv");
+  for (const std::string& other : others) CHECK(fs::exists(folder / other));
+  for (const fs::path& file : kept_files(folder.path()))
+    CHECK(std::ranges::count(others, file.filename().string()) == 0);
   CHECK_FALSE(fs::exists(folder / "evaluate-0-0123456789abcdef.lacuna.0123456789abcdef.partial"));
   CHECK_FALSE(fs::exists(folder / "level-3-0123456789abcdef.points.lacuna.partial"));
 }

@@ -3,13 +3,17 @@
 
 #include "tests/io/io_support.hpp"
 #include "tests/support/file_size_limit.hpp"
+#include "tests/support/processes.hpp"
 #include "tests/support/skip.hpp"
 #include "tests/support/small_disk.hpp"
 
+#include <csignal>
 #include <fstream>
 #include <functional>
+#include <utility>
 
 #include <catch2/catch.hpp>
+#include <sys/mount.h>
 #include <sys/stat.h>
 
 namespace lacuna::test {
@@ -96,10 +100,12 @@ TEST_CASE("a folder that holds anything else is refused by name, before the work
   for (const std::string name : {"notes", "points/notes", ".hidden"}) {
     for (const auto& add : additions) {
       write(out, {"a", "points/b"}, "old");
-      ResultFolder results(out);
-      put(results, "a", "new");
-      add(out / name);
-      CHECK_THAT(error_of([&] { results.commit(); }), Contains((out / name).string() + reason));
+      {
+        ResultFolder results(out);
+        put(results, "a", "new");
+        add(out / name);
+        CHECK_THAT(error_of([&] { results.commit(); }), Contains((out / name).string() + reason));
+      }
       CHECK_THAT(error_of([&] { write(out, {"a"}, "new"); }), Contains((out / name).string()));
       CHECK(read_file(out / "a") == "old");
       fs::remove(out / name);
@@ -132,11 +138,137 @@ TEST_CASE("one run at a time writes results of a name, and a killed one leaves n
     const ResultFolder first(out);
     CHECK_THAT(error_of([&] { ResultFolder second(out); }), Contains("another run is at work there"));
   }
-  fs::create_directories(folder / ".out.lacuna/results");
-  folder.write(".out.lacuna/results/a", "half");
+  do_apart([&] {
+    const ResultFolder half(out);
+    put(half, "a", "half");
+    std::raise(SIGKILL);
+  });
+  CHECK_FALSE(temporary_of(out).empty());
   write(out, {"b"}, "1");
   CHECK(names_of(out) == Names{".lacuna", "b"});
   CHECK(folder.names() == Names{"out"});
+}
+
+TEST_CASE("of runs that begin at once, one goes on", "[io]") {
+  const ScratchFolder folder;
+  for (int round = 0; round < 10; ++round) {
+    const auto run = [&](const std::function<void()>& wait) {
+      const ResultFolder results(folder / "out");
+      wait();
+    };
+    CHECK(do_at_once(4, run) == 1);
+    CHECK(folder.names().empty());
+  }
+}
+
+TEST_CASE("folders of others next to the results stay, whatever their names", "[io]") {
+  const ScratchFolder folder;
+  const Names names = {".out.lacuna", ".out.lacuna-0123456789abcdef", ".out.lacuna-Xy12ab", "mine"};
+  for (const std::string& name : names) {
+    fs::create_directory(folder / name);
+    folder.write(name + "/file", "mine");
+  }
+  fs::create_directory_symlink("mine", folder / ".out.lacuna-0123456789abcde0");
+  const Names before = folder.names();
+  write(folder / "out", {"a"}, "old");
+  write(folder / "out", {"a"}, "new");
+  Names after = folder.names();
+  std::erase(after, "out");
+  CHECK(after == before);
+  for (const std::string& name : names) CHECK(read_file(folder / name / "file") == "mine");
+}
+
+TEST_CASE("earlier results that a killed run has moved aside are put back before anything else", "[io]") {
+  const ScratchFolder folder;
+  const fs::path out = folder / "out";
+  const auto move_aside = [&](const std::function<void()>& then) {
+    write(out, {"a", "points/b"}, "old");
+    do_apart([&] {
+      const ResultFolder killed(out);
+      put(killed, "a", "new");
+      fs::rename(out, killed.temporary() / "earlier");
+      then();
+      std::raise(SIGKILL);
+    });
+  };
+  move_aside([] {});
+  REQUIRE_FALSE(fs::exists(out));
+  { const ResultFolder stopped(out); }
+  CHECK(read_file(out / "points/b") == "old");
+  CHECK(folder.names() == Names{"out"});
+
+  move_aside([&] { fs::rename(temporary_of(out) / "results", out); });
+  folder.write("out/.lacuna", "a\n");
+  { const ResultFolder stopped(out); }
+  CHECK(read_file(out / "a") == "new");
+  CHECK(folder.names() == Names{"out"});
+
+  move_aside([] {});
+  fs::create_directory(out);
+  folder.write("out/file", "mine");
+  CHECK_THAT(error_of([&] { ResultFolder results(out); }),
+             Contains("out: other files have taken the place of earlier results, which are in ") &&
+                 Contains("/earlier; allowed: "));
+  CHECK(read_file(temporary_of(out) / "earlier/points/b") == "old");
+  CHECK(read_file(out / "file") == "mine");
+}
+
+TEST_CASE("earlier results that no rename can replace are refused before the work", "[io]") {
+  const ScratchFolder folder;
+  for (const std::string name : {"low", "up", "work", "merged"}) fs::create_directory(folder / name);
+  write(folder / "low/out", {"a"}, "old");
+  fs::create_directory(folder / "low/empty");
+  // The options' separators may not be in a path.
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.path());
+  const int failed = ::mount("overlay", "merged", "overlay", 0, "lowerdir=low,upperdir=up,workdir=work");
+  fs::current_path(before);
+  if (failed != 0) return skip("cannot mount an overlay");
+  CHECK_THAT(error_of([&] { ResultFolder results(folder / "merged/out"); }),
+             Contains("merged/out: the system cannot replace this folder: Invalid cross-device link"));
+  write(folder / "merged/new", {"a"}, "1");
+  write(folder / "merged/new", {"a"}, "2");
+  write(folder / "merged/empty", {"a"}, "1");
+  CHECK(names_of(folder / "merged") == Names{"empty", "new", "out"});
+  CHECK(read_file(folder / "merged/out/a") == "old");
+  ::umount((folder / "merged").c_str());
+}
+
+TEST_CASE("what another program keeps beside an open result says which one is open", "[io]") {
+  const ScratchFolder folder;
+  const fs::path out = folder / "out";
+  write(out, {"holes.csv", "loops.gpkg", "points/a.csv"}, "old");
+  const std::vector<std::pair<std::string, std::string>> companions = {
+      {".~lock.holes.csv#", "holes.csv"},
+      {"loops.gpkg-wal", "loops.gpkg"},
+      {"loops.gpkg-shm", "loops.gpkg"},
+      {"loops.gpkg-journal", "loops.gpkg"},
+      {"~$holes.csv", "holes.csv"},
+      {"~$les.csv", "holes.csv"},
+      {"points/.~lock.a.csv#", "points/a.csv"},
+      {".holes.csv.swp", "holes.csv"},
+  };
+  for (const auto& [companion, file] : companions) {
+    folder.write("out/" + companion, "");
+    CHECK_THAT(error_of([&] { ResultFolder results(out); }),
+               Contains("out/" + companion + ": " + file + " is open in another program; allowed: "));
+    fs::remove(out / companion);
+  }
+  for (const std::string other : {".~lock.other.csv#", "holes.csv.bak", ".~lock.a.csv#"}) {
+    folder.write("out/" + other, "");
+    CHECK_THAT(error_of([&] { ResultFolder results(out); }),
+               Contains(other + ": is no result of an earlier"));
+    fs::remove(out / other);
+  }
+}
+
+TEST_CASE("a name has room for the temporary folder beside it, and an error names the most bytes", "[io]") {
+  const ScratchFolder folder;
+  write(folder / std::string(230, 'n'), {"a"}, "1");
+  for (const std::size_t bytes : {231, 255, 300})
+    CHECK_THAT(
+        error_of([&] { ResultFolder results(folder / std::string(bytes, 'n')); }),
+        Contains(": the name of the folder has " + std::to_string(bytes) + " bytes; allowed: at most 230"));
 }
 
 TEST_CASE("a full disk leaves the earlier result", "[io]") {
@@ -162,6 +294,15 @@ TEST_CASE("a file that a later command has noted goes with the other results", "
   CHECK(names_of(out) == Names{".lacuna", "a"});
   note_result(folder.path(), "a");  // no folder of results
   CHECK(folder.names() == Names{"out"});
+
+  // A link is no list: it could lead to a file of others.
+  const std::string list = folder.write("list", "a\n");
+  fs::remove(out / ".lacuna");
+  fs::create_symlink(list, out / ".lacuna");
+  CHECK_FALSE(is_result_folder(out));
+  note_result(out, "report.html");
+  CHECK(read_file(list) == "a\n");
+  CHECK_THAT(error_of([&] { write(out, {"a"}, "new"); }), Contains("out/.lacuna: is no result"));
 }
 
 }  // namespace lacuna::test

@@ -1,25 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "engine/run/error.hpp"
+#include "engine/store/descriptor.hpp"
+
 #include <filesystem>
 
-namespace lacuna::io {
+namespace lacuna::tools {
+
+struct FolderInUse : Error {
+  using Error::Error;
+};
 
 // Keeps other runs from an existing folder, as long as the lock lives. The lock goes with the process,
-// however that ends. Throws `Error` if another run has the lock, or if it cannot be had. On a file system
-// that knows no locks, the log has a warning.
+// however that ends. Throws `FolderInUse` if another run has the lock, and `Error` if it cannot be had. On a
+// file system that knows no locks, the log has a warning.
 class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& folder);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
 
   // Whether the locked folder still has this name: another run may have removed it just before.
   bool holds(const std::filesystem::path& folder) const;
 
  private:
-  int descriptor_;
+  Descriptor folder_;
 };
 
-}  // namespace lacuna::io
+}  // namespace lacuna::tools

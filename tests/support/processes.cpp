@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/processes.hpp"
+
+#include "engine/run/error.hpp"
+
+#include <stdexcept>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace lacuna::test {
+namespace {
+
+// Waiting ends when the process that has made the gate opens it.
+class Gate {
+ public:
+  Gate() {
+    if (pipe(ends_) != 0) throw std::runtime_error("cannot make a pipe");
+  }
+  void wait() {
+    close(ends_[1]);
+    char byte = 0;
+    while (read(ends_[0], &byte, 1) > 0) continue;
+  }
+  void open() { close(ends_[1]); }
+  ~Gate() { close(ends_[0]); }
+
+ private:
+  int ends_[2];
+};
+
+pid_t fork_to(const std::function<void()>& act) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  try {
+    act();
+  } catch (const Error&) {
+    _exit(1);
+  }
+  _exit(0);
+}
+
+}  // namespace
+
+void do_apart(const std::function<void()>& act) {
+  waitpid(fork_to(act), nullptr, 0);
+}
+
+std::size_t do_at_once(std::size_t processes,
+                       const std::function<void(const std::function<void()>& wait)>& act) {
+  Gate begin, end;
+  for (std::size_t i = 0; i < processes; ++i) {
+    fork_to([&] {
+      begin.wait();
+      act([&] { end.wait(); });
+    });
+  }
+  begin.open();
+  std::size_t failed = 0;
+  const auto count = [&] {
+    int status = 0;
+    wait(&status);
+    failed += status != 0;
+  };
+  for (std::size_t i = 0; i + 1 < processes; ++i) count();
+  end.open();
+  count();
+  return processes - failed;
+}
+
+}  // namespace lacuna::test

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Processes that a test forks.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace lacuna::test {
+
+// Does this in a process of its own, which may kill itself.
+void do_apart(const std::function<void()>& act);
+
+// Does this in so many processes at once. `wait` returns once all others have failed with an `Error`. Returns
+// how many did not fail.
+std::size_t do_at_once(std::size_t processes,
+                       const std::function<void(const std::function<void()>& wait)>& act);
+
+}  // namespace lacuna::test
