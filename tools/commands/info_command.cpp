@@ -60,6 +60,7 @@ struct FileInfo {
 struct RunInfo {
   Inspection inspection;
   std::vector<StationSummary> stations;
+  PointsOfNone points_of_none;
   std::uint64_t stations_bytes = 0;
 };
 
@@ -121,6 +122,7 @@ RunInfo inspect_run(FileScan& scan, const FilesConfig& config) {
     const TaskArena arena(static_cast<std::size_t>(config.run.threads));
     stations->complete(scan, arena);
     run.stations = stations->summaries();
+    run.points_of_none = stations->points_of_none();
     run.stations_bytes = stations->disk_bytes();
   }
   return run;
@@ -264,7 +266,7 @@ void run_info(const InfoArguments& arguments) {
   print_warnings(filter_warnings(scan, config.input, summary.strays.rest));
   if (const std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
     spdlog::warn("{}", strays);
-  print_warnings(station_warnings(run.stations));
+  print_warnings(station_warnings(run.stations, run.points_of_none));
 }
 
 }  // namespace

@@ -398,10 +398,14 @@ std::vector<std::string> scan_warnings(const FileScan& scan, const Detection& de
   return warnings;
 }
 
-std::vector<std::string> station_warnings(const std::vector<StationSummary>& stations) {
+std::vector<std::string> station_warnings(const std::vector<StationSummary>& stations,
+                                          const PointsOfNone& of_none) {
   std::vector<std::string> warnings;
   for (const StationSummary& station : stations) {
-    if (!(station.certainty < StationView::kLeastCertain)) continue;
+    if (station.points == 0)
+      warnings.push_back("station " + visible(station.name) + " does not count: the scan has no points of " +
+                         visible(station.subject));
+    if (station.points == 0 || !(station.certainty < StationView::kLeastCertain)) continue;
     const bool moved = station.path > 0;
     std::ostringstream message;
     message.precision(2);
@@ -419,6 +423,10 @@ std::vector<std::string> station_warnings(const std::vector<StationSummary>& sta
             << (moved ? ", and its times their clock" : "");
     warnings.push_back(message.str());
   }
+  if (of_none.points > 0)
+    warnings.push_back(print_count(of_none.points) + (of_none.points == 1 ? " point has" : " points have") +
+                       " no station, such as those of " + visible(of_none.subject) +
+                       "; causes of holes leave out what their scanner saw");
   return warnings;
 }
 
