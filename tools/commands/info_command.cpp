@@ -17,7 +17,6 @@
 #include "tools/run/attribute_counts.hpp"
 #include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
-#include "tools/run/own_process.hpp"
 #include "tools/run/parameter_options.hpp"
 #include "tools/run/scan_warnings.hpp"
 
@@ -41,7 +40,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct InfoArguments {
-  explicit InfoArguments(const Command& command) : parameters(command) {}
+  explicit InfoArguments(const Command& command)
+      : parameters(command, {.common = {"min_hole", "bounds", "where", "stations", "memory_limit"},
+                             .rare = {"resolution", "input", "threads", "tile_points", "scratch"}}) {}
 
   std::vector<fs::path> scans;
   bool json = false;
@@ -191,9 +192,9 @@ void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const 
             << "\n  cells         " << print_count(run.inspection.cells) << ", of size "
             << run.inspection.cell_size << "\n  memory limit  " << print_size(summary.memory_limit)
             << "\n  threads       " << summary.threads << "\n  disk          " << print_sizes(needs.temporary)
-            << " in temporary files, unless they fit in memory, and the results\n  kept folder   " << print_sizes(needs.kept)
-            << " more, with --workspace\n  time          " << print_duration(needs.seconds.least) << " to "
-            << print_duration(needs.seconds.most) << "\n";
+            << " in temporary files, unless they fit in memory, and the results\n  kept folder   "
+            << print_sizes(needs.kept) << " more, with --workspace\n  time          "
+            << print_duration(needs.seconds.least) << " to " << print_duration(needs.seconds.most) << "\n";
   if (!run.stations.empty())
     std::cout << "  stations      " << print_size(run.stations_bytes)
               << " more on disk, where causes of holes are found\n";
@@ -249,8 +250,7 @@ void print_json(const std::vector<FileInfo>& files, const FileScan& scan, const 
 }
 
 void run_info(const InfoArguments& arguments) {
-  const FilesConfig config = arguments.parameters.read().config;
-  prepare_process(config.run);
+  const FilesConfig config = arguments.parameters.start();
   const ReadOptions options = read_options(config);
   FileScan scan(expand_inputs(arguments.scans, config), config.input, options.memory);
   std::vector<FileInfo> files;

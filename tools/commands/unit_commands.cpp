@@ -37,12 +37,12 @@ std::uint64_t minutes_of(const Step& step) {
 }
 
 struct PlanArguments {
-  explicit PlanArguments(const Command& command) : run(command) {}
+  explicit PlanArguments(const Command& command) : parameters(command, parameters_of_run()) {}
 
   std::vector<fs::path> scans;
   std::size_t tasks = 0;
   bool tsv = false;
-  RunArguments run;
+  ParameterOptions parameters;
 };
 
 void print_plan(const PlanArguments& arguments, const std::vector<Step>& steps, std::uint64_t memory) {
@@ -67,7 +67,7 @@ void print_plan(const PlanArguments& arguments, const std::vector<Step>& steps, 
 }
 
 void run_plan(const PlanArguments& arguments) {
-  FilesConfig config = arguments.run.start();
+  FilesConfig config = arguments.parameters.start();
   const fs::path workspace = config.run.workspace;
   if (workspace.empty()) throw WrongOption("--workspace is required");
   constexpr std::uint64_t kMemoryOfTask = std::uint64_t{4} << 30;
@@ -82,7 +82,7 @@ void run_plan(const PlanArguments& arguments) {
 }
 
 struct WorkArguments {
-  explicit WorkArguments(const Command& command) : run(command, ParameterScope::kProcess) {}
+  explicit WorkArguments(const Command& command) : run(command, parameters_of_process()) {}
 
   fs::path workspace;
   std::string step;
@@ -109,7 +109,7 @@ void run_work(const WorkArguments& arguments) {
 }
 
 struct FinishArguments {
-  explicit FinishArguments(const Command& command) : run(command, ParameterScope::kProcess) {}
+  explicit FinishArguments(const Command& command) : run(command, parameters_of_process()) {}
 
   fs::path workspace;
   ResultArguments run;
