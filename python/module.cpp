@@ -12,6 +12,7 @@
 #include "python/run.hpp"
 #include "tools/commands/compare_command.hpp"
 #include "tools/run/input_files.hpp"
+#include "tools/run/parameter_options.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -53,11 +54,13 @@ std::vector<std::string> check_files(const std::vector<fs::path>& files, const p
   return check(tools::expand_inputs(files, config), config, folder, progress);
 }
 
-// Names, defaults and what is allowed, of all parameters.
-py::list list_parameters() {
+// Names, defaults and what is allowed, of the parameters of a run, or of a check.
+py::list list_parameters(bool of_check) {
+  const tools::ReadParameters read = of_check ? tools::parameters_of_check() : tools::parameters_of_run();
   io::FilesConfig config;
   py::list all;
   for (const Parameter& parameter : parameters(config)) {
+    if (!read.has(parameter)) continue;
     py::dict one;
     one["section"] = parameter.section;
     one["key"] = parameter.key;
@@ -131,7 +134,7 @@ PYBIND11_MODULE(_core, module) {
       .def("for_each_block", &for_each_block)
       .def("save", &save);
 
-  module.def("parameters", &list_parameters);
+  module.def("parameters", &list_parameters, py::arg("of_check"));
   module.def("find_in_arrays", &find_in_arrays);
   module.def("find_in_files", &find_in_files);
   module.def("check_files", &check_files);

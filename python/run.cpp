@@ -174,8 +174,9 @@ std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig c
             io::ExplainedDetection{*detect(*found->scan, config, found->scratch->path(), watched)});
         if (stations) io::find_causes(*stations, *found->scan, config.run, *found->detection);
         if (area) found->detection->area = io::check_area(*area, *found->scan, config, watched);
-        std::ranges::copy(tools::station_warnings(found->detection->stations),
-                          std::back_inserter(found->warnings));
+        std::ranges::copy(
+            tools::station_warnings(found->detection->stations, found->detection->points_of_none),
+            std::back_inserter(found->warnings));
         std::ranges::copy(tools::scan_warnings(*found->scan, *found->detection, config),
                           std::back_inserter(found->warnings));
       },
@@ -191,6 +192,7 @@ std::vector<std::string> check(std::vector<io::ScanInput> inputs, const io::File
       [&] {
         check_config(config);
         io::FileScan scan(std::move(inputs), config.input, Memory::share(config.run.memory_limit).reading);
+        tools::require_lengths(scan);
         warnings = tools::input_warnings(scan);
         const auto area = io::read_area(scan, config);
         if (!area) throw Error("area: is empty; allowed: a file of polygons");

@@ -41,6 +41,11 @@ std::string suggestion(std::string_view word, const std::vector<std::string_view
   const auto begins_with_it = [&](std::string_view other) { return other.starts_with(word); };
   const auto longer = std::ranges::find_if(words, begins_with_it);
   if (word.size() > 1 && longer != words.end()) return text_of(*longer);
+  const auto is_most_of_it = [&](std::string_view other) {  // "--out" of "--output"
+    return word.starts_with(other) && 2 * other.size() > word.size();
+  };
+  if (const auto most = std::ranges::find_if(words, is_most_of_it); most != words.end())
+    return text_of(*most);
 
   std::string_view closest;
   std::size_t least = 3;  // a swap of two characters costs 2

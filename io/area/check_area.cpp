@@ -46,6 +46,11 @@ std::vector<ClassPolygons> read_classes(const std::string& files, const FileScan
   std::istringstream names(files);
   for (std::string file; std::getline(names, file, ',');) {
     if (file.empty()) continue;
+    std::error_code error;
+    if (file.find_first_not_of("0123456789") == file.npos && !std::filesystem::exists(file, error))
+      throw Error(
+          file + ": no such file; --classes takes files of polygons, and --where 'Classification == " + file +
+          "' chooses points by their class");
     const std::string name = std::filesystem::path(file).stem().string();
     const bool is_there = std::ranges::find(classes, name, &ClassPolygons::name) != classes.end();
     if (is_there) throw Error(file + ": a file of --classes before it has this name, too: " + name);

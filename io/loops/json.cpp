@@ -6,6 +6,7 @@
 #include "io/scan/file_scan.hpp"
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <variant>
@@ -74,6 +75,7 @@ Json stations_json(const std::vector<StationSummary>& stations) {
                            {"path", station.path},
                            {"points", station.points},
                            {"certainty", station.certainty},
+                           {"counts", std::isnan(station.certainty) ? Json() : Json(station.counts())},
                            {"lowest_sine", station.lowest},
                            {"highest_sine", station.highest},
                            {"turn", station.turn},

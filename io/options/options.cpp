@@ -190,17 +190,13 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
 
 std::vector<Parameter> parameters(FilesConfig& config) {
   std::vector<Parameter> all = lacuna::parameters(config);
-  const auto find = [&](std::string_view key) {
-    return std::find_if(all.begin(), all.end(), [key](const Parameter& p) { return p.key == key; });
-  };
-  if (!config.output.points_normals) find("orient_normals")->missing = "--points --points-normals";
-  // Each parameter of files stands before one of the engine.
-  std::string_view next = "points";
-  for (const Parameter& parameter : file_parameters(config)) {
-    if (parameter.key == "points_format") next = "sample_points";
-    if (parameter.key == "report") next = "threads";
-    all.insert(find(next), parameter);
-  }
+  if (!config.output.points_normals)
+    std::ranges::find(all, "orient_normals", &Parameter::key)->missing = "--points --points-normals";
+  const std::vector<Parameter> of_files = file_parameters(config);
+  all.insert(all.end(), of_files.begin(), of_files.end());
+  std::ranges::stable_sort(all, {}, [](const Parameter& parameter) {
+    return parameter.section == "run" ? 2 : parameter.section == "output" ? 1 : 0;  // the last sections
+  });
   return all;
 }
 

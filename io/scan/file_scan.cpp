@@ -64,7 +64,9 @@ void FileScan::add_file(ScanInput input) {
   file.notes = reader->notes();
   file.has_scanner_at_zero = !file.pose && reader->has_scanner_at_zero();
   file.expected_rows = reader->expected_rows();
-  file.is_geographic = reader->is_geographic() || (file.crs.empty() && look_like_degrees(*reader));
+  file.is_geographic = reader->is_geographic();
+  file.may_be_degrees =
+      !file.is_geographic && file.crs.empty() && file.unit.empty() && look_like_degrees(*reader);
   reads_slowly_ = reads_slowly_ || reader->is_slow();
   has_normals_ = has_normals_ || has_vectors(file.layout, kNormalNames);
   has_scanners_ = has_scanners_ || !reader->scanners().empty();

@@ -67,8 +67,8 @@ struct ScanFile {
   std::string z_unit;             // of z, with what --unit-z states; empty if it is the unit of x and y
   std::string contradiction;      // how the units that it states contradict each other; empty if they do not
   double z_factor = 1;            // brings its z into the unit of x and y
-  bool is_geographic = false;  // longitude and latitude, as it says, or as its first rows show where it names
-                               // no system
+  bool is_geographic = false;     // longitude and latitude, as its system or the names of its columns say
+  bool may_be_degrees = false;    // its first rows look like them, and it says nothing of units
   bool has_scanner_at_zero = false;            // it states 0 0 0 as its scanner's place, and no pose moves it
   std::optional<std::uint64_t> expected_rows;  // as its header declares; text declares none
   std::uint64_t rows_read = 0;                 // in the last pass

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether positions can only be longitude and latitude, with heights in units of length.
+// Whether positions have the look of longitude and latitude.
 #pragma once
 
 #include "io/rows/scan_reader.hpp"
@@ -10,19 +10,16 @@
 
 namespace lacuna::io {
 
-// Takes up to 4,096 positions that follow one another in a file. Fewer than ten say nothing. One of x and y
-// is within 90 and the other within 360. Besides, one of two rules holds:
-//
-// - From row to row, z changes a thousand times as much as x and y. A hundred times is enough where z is
-// beyond
-//   180 everywhere.
-// - z is a smooth function of x and y, and rises by more than 10 units in each, but is not that of one plane.
-//   A rise of 3 is enough where x and y have three decimals more than z. Any rise is, if z has then steps of
-//   more than twice the distance to the next point. A steep surface that was sampled in true lengths has
-//   several z at most places, or lies in a narrow strip.
+// Returns whether x and y may be degrees of one survey, in either order, with heights in a unit of length.
+// This is a guess: lengths may look the same. All of these hold:
+// - One of x and y is within 90, the other one within 360. Both extend over less than 3, and both have five
+//   decimals or more. One of them is farther from 0 than ten times its extent.
+// - z extends a hundred times as far as x and y. It is enough that z extends as far as they do, where it has
+//   two decimals at most.
+// Fewer than ten positions say nothing.
 bool look_like_degrees(std::span<const Eigen::Vector3d> positions);
 
-// Reads the first rows.
+// Reads the first rows, at most 4,096.
 bool look_like_degrees(ScanReader& reader);
 
 }  // namespace lacuna::io

@@ -59,6 +59,7 @@ struct LoopCause {
 // Where a scanner stood, and what it saw.
 struct StationSummary {
   std::string name;
+  std::string subject;             // whose points are of it, such as "number 1 of a.ply"; empty: all
   Eigen::Vector3d place{0, 0, 0};  // of a path: halfway
   double path = 0;                 // length of the path of a moving scanner; 0 for a fixed one
   std::uint64_t points = 0;
@@ -68,6 +69,16 @@ struct StationSummary {
   double turn = 0;                 // share of a whole turn with points
   double step = 0;                 // mean angle between rays, radians
   double farthest = 0;             // range
+
+  // Below it, the station did not measure its points, and takes no part in causes.
+  static constexpr double kLeastCertain = 0.98;
+  bool counts() const { return certainty >= kLeastCertain; }
+};
+
+// The points of a scan that no station has measured, where stations are known.
+struct PointsOfNone {
+  std::uint64_t points = 0;
+  std::string subject;  // of the first of them, such as "number 0 of a.ply"
 };
 
 // A loop with the cause of its hole.
@@ -78,8 +89,9 @@ struct ExplainedLoop : LoopMeasures {
 // What a run on files has found.
 struct ExplainedDetection : Detection {
   std::vector<StationSummary> stations = {};  // that are known
-  std::vector<LoopCause> causes = {};         // of each loop; empty where no station is known
-  std::optional<AreaCheck> area = {};         // nothing where no area was given
+  PointsOfNone points_of_none = {};
+  std::vector<LoopCause> causes = {};  // of each loop; empty where no station is known
+  std::optional<AreaCheck> area = {};  // nothing where no area was given
 
   ExplainedLoop loop(std::size_t i) const { return {loops[i], causes.empty() ? LoopCause() : causes[i]}; }
 };

@@ -217,6 +217,7 @@ void find_causes(StationViews& stations, FileScan& scan, const RunConfig& run,
   const std::span<const StationView> views = stations.complete(scan, arena);
   const PathView* const path = stations.path();
   detection.stations = stations.summaries();
+  detection.points_of_none = stations.points_of_none();
   detection.causes.assign(detection.loops.size(), {});
   arena.for_each(detection.loops.size(), [&](std::size_t i) {
     const LoopMeasures& loop = detection.loops[i];

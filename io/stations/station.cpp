@@ -36,6 +36,11 @@ std::size_t file_named(const fs::path& name, std::span<const fs::path> files, co
   return *found;
 }
 
+const Property* source_column(const RowLayout& layout) {
+  const Property* const scan = layout.find("scan");
+  return scan != nullptr ? scan : layout.find("point_source_id");
+}
+
 Station parse_station(Fields fields, std::span<const fs::path> files, const ListLines& lines) {
   if (fields.size() < 4 || fields.size() > 6) lines.fail();
   Station station{.name = std::string(fields[0]), .place = lines.parse_place(fields.subspan(1, 3))};
@@ -52,7 +57,8 @@ Station parse_station(Fields fields, std::span<const fs::path> files, const List
 
 }  // namespace
 
-std::vector<Station> read_stations(const fs::path& list, std::span<const fs::path> files) {
+std::vector<Station> read_stations(const fs::path& list, std::span<const fs::path> files,
+                                   std::span<const RowLayout> layouts) {
   ListLines lines(list,
                   "a name, x y z, and a file name or a number of a source are needed; a trajectory needs a "
                   "first line that names its columns, such as time x y z");
@@ -64,6 +70,12 @@ std::vector<Station> read_stations(const fs::path& list, std::span<const fs::pat
       return other.file == added.file && other.source == added.source;
     });
     if (is_known) lines.fail(added.name + " has the points of an earlier station");
+    const auto of_it = added.file ? layouts.subspan(*added.file, 1) : layouts;
+    if (added.source && std::ranges::none_of(of_it, source_column))
+      lines.in().fail_at_line(lines.in().line(),
+                              added.name + " has the number " + std::to_string(*added.source) + ", and " +
+                                  (added.file ? files[*added.file].string() + " has no" : "no file has a") +
+                                  " column scan or point_source_id");
   }
   if (stations.empty()) lines.fail_empty("names no station");
   return stations;
@@ -71,12 +83,8 @@ std::vector<Station> read_stations(const fs::path& list, std::span<const fs::pat
 
 std::vector<double> sources_of(const RowBatch& rows, const RowLayout& layout) {
   std::vector<double> sources;
-  for (const char* const name : {"scan", "point_source_id"}) {
-    if (const Property* property = layout.find(name)) {
-      load_column(rows, layout.stride, *property, sources);
-      break;
-    }
-  }
+  if (const Property* const column = source_column(layout))
+    load_column(rows, layout.stride, *column, sources);
   return sources;
 }
 

@@ -29,9 +29,11 @@ struct Station {
 // The points are a file name, a number in the column `scan` or `point_source_id`, or both in this order. A
 // single station needs neither. Blanks, commas or semicolons divide the fields; lines that begin with # are
 // comments. A first line without numbers is a header. File names are names in `files`, or the ends of such
-// names. Throws `Error`.
+// names. `layouts` are those of the files. Throws `Error`, also where a station has a number and no file of
+// it has such a column.
 std::vector<Station> read_stations(const std::filesystem::path& list,
-                                   std::span<const std::filesystem::path> files);
+                                   std::span<const std::filesystem::path> files,
+                                   std::span<const RowLayout> layouts);
 
 // Returns the value of each row in the column `scan` or `point_source_id`; empty if the layout has neither.
 std::vector<double> sources_of(const RowBatch& rows, const RowLayout& layout);

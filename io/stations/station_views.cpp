@@ -56,6 +56,20 @@ void find_field(StationView& view) {
   }
 }
 
+StationSummary summary_of(const StationView& view) {
+  return {.name = view.station.name,
+          .subject = view.subject,
+          .place = view.station.place,
+          .points = view.points,
+          .certainty = view.certainty(),
+          .spread = view.spread.angle(),
+          .lowest = view.points > 0 ? view.field.lowest() : 0,
+          .highest = view.points > 0 ? view.field.highest() : 0,
+          .turn = view.field.turn(),
+          .step = view.step,
+          .farthest = view.farthest};
+}
+
 }  // namespace
 
 double StationView::certainty() const {
@@ -63,27 +77,14 @@ double StationView::certainty() const {
   return 1 - static_cast<double>(conflicts) / static_cast<double>(points);
 }
 
-StationSummary summary_of(const StationView& view) {
-  return {.name = view.station.name,
-          .place = view.station.place,
-          .points = view.points,
-          .certainty = view.certainty(),
-          .spread = view.spread.angle(),
-          .lowest = view.field.lowest(),
-          .highest = view.field.highest(),
-          .turn = view.field.turn(),
-          .step = view.step,
-          .farthest = view.farthest};
-}
-
 StationViews::StationViews(const FileScan& scan, const std::filesystem::path& stated,
                            std::filesystem::path folder, Ranges ranges)
     : folder_(std::move(folder)),
       memory_(scan.memory()),
       files_(names_of(scan)),
-      are_stated_(!stated.empty()),
+      stated_(stated),
       has_ranges_(ranges == Ranges::kKept) {
-  if (!are_stated_) return;
+  if (stated.empty()) return;
   if (std::optional<Trajectory> path = read_trajectory(stated, memory_)) {
     for (std::size_t i = 0; i < files_.size(); ++i) {
       if (!time_of(scan.files()[i].layout))
@@ -93,13 +94,16 @@ StationViews::StationViews(const FileScan& scan, const std::filesystem::path& st
     path_ = std::make_unique<PathView>(std::move(*path), stated, metre, folder_, memory_);
     return;
   }
-  for (Station& station : read_stations(stated, files_)) add(std::move(station));
+  for (Station& station : read_stations(stated, files_, layouts_of(scan))) add(std::move(station));
 }
 
 void StationViews::add(Station station) {
   const auto key = std::pair(station.file ? *station.file : kAny, station.source ? *station.source : kAny);
   if (!index_.emplace(key, views_.size()).second) return;
-  views_.push_back({.station = std::move(station), .is_of_scan = !are_stated_, .ranges = empty_image()});
+  views_.push_back({.station = std::move(station),
+                    .subject = subject_of(key.first, key.second),
+                    .is_of_scan = stated_.empty(),
+                    .ranges = empty_image()});
 }
 
 void StationViews::add_scanners(std::size_t file, const ScanReader& reader) {
@@ -129,9 +133,17 @@ StationView* StationViews::find(std::size_t file, std::uint64_t source) {
   return nullptr;
 }
 
+// Returns the words for points of a file, and of a number.
+std::string StationViews::subject_of(std::uint64_t file, std::uint64_t source) const {
+  const std::string number = source == kAny ? "" : "number " + std::to_string(source);
+  if (file == kAny) return number;
+  return (number.empty() ? "" : number + " of ") + files_[file].string();
+}
+
 void StationViews::begin() {
   if (is_complete_) return;
   file_ = SIZE_MAX;
+  of_none_ = {};
   if (path_) path_->begin();
   for (StationView& view : views_) {
     view.points = view.conflicts = 0;
@@ -167,17 +179,22 @@ void StationViews::take(std::size_t file, const ScanReader& reader, const RowBat
     for (std::size_t i = 0; i < rows.count; ++i) path_->add(times[i], read[i], !std::isnan(kept[i].x()));
     return;
   }
-  if (!are_stated_) add_scanners(file, reader);
-  if (views_.empty()) return;
+  if (stated_.empty()) add_scanners(file, reader);
   const std::vector<double> sources = sources_of(rows, reader.layout());
-  StationView* view = sources.empty() ? find(file, kAny) : nullptr;
+  std::uint64_t source = kAny;
+  StationView* view = find(file, kAny);
   double last = -1;
   for (std::size_t i = 0; i < rows.count; ++i) {
     if (!sources.empty() && sources[i] != last) {
       last = sources[i];
-      view = find(file, last >= 0 && last < 0x1p32 ? static_cast<std::uint64_t>(last) : kAny);
+      source = last >= 0 && last < 0x1p32 ? static_cast<std::uint64_t>(last) : kAny;
+      view = find(file, source);
     }
-    if (view) put(*view, read[i], !std::isnan(kept[i].x()));
+    if (view) {
+      put(*view, read[i], !std::isnan(kept[i].x()));
+    } else if (read[i].allFinite() && of_none_.points++ == 0) {
+      of_none_.subject = subject_of(file, source);
+    }
     if (i % kNoted == kNoted - 1) note_touched(kNoted);
   }
 }
@@ -197,16 +214,21 @@ void StationViews::note_touched(std::uint64_t places) const {
 
 void StationViews::end() {
   is_complete_ = true;
+  const auto has_points = [](const StationView& view) { return view.points > 0; };
+  if (stated_.empty() || path_ || of_none_.points == 0 || std::ranges::any_of(views_, has_points)) return;
+  const StationView& first = views_.front();
+  throw Error(stated_.string() + ": no station has a point: " + first.station.name + " has those of " +
+              first.subject + ", and the scan has points of " + of_none_.subject);
 }
 
 std::span<const StationView> StationViews::complete(FileScan& scan, const TaskArena& arena) {
   if (!is_complete_) scan.read_all(*this);
   scan.observe(nullptr);
   if (path_) path_->complete();
-  std::erase_if(views_, [](const StationView& view) { return view.points == 0; });
   if (!has_ranges_) return views_;
   const std::vector<std::uint64_t> needs(views_.size(), 2 * RangeImage::kBytes);
   arena.for_each_within_budget(needs, memory_, [&](std::size_t i) {
+    if (views_[i].points == 0) return;
     fill_between_rays(views_[i]);
     find_field(views_[i]);
     views_[i].ranges.leave_memory();

@@ -23,6 +23,7 @@ namespace lacuna::io {
 
 struct StationView {
   Station station;
+  std::string subject;          // whose points are of it, in words
   bool is_of_scan = false;      // else a list states it
   std::uint64_t points = 0;     // finite points, also the ones that a filter leaves out
   std::uint64_t conflicts = 0;  // at ranges that differ by a tenth from others in their directions
@@ -37,10 +38,8 @@ struct StationView {
   // `kLeastCertain` the station did not measure them. It is 0 for a view that is too narrow to say, unless
   // the scan itself states the station, as a range camera does.
   double certainty() const;
-  static constexpr double kLeastCertain = 0.98;
+  static constexpr double kLeastCertain = StationSummary::kLeastCertain;
 };
-
-StationSummary summary_of(const StationView& view);
 
 // Without ranges there are summaries alone. They take no disk space, and leave certainty and steps open.
 enum class Ranges : std::uint8_t { kKept, kNone };
@@ -56,10 +55,11 @@ class StationViews final : public RowObserver {
   void begin() override;
   void take(std::size_t file, const ScanReader& reader, const RowBatch& rows,
             std::span<const Eigen::Vector3d> read, std::span<const Eigen::Vector3d> kept) override;
+  // Throws `Error` where a file states the stations, and none of them has a point.
   void end() override;
 
-  // Completes the views, in the order of the file, or of the scans. Stations without points are left out.
-  // Reads the scan if no pass over it has ended yet. Call it once.
+  // Completes the views, in the order of the file, or of the scans. Reads the scan if no pass over it has
+  // ended yet. Call it once.
   std::span<const StationView> complete(FileScan& scan, const TaskArena& arena);
   std::span<const StationView> views() const { return views_; }  // once complete
   const PathView* path() const { return path_.get(); }           // null if no scanner moves
@@ -67,10 +67,12 @@ class StationViews final : public RowObserver {
   // the scan's reader may hold.
   void note_touched(std::uint64_t places) const;
   std::vector<StationSummary> summaries() const;  // of a path alone, or of the views
-  std::uint64_t disk_bytes() const;               // that a run takes for them in the folder
+  const PointsOfNone& points_of_none() const { return of_none_; }
+  std::uint64_t disk_bytes() const;  // that a run takes for them in the folder
 
  private:
   StationView* find(std::size_t file, std::uint64_t source);
+  std::string subject_of(std::uint64_t file, std::uint64_t source) const;
   void add(Station station);
   RangeImage empty_image() const;
   void add_scanners(std::size_t file, const ScanReader& reader);
@@ -80,9 +82,11 @@ class StationViews final : public RowObserver {
   std::uint64_t memory_;                            // of pages of images
   mutable std::atomic<std::uint64_t> touched_ = 0;  // places of images, since the pages last left memory
   std::vector<std::filesystem::path> files_;
-  bool are_stated_ = false, is_complete_ = false, has_ranges_;
+  std::filesystem::path stated_;  // file of stations; empty: the scan has them
+  bool is_complete_ = false, has_ranges_;
   std::unique_ptr<PathView> path_;
   std::vector<StationView> views_;
+  PointsOfNone of_none_;
   // The key is file and source, kAny for any of them.
   static constexpr std::uint64_t kAny = UINT64_MAX;
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::size_t> index_;

@@ -22,7 +22,7 @@ Path = Union[str, "os.PathLike[str]"]
 
 def parameters() -> list[dict[str, str]]:
     """All parameters of a run: section, key, default, what is allowed, and a sentence of help each."""
-    return _core.parameters()
+    return _core.parameters(of_check=False)
 
 
 def find_holes(
@@ -89,11 +89,12 @@ def check(
     """Checks whether scan files cover the polygons of `area`, as `lacuna check` does. Returns what voids.json has.
 
     out: folder for voids.json, voids.csv and voids.gpkg; by default they are not kept.
-    Other arguments are those of `detect`.
+    Other arguments are parameters of the input and of the area, memory_limit and threads; others are refused.
     """
     with tempfile.TemporaryDirectory(prefix="lacuna-") as kept:
         folder = os.path.join(kept, "voids") if out is None else os.fspath(out)
-        for warning in _core.check_files(_names(files), _checked({**params, "area": area}), folder, progress):
+        checked = _checked({**params, "area": area}, of_check=True)
+        for warning in _core.check_files(_names(files), checked, folder, progress):
             warnings.warn(warning, LacunaWarning, stacklevel=2)
         with open(os.path.join(folder, "voids.json"), encoding="utf-8") as file:
             return json.load(file)
@@ -124,13 +125,14 @@ def _columns(array: np.ndarray, name: str) -> list[np.ndarray]:
     return [array[:, axis] for axis in range(3)]
 
 
-def _checked(params: Mapping[str, Any]) -> dict[str, str]:
-    keys = [p["key"] for p in _core.parameters()]
+def _checked(params: Mapping[str, Any], of_check: bool = False) -> dict[str, str]:
+    keys = [p["key"] for p in _core.parameters(of_check)]
     for key in params:
         if key not in keys:
             near = difflib.get_close_matches(key, keys, 1)
             hint = f"; did you mean {near[0]}?" if near else "; lacuna.parameters() lists them"
-            raise TypeError(f"{key} is no parameter{hint}")
+            of = " of a check" if of_check else ""
+            raise TypeError(f"{key} is no parameter{of}{hint}")
     return {key: _text(value) for key, value in params.items() if value is not None}
 
 

@@ -88,7 +88,7 @@ class Setting:
         return ["--points", "--points-format", "ply", "--tile-points", "2000", "--threads", str(threads)]
 
     def start(self, arguments, before=()):
-        quiet = [] if "--quiet" in arguments else ["--quiet"]
+        quiet = [] if "--quiet" in arguments or arguments[0] == "plan" else ["--quiet"]
         return subprocess.Popen(["nice", "-n", "10", *before, self.program, *arguments, *quiet],
                                 stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                 stderr=subprocess.PIPE, text=True, errors="replace")

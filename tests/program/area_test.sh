@@ -308,6 +308,8 @@ for command in check detect; do
 done
 refuse "water.geojson: a file of --classes before it has this name, too: water" check "${some[@]}" --area holes.geojson \
   --void-rule 4 --classes water.gpkg,water.geojson
+refuse "2: no such file; --classes takes files of polygons, and --where 'Classification == 2'" check "${some[@]}" \
+  --area holes.geojson --void-rule 4 --classes 2
 echo '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":{"type":"Point","coordinates":[1,2]}}]}' >point.geojson
 refuse "point.geojson: has no polygon" check "${some[@]}" --area point.geojson --void-rule 4
 python3 - <<'END'

@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every parameter changes the results of a small scan, or the list says what it needs for that.
+// Every parameter changes the results of a small scan, or the list says what it needs for that. Each command
+// offers the parameters that change what it does, and no others.
 #include "io/options/options.hpp"
+#include "io/rows/vectors.hpp"
+#include "io/scan/file_scan.hpp"
 #include "tests/io/las/las_file.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/run_program.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -19,7 +26,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
+using test::run_program;
 using test::ScratchFolder;
+using test::Words;
 
 // Another value than the default, for all but flags and the method.
 const std::map<std::string_view, std::string_view> kOtherValues = {
@@ -127,7 +136,7 @@ class Runs {
   std::string kept_results(const io::FilesConfig& config) {
     const std::string file = scratch_.write("c.toml", print_config(config));
     const fs::path out = scratch_ / ("out-" + std::to_string(runs_++));
-    const auto run = test::run_program(
+    const auto run = run_program(
         {"detect", scan_, "--out", out.string(), "--config", file, "--workspace", workspace(), "--quiet"});
     return run.exit_code == 0 ? bytes_of(out) : run.err;
   }
@@ -136,7 +145,7 @@ class Runs {
   // What the program says of these options.
   std::string warnings(std::vector<std::string> options) {
     options.insert(options.begin(), {"detect", scan_, "--out", (scratch_ / "out").string(), "--quiet"});
-    const auto run = test::run_program(options);
+    const auto run = run_program(options);
     CHECK(run.exit_code == 0);
     return run.err;
   }
@@ -320,6 +329,187 @@ TEST_CASE("a config file's value without effect has its warning, unless it is th
         "lacuna: warning: " + file + ": e changes nothing without --method paper\n");
   CHECK(runs.warnings({"--config", file, "--method", "paper"}).empty());
   CHECK(runs.warnings({"--config", runs.write(print_config(io::FilesConfig{}))}).empty());
+}
+
+namespace {
+
+constexpr const char* kCommands[] = {"detect",  "info",     "check",         "report", "render",
+                                     "compare", "stations", "find-stations", "plan",   "work",
+                                     "finish",  "status",   "clean"};
+
+// The options that --help-all shows.
+std::set<std::string> offered_by(const std::string& command) {
+  const std::string help = run_program({command, "--help-all"}).out;
+  static const std::regex option("\n  (--[a-z-]+)");
+  std::set<std::string> names;
+  for (std::sregex_iterator at(help.begin(), help.end(), option); at != std::sregex_iterator(); ++at)
+    names.insert((*at)[1]);
+  return names;
+}
+
+// The sweep of a scanner in files. Some take part with an option alone: points that are withheld or noise, a
+// damaged file, a header with another number, a folder in a folder. One has rays without return, and one has
+// names of degrees.
+class Sweep {
+ public:
+  Sweep() {
+    const std::string made = (scratch_ / "plant.ply").string();
+    REQUIRE(
+        test::run_bench({"synth", "scan", made, "--scene", "plant", "--stations", "1", "--points", "6000"})
+            .exit_code == 0);
+    io::FileScan scan({made}, {});
+    PointBatch batch;
+    std::vector<Eigen::Vector3d> sweep;
+    for (scan.rewind(); scan.next(batch);)
+      sweep.insert(sweep.end(), batch.positions.begin(), batch.positions.end());
+    write("plain.txt", sweep, " 1 1 0\n", "");
+    write("origin.txt", sweep, " 1 1 0\n", "0 0 0 2 1 1 0\n");
+    write("withheld.txt", sweep, " 1 1 1\n", "");
+    test::LasFile las{.scale = {1e-4, 1e-4, 1e-4}, .offset = {0, 0, 0}};
+    for (const Eigen::Vector3d& position : sweep) {
+      const Eigen::Vector3i steps = (position * 1e4).cast<int>();
+      las.points.push_back(test::las_point(20, steps.x(), steps.y(), steps.z()));
+      test::put(las.points.back(), 14, std::uint8_t{9});  // the only return
+      test::put(las.points.back(), 15, std::uint8_t{7});
+    }
+    const std::string bytes = las.bytes();
+    scratch_.write("noise.las", bytes);
+    scratch_.write("damaged.las", bytes.substr(0, bytes.size() / 2));
+    std::string other = bytes;
+    test::put(other, 107, std::uint32_t{5});  // points, by the header
+    scratch_.write("other.las", other);
+    fs::create_directories(scratch_ / "folder/inside");
+    scratch_.write("folder/a.txt", "0 0 0\n1 0 0\n0 1 0\n");
+    scratch_.write("folder/inside/b.txt", "3 3 3\n4 3 3\n3 4 3\n");
+    scratch_.write("degrees.txt", "longitude latitude z\n1 2 3\n2 2 3\n1 3 3\n");
+    for (const auto& [name, corner] : {std::pair{"area", 16}, {"half", 9}, {"water", 7}}) {
+      const std::string to = std::to_string(corner);
+      scratch_.write(std::string(name) + ".geojson", R"({"type":"Polygon","coordinates":[[[4,4],[)" + to +
+                                                         ",4],[" + to + "," + to + "],[4," + to +
+                                                         "],[4,4]]]}");
+    }
+  }
+
+  std::string file(const std::string& name) const { return (scratch_ / name).string(); }
+
+  // What the command prints and writes.
+  std::string outcome(const Words& scans, const std::string& command, const Words& options) const {
+    Words words{command};
+    for (const std::string& scan : scans) words.push_back(file(scan));
+    const test::ProgramResult run = run_program(test::with(words, options));
+    const fs::path voids = scratch_ / "out/voids.json";
+    std::string text = std::to_string(run.exit_code) + run.out + run.err;
+    if (fs::exists(voids)) text += test::read_file(voids);
+    fs::remove_all(scratch_ / "out");
+    return text;
+  }
+
+ private:
+  // `end` of a row: returns and whether it is withheld. `between`: after every 60th row.
+  void write(const std::string& name, const std::vector<Eigen::Vector3d>& sweep, const std::string& end,
+             const std::string& between) const {
+    std::ostringstream text;
+    text.precision(9);
+    text << "x y z classification return_number number_of_returns withheld\n";
+    for (std::size_t i = 0; i < sweep.size(); ++i)
+      text << sweep[i].transpose() << (i % 7 == 0 ? " 6" : " 2") << end << (i % 60 == 0 ? between : "");
+    scratch_.write(name, text.str());
+  }
+
+  ScratchFolder scratch_;
+};
+
+}  // namespace
+
+TEST_CASE("each command refuses the parameters that it does not offer, and a run offers all") {
+  io::FilesConfig config;
+  std::map<std::string, std::set<std::string>> offered;
+  for (const char* command : kCommands) offered[command] = offered_by(command);
+  std::size_t next = 0;
+  for (const Parameter& parameter : parameters(config)) {
+    if (parameter.is_constant) continue;
+    const std::string option = parameter.option();
+    INFO(option);
+    for (const char* command : {"detect", "plan"}) CHECK(offered[command].contains(option));
+    const bool is_of_process = parameter.changes == Changes::kProcess;
+    for (const char* command : {"work", "finish"}) CHECK(offered[command].contains(option) == is_of_process);
+    for (const char* command : {"report", "render", "compare", "stations", "status", "clean"})
+      CHECK_FALSE(offered[command].contains(option));
+    while (offered[kCommands[next % std::size(kCommands)]].contains(option)) ++next;
+    const std::string command = kCommands[next++ % std::size(kCommands)];
+    test::check_failure(run_program({command, option}), 2, "unknown option " + option);
+  }
+  const std::string help = run_program({"check", "--help"}).out;
+  for (const char* option :
+       {"--area", "--void-rule", "--except", "--classes", "--area-tile", "--where", "--out"})
+    CHECK_THAT(help, Contains(option));
+}
+
+TEST_CASE("each parameter that info, check or find-stations offers changes what it does") {
+  const Sweep sweep;
+  const Words all = {"plain.txt", "origin.txt", "withheld.txt", "noise.las"};
+  // Options that a parameter needs, and other files that it changes.
+  const std::map<std::string_view, Words> needed = {{"unit_z", {"--unit", "m"}}};
+  const std::map<std::string_view, Words> scans = {{"trust", {"plain.txt", "other.las"}},
+                                                   {"recursive", {"folder"}},
+                                                   {"skip_damaged", {"plain.txt", "damaged.las"}},
+                                                   {"unit", {"degrees.txt"}}};
+  const std::map<std::string_view, std::string> values = {
+      {"crs", "EPSG:4326"},
+      {"area", sweep.file("half.geojson")},
+      {"except", sweep.file("water.geojson")},
+      {"stations", std::string(kOtherValues.at("stations"))},
+      {"classes", sweep.file("water.geojson")},
+      {"scratch", sweep.file("plain.txt")}};
+  // They divide the work, or bound its memory.
+  const std::set<std::string> silent = {"check --threads", "find-stations --threads",
+                                        "find-stations --memory-limit"};
+  std::map<std::tuple<std::string, Words, Words>, std::string> plain;
+  for (const std::string command : {"info", "check", "find-stations"}) {
+    const std::set<std::string> offered = offered_by(command);
+    io::FilesConfig config;
+    for (const Parameter& parameter : parameters(config)) {
+      const std::string option = parameter.option();
+      if (!offered.contains(option) || silent.contains(command + " " + option)) continue;
+      Words options = needed.contains(parameter.key) ? needed.at(parameter.key) : Words();
+      if (command == "check") {
+        Words area{"--out", sweep.file("out")};
+        if (parameter.key != "area") area = test::with(area, {"--area", sweep.file("area.geojson")});
+        if (parameter.key != "void_rule") area = test::with(area, {"--void-rule", "3"});
+        options = test::with(options, area);
+      }
+      Words changed = options;
+      changed.push_back(option);
+      if (values.contains(parameter.key)) {
+        changed.push_back(values.at(parameter.key));
+      } else if (!std::holds_alternative<bool*>(parameter.value)) {
+        changed.emplace_back(kOtherValues.at(parameter.key));
+      }
+      INFO(command << " " << option);
+      const Words& files = scans.contains(parameter.key) ? scans.at(parameter.key) : all;
+      const auto [before, is_new] = plain.try_emplace({command, files, options});
+      if (is_new) before->second = sweep.outcome(files, command, options);
+      CHECK(sweep.outcome(files, command, changed) != before->second);
+    }
+  }
+  CHECK_THAT(sweep.outcome({"plain.txt"}, "check",
+                           {"--area", sweep.file("area.geojson"), "--void-rule", "3", "--area-tile", "5"}),
+             Contains("--area-tile changes nothing without --out"));
+}
+
+TEST_CASE("a config file serves all commands: keys that one does not read are checked, and change nothing") {
+  const Sweep sweep;
+  const auto info = [&](const std::string& text) {
+    const ScratchFolder scratch;
+    return sweep.outcome({"plain.txt"}, "info", {"--config", scratch.write("c.toml", text)});
+  };
+  const std::string plain = sweep.outcome({"plain.txt"}, "info", {});
+  CHECK(info("[output]\npoints_format = \"ply\"\nreport = true\n[selection]\nmin_area = "
+             "3.0\n[neighbourhood]\neps = "
+             "1.0\neps_fraction = 0.1\n[area]\nexcept = \"none.gpkg\"\n") == plain);
+  CHECK(info("[scale]\nmin_hole = 7.0\n") != plain);
+  CHECK_THAT(info("[output]\nreports = true\n"), Contains("did you mean \"report\"?"));
+  CHECK_THAT(info("[selection]\nmin_confidence = 7\n"), Contains("min_confidence = 7"));
 }
 
 }  // namespace lacuna

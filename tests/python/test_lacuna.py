@@ -307,6 +307,8 @@ class Files(Folder):
         self.assertEqual(lacuna.check(self.folder / "s.xyz", area, void_rule=9), checked)
         with self.assertRaisesRegex(lacuna.Error, "area"):
             lacuna.check(self.folder / "s.xyz", "")
+        with self.assertRaisesRegex(TypeError, "min_confidence is no parameter of a check"):
+            lacuna.check(self.folder / "s.xyz", area, void_rule=9, min_confidence=0.9)
 
     def test_a_stream_has_all_points_in_order(self):
         for i, part in enumerate(np.array_split(BIG, 3)):

@@ -155,7 +155,7 @@ TEST_CASE("a scan with neither a hole nor an outer curve is a warning that says 
 }
 
 TEST_CASE("stations and paths that do not count are warnings that say why and what to check") {
-  StationSummary station{.name = "one", .certainty = 0.5};
+  StationSummary station{.name = "one", .subject = "number 6", .points = 9, .certainty = 0.5};
   const auto warning = [&] { return station_warnings({station}).at(0); };
   CHECK_THAT(warning(), Contains("station one does not count: at most 50 % of its points"));
   station.path = 7;
@@ -167,6 +167,11 @@ TEST_CASE("stations and paths that do not count are warnings that say why and wh
   CHECK(station_warnings({station}).empty());
   station.certainty = std::numeric_limits<double>::quiet_NaN();  // not known
   CHECK(station_warnings({station}).empty());
+  station.points = 0;
+  CHECK(warning() == "station one does not count: the scan has no points of number 6");
+  const Strings warned = station_warnings({}, {.points = 1234, .subject = "number 0 of a.ply"});
+  REQUIRE(warned.size() == 1);
+  CHECK_THAT(warned[0], Contains("1,234 points have no station, such as those of number 0 of a.ply"));
 }
 
 namespace {

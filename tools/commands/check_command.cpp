@@ -20,13 +20,15 @@
 #include <optional>
 #include <vector>
 
+#include <spdlog/spdlog.h>
+
 namespace lacuna::tools {
 using namespace io;
 
 namespace {
 
 struct CheckArguments {
-  explicit CheckArguments(const Command& command) : run(command) {}
+  explicit CheckArguments(const Command& command) : run(command, parameters_of_check()) {}
 
   std::vector<std::filesystem::path> scans;
   ResultArguments run;
@@ -36,6 +38,8 @@ struct CheckArguments {
 void run_check(const CheckArguments& arguments) {
   const FilesConfig config = arguments.run.start();
   if (config.area.area.empty()) throw WrongOption("--area is required");
+  if (config.area.area_tile > 0 && arguments.run.out.empty())
+    spdlog::warn("--area-tile changes nothing without --out");
   const std::unique_ptr<FileScan> scan = open_inputs(expand_inputs(arguments.scans, config), config);
   const Area area = *read_area(*scan, config);
   std::optional<OutFolder> out;

@@ -19,7 +19,6 @@
 #include "tools/console/visible_text.hpp"
 #include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
-#include "tools/run/own_process.hpp"
 #include "tools/run/parameter_options.hpp"
 #include "tools/run/scan_warnings.hpp"
 #include "tools/run/signals.hpp"
@@ -48,7 +47,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::array<std::string_view, 3> kProgressStyles = {"bar", "plain", "none"};
 
 struct DetectArguments {
-  explicit DetectArguments(const Command& command) : run(command) {}
+  explicit DetectArguments(const Command& command) : run(command, parameters_of_run()) {}
 
   std::vector<fs::path> scans;
   bool print_config = false;
@@ -77,7 +76,7 @@ std::unique_ptr<KeptFolder> use_workspace(const fs::path& folder) {
 
 }  // namespace
 
-RunArguments::RunArguments(const Command& command, ParameterScope scope) : parameters(command, scope) {
+RunArguments::RunArguments(const Command& command, const ReadParameters& read) : parameters(command, read) {
   const auto choose = [this](std::size_t style) { progress = static_cast<ProgressStyle>(style); };
   command
       .add_choice("--progress", kProgressStyles, choose,
@@ -87,11 +86,8 @@ RunArguments::RunArguments(const Command& command, ParameterScope scope) : param
 }
 
 FilesConfig RunArguments::start(FilesConfig base) const {
-  auto [config, warnings] = parameters.read(std::move(base));
   if (quiet) quiet_log();
-  print_warnings(warnings);
-  prepare_process(config.run);
-  return config;
+  return parameters.start(std::move(base));
 }
 
 std::unique_ptr<Progress> RunArguments::show_progress() const {
@@ -111,8 +107,8 @@ std::unique_ptr<FileScan> open_inputs(const std::vector<ScanInput>& inputs, cons
   return scan;
 }
 
-ResultArguments::ResultArguments(const Command& command, ParameterScope scope)
-    : RunArguments(command, scope) {
+ResultArguments::ResultArguments(const Command& command, const ReadParameters& read)
+    : RunArguments(command, read) {
   command
       .add_option("--out", out,
                   "Folder for the results: a new one, or one of earlier results, which they replace")
@@ -148,7 +144,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   note_complete_results();
   progress->end();
   if (detection.area) print_warnings(area_warnings(*detection.area));
-  print_warnings(station_warnings(detection.stations));
+  print_warnings(station_warnings(detection.stations, detection.points_of_none));
   print_warnings(scan_warnings(scan, detection, config));
 
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();

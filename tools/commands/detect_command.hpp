@@ -15,11 +15,11 @@
 
 namespace lacuna::tools {
 
-// The options that all commands share that run the engine.
+// The options of commands that show their progress.
 struct RunArguments {
-  explicit RunArguments(const Command& command, ParameterScope scope = ParameterScope::kRun);
+  RunArguments(const Command& command, const ReadParameters& read);
 
-  // Returns the parameters over the ones in `base`. Sets up the log, and warns of parameters without effect.
+  // Returns the parameters over the ones in `base`. Sets up the log, and starts as `ParameterOptions` does.
   io::FilesConfig start(io::FilesConfig base = {}) const;
 
   std::unique_ptr<Progress> show_progress() const;
@@ -31,7 +31,7 @@ struct RunArguments {
 
 // The options of commands that also write results.
 struct ResultArguments : RunArguments {
-  explicit ResultArguments(const Command& command, ParameterScope scope = ParameterScope::kRun);
+  ResultArguments(const Command& command, const ReadParameters& read);
 
   std::filesystem::path out;
 };

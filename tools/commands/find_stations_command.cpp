@@ -4,11 +4,11 @@
 #include "io/stations/list_lines.hpp"
 #include "io/stations/station_views.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/commands/detect_command.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/visible_text.hpp"
 #include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
-#include "tools/run/own_process.hpp"
 #include "tools/run/parameter_options.hpp"
 
 #include <algorithm>
@@ -31,7 +31,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct FindArguments {
-  explicit FindArguments(const Command& command) : parameters(command) {}
+  explicit FindArguments(const Command& command)
+      : parameters(command,
+                   {.common = {"bounds", "where", "memory_limit"}, .rare = {"input", "threads", "scratch"}}) {
+  }
 
   std::vector<fs::path> scans;
   ParameterOptions parameters;
@@ -100,9 +103,9 @@ void find_certainties(std::vector<Listed>& stations, FileScan& scan, const RunCo
 }
 
 void run_find_stations(const FindArguments& arguments) {
-  const FilesConfig config = arguments.parameters.read().config;
-  prepare_process(config.run);
-  FileScan scan(expand_inputs(arguments.scans, config), config.input, read_options(config).memory);
+  const FilesConfig config = arguments.parameters.start();
+  const std::unique_ptr<FileScan> opened = open_inputs(expand_inputs(arguments.scans, config), config);
+  FileScan& scan = *opened;
   std::vector<Listed> stations;
   std::vector<std::string> others;
   for (const Sweep& sweep : read_sweeps(scan)) {

@@ -16,7 +16,6 @@
 #include "tools/run/attribute_counts.hpp"
 #include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
-#include "tools/run/own_process.hpp"
 #include "tools/run/parameter_options.hpp"
 #include "tools/run/scan_warnings.hpp"
 
@@ -40,7 +39,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct InfoArguments {
-  explicit InfoArguments(const Command& command) : parameters(command) {}
+  explicit InfoArguments(const Command& command)
+      : parameters(command, {.common = {"min_hole", "bounds", "where", "stations", "memory_limit"},
+                             .rare = {"resolution", "input", "threads", "tile_points", "scratch"}}) {}
 
   std::vector<fs::path> scans;
   bool json = false;
@@ -59,6 +60,7 @@ struct FileInfo {
 struct RunInfo {
   Inspection inspection;
   std::vector<StationSummary> stations;
+  PointsOfNone points_of_none;
   std::uint64_t stations_bytes = 0;
 };
 
@@ -119,6 +121,7 @@ RunInfo inspect_run(FileScan& scan, const FilesConfig& config) {
     const TaskArena arena(static_cast<std::size_t>(config.run.threads));
     stations->complete(scan, arena);
     run.stations = stations->summaries();
+    run.points_of_none = stations->points_of_none();
     run.stations_bytes = stations->disk_bytes();
   }
   return run;
@@ -245,8 +248,7 @@ void print_json(const std::vector<FileInfo>& files, const FileScan& scan, const 
 }
 
 void run_info(const InfoArguments& arguments) {
-  const FilesConfig config = arguments.parameters.read().config;
-  prepare_process(config.run);
+  const FilesConfig config = arguments.parameters.start();
   const ReadOptions options = read_options(config);
   FileScan scan(expand_inputs(arguments.scans, config), config.input, options.memory);
   std::vector<FileInfo> files;
@@ -262,7 +264,7 @@ void run_info(const InfoArguments& arguments) {
   print_warnings(filter_warnings(scan, config.input, summary.strays.rest));
   if (const std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
     spdlog::warn("{}", strays);
-  print_warnings(station_warnings(run.stations));
+  print_warnings(station_warnings(run.stations, run.points_of_none));
 }
 
 }  // namespace

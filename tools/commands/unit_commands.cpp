@@ -36,12 +36,12 @@ std::uint64_t minutes_of(const Step& step) {
 }
 
 struct PlanArguments {
-  explicit PlanArguments(const Command& command) : run(command) {}
+  explicit PlanArguments(const Command& command) : parameters(command, parameters_of_run()) {}
 
   std::vector<fs::path> scans;
   std::size_t tasks = 0;
   bool tsv = false;
-  RunArguments run;
+  ParameterOptions parameters;
 };
 
 void print_plan(const PlanArguments& arguments, const std::vector<Step>& steps, std::uint64_t memory) {
@@ -66,7 +66,7 @@ void print_plan(const PlanArguments& arguments, const std::vector<Step>& steps, 
 }
 
 void run_plan(const PlanArguments& arguments) {
-  FilesConfig config = arguments.run.start();
+  FilesConfig config = arguments.parameters.start();
   const fs::path workspace = config.run.workspace;
   if (workspace.empty()) throw WrongOption("--workspace is required");
   require_outside_results(workspace, "", "--workspace");
@@ -81,7 +81,7 @@ void run_plan(const PlanArguments& arguments) {
 }
 
 struct WorkArguments {
-  explicit WorkArguments(const Command& command) : run(command, ParameterScope::kProcess) {}
+  explicit WorkArguments(const Command& command) : run(command, parameters_of_process()) {}
 
   fs::path workspace;
   std::string step;
@@ -111,7 +111,7 @@ void run_work(const WorkArguments& arguments) {
 }
 
 struct FinishArguments {
-  explicit FinishArguments(const Command& command) : run(command, ParameterScope::kProcess) {}
+  explicit FinishArguments(const Command& command) : run(command, parameters_of_process()) {}
 
   fs::path workspace;
   ResultArguments run;

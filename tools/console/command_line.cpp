@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -28,6 +29,7 @@ std::string section_of(const CLI::Option& option) {
 }
 
 using Options = std::vector<const CLI::Option*>;
+using Apps = std::vector<const CLI::App*>;
 
 template <class Condition>
 Options chosen(const Options& options, Condition is_chosen) {
@@ -100,20 +102,47 @@ const CLI::App* find_command(const CLI::App& app, const std::string& name) {
   return nullptr;
 }
 
-// "--k=3" is the option --k. Without this step, a misspelt option is an argument that was not expected.
-void check_option_names(const CLI::App& command, std::span<const std::string> arguments) {
+std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
   }
+  return names;
+}
+
+// Other programs name their input and output by options such as -i and --output.
+std::string option_hint(const CLI::App& command, const std::string& name) {
+  if (name == "-i" || name == "--input") return "; the names of inputs need no option";
+  for (const CLI::App* other : command.get_parent() ? command.get_parent()->get_subcommands({}) : Apps()) {
+    if (other->get_option_no_throw(name) != nullptr)
+      return "; " + other->get_parent()->get_name() + " " + other->get_name() + " has it";
+  }
+  const std::vector<std::string> names = option_names(command);
+  if (name.starts_with("--")) return suggestion(name, {names.begin(), names.end()});
+  for (const CLI::Option* option : command.get_options()) {
+    const bool is_parameter = section_of(*option) != kGeneral;
+    for (const std::string& other : option->get_lnames()) {
+      if (other.front() == name[1] && (!is_parameter || other.size() == 1))
+        return suggestion("--" + other, {"--" + other});
+    }
+  }
+  return "";
+}
+
+// "--k=3" is the option --k. Without this step, a misspelt option is an argument that was not expected.
+void check_option_names(const CLI::App& command, std::span<const std::string> arguments) {
+  const std::vector<std::string> names = option_names(command);
   for (const std::string& argument : arguments) {
     if (argument == "--") return;
     std::error_code error;
     if (argument.size() > 2 && argument[0] == '-' && argument[1] != '-' && fs::exists(argument, error))
       throw WrongOption(argument + ": a file whose name begins with - comes after -- or as ./" + argument);
     const std::string name = argument.substr(0, argument.find('='));
-    if (!name.starts_with("--") || std::ranges::find(names, name) != names.end()) continue;
-    throw WrongOption("unknown option " + name + suggestion(name, {names.begin(), names.end()}));
+    const bool is_short = name.size() == 2 && name[0] == '-' && std::isalpha(name[1]) != 0;
+    const bool is_option = name.starts_with("--") || is_short;
+    if (is_option && std::ranges::find(names, name) == names.end())
+      throw WrongOption("unknown option " + name + option_hint(command, name));
   }
 }
 
@@ -121,17 +150,21 @@ void check_option_names(const CLI::App& command, std::span<const std::string> ar
 void check_names(const CLI::App& app, std::span<const std::string> arguments) {
   const std::vector<const CLI::App*> commands = app.get_subcommands({});
   if (commands.empty()) return check_option_names(app, arguments);
-  if (arguments.empty() || arguments.front().starts_with('-')) return;
+  if (arguments.empty()) return;
+  if (arguments.front().starts_with('-')) return check_option_names(app, arguments.first(1));
   const std::string& word = arguments.front();
   if (const CLI::App* const command = find_command(app, word))
     return check_names(*command, arguments.subspan(1));
   std::vector<std::string_view> names;
   for (const CLI::App* command : commands) names.push_back(command->get_name());
+  const std::vector<std::string> options = option_names(app);  // "lacuna version"
+  const auto option = std::ranges::find(options, "--" + word);
   std::error_code error;
   if (std::filesystem::exists(word, error))
     throw WrongOption(word + ": a file; allowed: a command before it, such as " + app.get_name() + " " +
                       std::string(names.front()) + " " + word);
-  throw WrongOption("unknown command \"" + word + "\"" + suggestion(word, names) +
+  throw WrongOption("unknown command \"" + word + "\"" +
+                    (option == options.end() ? suggestion(word, names) : suggestion(*option, {*option})) +
                     "; allowed: " + listed(names));
 }
 

@@ -2,10 +2,12 @@
 #include "tools/run/parameter_options.hpp"
 
 #include "engine/run/error.hpp"
+#include "tools/console/terminal.hpp"
 #include "tools/run/config_files.hpp"
+#include "tools/run/own_process.hpp"
 
 #include <algorithm>
-#include <array>
+#include <utility>
 #include <variant>
 
 namespace lacuna::tools {
@@ -13,10 +15,21 @@ using namespace io;
 
 namespace {
 
-// The parameters that people use, which --help shows. --help-all shows the others, too.
-constexpr std::array<std::string_view, 11> kCommon = {"min_hole", "k",         "min_confidence", "holes_only",
-                                                      "bounds",   "where",     "points",         "gpkg",
-                                                      "report",   "workspace", "memory_limit"};
+bool is_named(const Parameter& parameter, const std::vector<std::string_view>& names) {
+  return std::ranges::any_of(
+      names, [&](std::string_view name) { return name == parameter.section || name == parameter.key; });
+}
+
+// Takes the value of the same parameter of another config.
+struct Take {
+  const Parameter::Value& from;
+
+  template <class T>
+  void operator()(T* to) const {
+    *to = *std::get<T*>(from);
+  }
+  void operator()(const NamedValue& to) const { *to.value = *std::get<NamedValue>(from).value; }
+};
 
 struct TypeName {
   std::string operator()(const std::int64_t*) const { return "N"; }
@@ -39,9 +52,27 @@ std::string type_name(const Parameter& parameter) {
 
 }  // namespace
 
-ParameterOptions::ParameterOptions(const Command& command, ParameterScope scope) {
-  const bool is_run = scope == ParameterScope::kRun;
-  if (is_run)
+bool ReadParameters::has(const Parameter& parameter) const {
+  return is_named(parameter, common) || is_named(parameter, rare);
+}
+
+ReadParameters parameters_of_run() {
+  return {.common = {"min_hole", "k", "min_confidence", "holes_only", "bounds", "where", "points", "gpkg",
+                     "report", "workspace", "memory_limit"},
+          .rare = {"scale", "neighbourhood", "normals", "criteria", "coherence", "loops", "spanning",
+                   "tangential", "selection", "input", "area", "output", "run"}};
+}
+
+ReadParameters parameters_of_check() {
+  return {.common = {"area", "bounds", "where", "memory_limit"}, .rare = {"input", "threads"}};
+}
+
+ReadParameters parameters_of_process() {
+  return {.common = {"memory_limit"}, .rare = {"threads", "scratch"}, .has_config_file = false};
+}
+
+ParameterOptions::ParameterOptions(const Command& command, const ReadParameters& read) {
+  if (read.has_config_file)
     command
         .add_option(
             "--config", config_file_,
@@ -51,7 +82,8 @@ ParameterOptions::ParameterOptions(const Command& command, ParameterScope scope)
   FilesConfig defaults;
   for (const Parameter& parameter : parameters(defaults)) {
     Given& given = given_.emplace_back();
-    if (parameter.is_constant || (!is_run && parameter.changes != Changes::kProcess)) continue;
+    given.is_read = read.has(parameter);
+    if (!given.is_read || parameter.is_constant) continue;
     const bool is_flag = std::holds_alternative<bool*>(parameter.value);
     const std::string help(parameter.help);
     const Option option =
@@ -59,7 +91,7 @@ ParameterOptions::ParameterOptions(const Command& command, ParameterScope scope)
                 : command.add_option(parameter.option(), given.text,
                                      help + " Allowed: " + std::string(parameter.allowed) + ".");
     option.type(type_name(parameter)).section(std::string(parameter.section));
-    if (std::ranges::find(kCommon, parameter.key) == kCommon.end()) option.rare();
+    if (!is_named(parameter, read.common)) option.rare();
     if (parameter.key == "leave_out" || parameter.key == "classes") {
       option.joined_by_comma();  // one box, or one file, each
     } else {
@@ -70,11 +102,16 @@ ParameterOptions::ParameterOptions(const Command& command, ParameterScope scope)
   }
 }
 
-std::string ParameterOptions::read_file(FilesConfig& config, std::vector<std::string>& keys) const {
+std::string ParameterOptions::take_file(FilesConfig& config, std::vector<std::string>& keys) const {
   if (config_file_.empty()) return "";
   try {
     const std::string file = find_config(config_file_).string();
-    keys = read_config(file, config);
+    FilesConfig in_file = config;
+    keys = read_config(file, in_file);
+    const std::vector<Parameter> all = parameters(config), found = parameters(in_file);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (given_[i].is_read) std::visit(Take{found[i].value}, all[i].value);
+    }
     return file;
   } catch (const Error& error) {
     throw UsageError(error.what());
@@ -83,7 +120,7 @@ std::string ParameterOptions::read_file(FilesConfig& config, std::vector<std::st
 
 EffectiveConfig ParameterOptions::read(FilesConfig config) const {
   std::vector<std::string> keys_in_file;
-  const std::string file = read_file(config, keys_in_file);
+  const std::string file = take_file(config, keys_in_file);
   const std::vector<Parameter> all = parameters(config);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!given_[i].is_given()) continue;
@@ -104,13 +141,20 @@ EffectiveConfig ParameterOptions::read(FilesConfig config) const {
   return {config, idle_warnings(config, keys_in_file)};
 }
 
+FilesConfig ParameterOptions::start(FilesConfig base) const {
+  auto [config, warnings] = read(std::move(base));
+  print_warnings(warnings);
+  prepare_process(config.run);
+  return config;
+}
+
 std::vector<std::string> ParameterOptions::idle_warnings(FilesConfig config,
                                                          const std::vector<std::string>& keys_in_file) const {
   FilesConfig defaults;
   const std::vector<Parameter> all = parameters(config), unchanged = parameters(defaults);
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].missing.empty()) continue;
+    if (!given_[i].is_read || all[i].missing.empty()) continue;
     const bool in_file =
         std::find(keys_in_file.begin(), keys_in_file.end(), all[i].key) != keys_in_file.end();
     const std::string effect = " changes nothing without " + std::string(all[i].missing);

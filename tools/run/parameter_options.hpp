@@ -9,9 +9,27 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lacuna::tools {
+
+// The parameters that a command reads, by their keys or the names of their sections. Others are no options of
+// it. A config file may have them, since one file serves all commands. They keep their defaults then.
+struct ReadParameters {
+  std::vector<std::string_view> common;  // which --help shows
+  std::vector<std::string_view> rare;    // which --help-all alone shows
+  bool has_config_file = true;           // takes `--config`
+
+  bool has(const Parameter& parameter) const;
+};
+
+// Returns all parameters, those of a run.
+ReadParameters parameters_of_run();
+// Returns those of a check of an area.
+ReadParameters parameters_of_check();
+// Returns those of a process that does a part of a plan, which has the others.
+ReadParameters parameters_of_process();
 
 struct EffectiveConfig {
   io::FilesConfig config;
@@ -20,30 +38,28 @@ struct EffectiveConfig {
   std::vector<std::string> warnings;
 };
 
-// Which parameters a command takes.
-enum class ParameterScope {
-  kRun,      // all, and `--config`
-  kProcess,  // threads, memory and temporary files: a plan has the others
-};
-
 class ParameterOptions {
  public:
-  // Adds an option for each parameter, grouped by section in --help.
-  explicit ParameterOptions(const Command& command, ParameterScope scope = ParameterScope::kRun);
+  // Adds an option for each parameter that is read, grouped by section in --help-all.
+  ParameterOptions(const Command& command, const ReadParameters& read);
 
   // `config`, then the config file, then the command line. Throws `UsageError` for what is wrong in the file
   // and `WrongOption` for what is wrong on the command line.
   EffectiveConfig read(io::FilesConfig config = {}) const;
 
+  // Returns the same config. Prints the warnings, and prepares the process for the run.
+  io::FilesConfig start(io::FilesConfig config = {}) const;
+
  private:
-  // The file's name; empty: none was given.
-  std::string read_file(io::FilesConfig& config, std::vector<std::string>& keys) const;
+  // Takes what is read from the file. Returns its name; empty: none was given.
+  std::string take_file(io::FilesConfig& config, std::vector<std::string>& keys) const;
   std::vector<std::string> idle_warnings(io::FilesConfig config,
                                          const std::vector<std::string>& keys_in_file) const;
 
   struct Given {
+    bool is_read = false;
     std::string text;
-    std::optional<Option> option;  // none: of a constant
+    std::optional<Option> option;  // none: of a constant, or of a parameter that is not read
 
     bool is_given() const { return option && option->is_given(); }
   };

@@ -160,6 +160,16 @@ void warn_of_z_units(const FileScan& scan, std::vector<std::string>& warnings) {
                        "another unit; the annotated scan keeps its own z");
 }
 
+void warn_of_degrees(const FileScan& scan, std::vector<std::string>& warnings) {
+  const auto is_like = [&](std::size_t i) { return scan.files()[i].may_be_degrees; };
+  if (const auto first = find_file(scan, is_like))
+    warnings.push_back(
+        file_name(scan, *first) + and_more(scan, *first, is_like) +
+        ": x and y look like longitude and latitude in degrees, and holes need lengths; project "
+        "them first, as with `gdaltransform`; if they are lengths, --unit m or another unit "
+        "says so");
+}
+
 }  // namespace
 
 std::string crs_name(const std::string& crs) {
@@ -220,15 +230,13 @@ void require_lengths(const FileScan& scan) {
   const std::string* checked = nullptr;
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
     const std::string& crs = scan.files()[i].crs;
-    // Names and values of columns say so, but the user may know better.
+    // Names of columns say so, but the user may know better.
     if (scan.files()[i].is_geographic && crs.empty() && !scan.stated_crs().unit.empty()) continue;
     if (scan.files()[i].is_geographic && crs.empty())
       throw Error(
           file_name(scan, i) +
-          ": x and y are longitude and latitude in degrees, by their names or values, and holes need "
-          "lengths; "
-          "project them first, as with `gdaltransform`; if they are lengths, --unit m or another unit "
-          "says so");
+          ": x and y are longitude and latitude in degrees, by their names, and holes need lengths; project "
+          "them first, as with `gdaltransform`; if they are lengths, --unit m or another unit says so");
     if (scan.files()[i].is_geographic) refuse_longitudes(scan, i);
     if (crs.empty() || (checked != nullptr && crs == *checked)) continue;
     refuse_other_scale(scan, i, file_name(scan, i), crs);
@@ -248,6 +256,7 @@ std::vector<std::string> input_warnings(const FileScan& scan) {
     warn_of_overridden(scan, &ScanFile::crs, std::not_fn(is_same_crs), "coordinate reference system",
                        scan.stated_crs().crs, warnings);
   }
+  if (scan.stated_crs().crs.empty() && scan.stated_crs().unit.empty()) warn_of_degrees(scan, warnings);
   if (scan.stated_crs().unit.empty()) {
     warn_of_other_units(scan, warnings);
     warn_of_contradictions(scan, warnings);
@@ -389,10 +398,14 @@ std::vector<std::string> scan_warnings(const FileScan& scan, const Detection& de
   return warnings;
 }
 
-std::vector<std::string> station_warnings(const std::vector<StationSummary>& stations) {
+std::vector<std::string> station_warnings(const std::vector<StationSummary>& stations,
+                                          const PointsOfNone& of_none) {
   std::vector<std::string> warnings;
   for (const StationSummary& station : stations) {
-    if (!(station.certainty < StationView::kLeastCertain)) continue;
+    if (station.points == 0)
+      warnings.push_back("station " + visible(station.name) + " does not count: the scan has no points of " +
+                         visible(station.subject));
+    if (station.points == 0 || !(station.certainty < StationView::kLeastCertain)) continue;
     const bool moved = station.path > 0;
     std::ostringstream message;
     message.precision(2);
@@ -410,6 +423,10 @@ std::vector<std::string> station_warnings(const std::vector<StationSummary>& sta
             << (moved ? ", and its times their clock" : "");
     warnings.push_back(message.str());
   }
+  if (of_none.points > 0)
+    warnings.push_back(print_count(of_none.points) + (of_none.points == 1 ? " point has" : " points have") +
+                       " no station, such as those of " + visible(of_none.subject) +
+                       "; causes of holes leave out what their scanner saw");
   return warnings;
 }
 

@@ -46,8 +46,10 @@ std::string normals_warning(const GivenNormals& normals, NormalsUse use);
 std::vector<std::string> filter_warnings(const io::FileScan& scan, const io::InputConfig& config,
                                          const Eigen::AlignedBox3d& bounds);
 
-// Names stations and trajectories that do not count, because they cannot have measured all of their points.
-std::vector<std::string> station_warnings(const std::vector<io::StationSummary>& stations);
+// Names stations and trajectories that do not count, because they cannot have measured all of their points,
+// or have none. One line counts the points that are of no station.
+std::vector<std::string> station_warnings(const std::vector<io::StationSummary>& stations,
+                                          const io::PointsOfNone& of_none = {});
 
 // Returns a line where a scan of a thousand points or more has neither a hole nor an outer curve. The line
 // says what is likelier: the surface is closed, or the points are not on it. Empty where options leave curves

@@ -2,11 +2,13 @@
 #include "io/scan/like_degrees.hpp"
 
 #include "io/scan/file_scan.hpp"
-#include "tests/io/las/las_file.hpp"
 #include "tests/support/drawn_files.hpp"
+#include "tests/support/golden.hpp"
 #include "tests/support/scratch_folder.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <numbers>
 #include <random>
@@ -57,75 +59,79 @@ std::string text(const Positions& positions) {
   return text.str();
 }
 
-std::string ply(const Positions& positions, const std::string& type) {
-  return ascii_ply(text(positions), type == "float" ? kXyz : kWideXyz);
-}
-
-std::string las(const Positions& positions) {
-  LasFile file;
-  file.scale = {1e-7, 1e-7, 0.01};
-  file.offset = {0, 0, 0};
-  for (const Eigen::Vector3d& p : positions)
-    file.points.push_back(las_point(20, static_cast<int>(std::lround(p.x() * 1e7)),
-                                    static_cast<int>(std::lround(p.y() * 1e7)),
-                                    static_cast<int>(std::lround(p.z() * 100))));
-  return file.bytes();
-}
-
 }  // namespace
 
-TEST_CASE("degrees with heights in metres are known by their values") {
+TEST_CASE("degrees of one survey with heights in metres are known by their values") {
   const auto rough = [](double x, double y) {
     return -2600 + 50 * std::sin(5e3 * x) + 20 * std::sin(7e3 * y);
   };
   const auto hills = [](double x, double y) { return 500 + 2 * std::sin(3e4 * x) + std::cos(2e4 * y); };
-  const auto smooth = [](double x, double y) { return -25 + 4 * std::sin(20 * x) * std::cos(10 * y); };
-  const auto earth = [](double x, double y) { return 3000 * std::sin(0.05 * x) * std::cos(0.08 * y); };
   for (const Positions& degrees : {survey({187, -18}, 0.003, rough), survey({11.5, 48.1}, 1e-5, hills),
-                                   survey({4.1, 52.6}, 0.002, shelf), survey({4.1, 52.6}, 0.002, smooth),
-                                   survey({200, -60}, 1, earth)}) {
+                                   survey({-0.1, 51.5}, 1e-5, hills), survey({4.1, 52.6}, 0.002, shelf)}) {
     CHECK(look_like_degrees(degrees));
     CHECK(look_like_degrees(swapped(degrees)));
   }
-  Positions row;  // the first of a grid
-  for (int i = 0; i < 4096; ++i) row.emplace_back(i / 60., -89.5, earth(i / 6., 0) - 100 * std::sin(i / 60.));
-  CHECK(look_like_degrees(row));
 }
 
-TEST_CASE("degrees are known in every format without a system") {
+TEST_CASE("degrees are known in files without a system and a unit") {
   const ScratchFolder folder;
-  const Positions positions = survey({4.1, 52.6}, 0.002, shelf);
+  const std::string rows = text(survey({4.1, 52.6}, 0.002, shelf));
   for (const std::string& file :
-       {folder.write("a.xyz", text(positions)), folder.write("d.ply", ply(positions, "double")),
-        folder.write("f.ply", ply(positions, "float")), folder.write("a.las", las(positions))}) {
+       {folder.write("a.xyz", rows), folder.write("a.ply", ascii_ply(rows, kXyz))}) {
     INFO(file);
-    CHECK(FileScan({file}, {}).files()[0].is_geographic);
+    const FileScan scan({file}, {});
+    CHECK(scan.files()[0].may_be_degrees);
+    CHECK_FALSE(scan.files()[0].is_geographic);  // no more than a guess
   }
 }
 
-TEST_CASE("small scans in lengths are not taken for degrees") {
+TEST_CASE("scans in lengths do not look like degrees, in any order of their points") {
   const auto ground = [](double x, double y) { return rounded(3 * std::sin(x / 2) + std::cos(y), 3); };
-  CHECK_FALSE(look_like_degrees(survey({0, 0}, 0.1, ground)));
-  CHECK_FALSE(look_like_degrees(survey({30, 40}, 0.5, ground)));
-  CHECK_FALSE(
-      look_like_degrees(survey({0, 0}, 0.1, [](double x, double) { return 60 * x; })));  // nearly upright
+  const auto steep = [](double x, double) { return 60 * x; };
+  std::vector<Positions> all = {survey({0, 0}, 0.1, ground), survey({30, 40}, 0.04, ground),
+                                survey({0, 0}, 0.1, steep), survey({30, 40}, 0.01, steep)};
   std::mt19937 draw(1);
   std::uniform_real_distribution<double> share(0, 1);
   std::normal_distribution<double> noise(0, 0.002);
-  Positions wall, exact, turned, pole, sphere, stairs;
+  Positions wall, pole, sphere, stairs, cliff, frame;
   for (int i = 0; i < 4096; ++i) {
-    wall.emplace_back(5 + noise(draw), i / 1000 * 0.01, i % 1000 * 0.01);
-    exact.emplace_back(5, i / 1000 * 0.01, i % 1000 * 0.01);
-    turned.emplace_back(i / 64, -1e-15 * (i % 64), i % 64);  // rounded when it was turned upright
+    wall.emplace_back(5 + noise(draw), i / 200 * 0.02, share(draw) * 4);
     const double turn = 2 * std::numbers::pi * share(draw), z = 2 * share(draw) - 1, r = std::sqrt(1 - z * z);
-    pole.emplace_back(0.1 * std::cos(turn), 0.1 * std::sin(turn), 10 * z);
+    pole.emplace_back(rounded(30 + 0.05 * std::cos(turn), 3), rounded(40 + 0.05 * std::sin(turn), 3), 10 * z);
     sphere.emplace_back(r * std::cos(turn), r * std::sin(turn), z);
     const double x = 5 * share(draw);
     stairs.emplace_back(x, share(draw), rounded(x, 0));
+    cliff.emplace_back(40 * share(draw), 3 * share(draw), 45 * share(draw));
+    const double depth = rounded(2 + share(draw), 2);  // of a camera, in whole centimetres
+    frame.emplace_back(depth * (share(draw) - 0.5), depth * (share(draw) - 0.5), depth);
   }
-  for (const Positions& lengths : {wall, exact, turned, pole, sphere, stairs}) {
+  for (const Positions& positions : {wall, pole, sphere, stairs, cliff, frame}) all.push_back(positions);
+  for (Positions& lengths : all) {
     CHECK_FALSE(look_like_degrees(lengths));
     CHECK_FALSE(look_like_degrees(swapped(lengths)));
+    std::shuffle(lengths.begin(), lengths.end(), draw);
+    CHECK_FALSE(look_like_degrees(lengths));
+  }
+}
+
+TEST_CASE("no real scan in lengths looks like degrees") {
+  namespace fs = std::filesystem;
+  const auto shared = shared_folder();
+  if (!shared) return;
+  std::vector<fs::path> files;
+  for (const char* folder : {"data/real", "data/uneven", "data/solids", "data/cases"}) {
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(*shared / folder, none)) {
+      const fs::path& file = entry.path();
+      const bool is_scan = file.extension() == ".ply" || file.extension() == ".pcd";
+      const bool is_case = file.parent_path().filename() == "cases";
+      if (is_scan && (!is_case || file.filename().string().starts_with("50"))) files.push_back(file);
+    }
+  }
+  for (const fs::path& file : files) {
+    INFO(file);
+    const FileScan scan({file}, {});
+    CHECK_FALSE((scan.files()[0].may_be_degrees || scan.files()[0].is_geographic));
   }
 }
 

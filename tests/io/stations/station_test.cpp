@@ -11,8 +11,15 @@ namespace {
 
 const std::vector<std::filesystem::path> kFiles = {"survey/a.laz", "survey/b.laz", "old/a.laz"};
 
+// The first file alone has no numbers.
+std::vector<RowLayout> layouts() {
+  std::vector<RowLayout> all(kFiles.size());
+  for (std::size_t i = 1; i < all.size(); ++i) all[i].properties = {{"point_source_id", Scalar::kUint16, 0}};
+  return all;
+}
+
 std::vector<Station> read(const test::ScratchFolder& folder, const std::string& text) {
-  return read_stations(folder.write("stations.txt", text), kFiles);
+  return read_stations(folder.write("stations.txt", text), kFiles, layouts());
 }
 
 }  // namespace
@@ -37,26 +44,31 @@ TEST_CASE("a file of stations has names, places and what each has measured") {
   CHECK(read(folder, "only 1 2 3\n").size() == 1);
   // A whole name, though another file's ends in it.
   const std::vector<std::filesystem::path> files = {"old/a.laz", "a.laz"};
-  const auto whole = read_stations(folder.write("stations.txt", "south 4 5 6 a.laz\n"), files);
+  const auto whole = read_stations(folder.write("stations.txt", "south 4 5 6 a.laz\n"), files, layouts());
   REQUIRE(whole.size() == 1);
   CHECK(whole[0].file == std::optional<std::size_t>(1));
 }
 
 TEST_CASE("an error in a file of stations names the line and what is needed") {
   const test::ScratchFolder folder;
-  test::check_reasons({{"", "names no station"},
-                       {"a 1 2\n", "line 1"},
-                       {"a 1 2 x\n", "is not a number"},
-                       {"a 1 2 nan\n", "is not a number"},
-                       {"a 1 2 1e200\n", "line 1: '1e200' is not from -1e+12 to 1e+12"},
-                       {"1.5 1 2 3 0 0 0 1\n", "a trajectory needs a first line that names its columns"},
-                       {"a 1 2 3 c.laz\n", "c.laz is not the name of a scan"},
-                       {"a 1 2 3 a.laz\n", "a.laz is the name of several scans"},
-                       {"a 1 2 3 4\nb 5 6 7 4\n", "line 2: b has the points of an earlier station"},
-                       {"a 1 2 3 4 5\n", "4 is not the name of a scan"},
-                       {"a 1 2 3 b.laz 5 6\n", "are needed"},
-                       {"a 1 2 3 b.laz a.laz\n", "is no number of a source"}},
-                      [&](const std::string& text) { return test::error_of([&] { read(folder, text); }); });
+  test::check_reasons(
+      {{"", "names no station"},
+       {"a 1 2\n", "line 1"},
+       {"a 1 2 x\n", "is not a number"},
+       {"a 1 2 nan\n", "is not a number"},
+       {"a 1 2 1e200\n", "line 1: '1e200' is not from -1e+12 to 1e+12"},
+       {"1.5 1 2 3 0 0 0 1\n", "a trajectory needs a first line that names its columns"},
+       {"a 1 2 3 c.laz\n", "c.laz is not the name of a scan"},
+       {"a 1 2 3 a.laz\n", "a.laz is the name of several scans"},
+       {"a 1 2 3 4\nb 5 6 7 4\n", "line 2: b has the points of an earlier station"},
+       {"a 1 2 3 4 5\n", "4 is not the name of a scan"},
+       {"a 1 2 3 b.laz 5 6\n", "are needed"},
+       {"a 1 2 3 b.laz a.laz\n", "is no number of a source"},
+       {"a 1 2 3 survey/a.laz 4\n", "line 1: a has the number 4, and survey/a.laz has no column scan"}},
+      [&](const std::string& text) { return test::error_of([&] { read(folder, text); }); });
+  const auto none = [&] { read_stations(folder.write("stations.txt", "a 1 2 3 4\n"), kFiles, {}); };
+  CHECK_THAT(test::error_of(none),
+             Catch::Matchers::Contains("line 1: a has the number 4, and no file has a column scan"));
 }
 
 TEST_CASE("a range image keeps the nearest range of each direction, and fills gaps as far as wanted") {

@@ -16,12 +16,14 @@ namespace {
 
 using test::ScratchFolder;
 
-std::vector<StationSummary> stations_of(std::vector<ScanInput> inputs, const OutputConfig& config = {}) {
+std::vector<StationSummary> stations_of(std::vector<ScanInput> inputs, const OutputConfig& config = {},
+                                        PointsOfNone* of_none = nullptr) {
   const ScratchFolder folder;
   FileScan scan(std::move(inputs), {});
   const auto views = watch_stations(scan, config, folder.path());
   if (!views) return {};
   views->complete(scan, TaskArena(2));
+  if (of_none) *of_none = views->points_of_none();
   return views->summaries();
 }
 
@@ -38,8 +40,11 @@ TEST_CASE("scans of an E57 file with a pose are stations, with the rows of each"
   const std::string file = folder.write(
       "a.e57", test::encode_e57({scan(test::e57_pose({1, 0, 0, 0}, {1, 2, 3}), {1, 2, 3}), scan("", {4}),
                                  scan(test::e57_pose({0, 1, 0, 0}, {7, 8, 9}), {1, 2})}));
-  const auto stations = stations_of({file});
+  PointsOfNone of_none;
+  const auto stations = stations_of({file}, {}, &of_none);
   REQUIRE(stations.size() == 2);  // one has no pose
+  CHECK(of_none.points == 1);
+  CHECK(of_none.subject == "number 1 of " + file);
   CHECK(stations[0].name == "a 0");
   CHECK(stations[0].place == Eigen::Vector3d(1, 2, 3));
   CHECK(stations[0].points == 3);
@@ -67,21 +72,43 @@ TEST_CASE("a PCD file with a viewpoint, a PLY file with a camera, and a scan wit
   CHECK(stations[2].points == 2);
   CHECK(stations[3].place == Eigen::Vector3d(17, 28, 39));
   CHECK(stations_of({text}).empty());
+  PointsOfNone of_none;
+  CHECK(stations_of({text, pcd}, {}, &of_none).size() == 1);
+  CHECK(of_none.points == 1);
+  CHECK(of_none.subject == text);
 }
 
-TEST_CASE("a file of stations says which rows are whose, and rows of none count nowhere") {
+TEST_CASE("a file of stations says which rows are whose, and counts rows of none and stations without rows") {
   const ScratchFolder folder;
   const std::string a = folder.write("a.xyz", "x y z scan\n1 0 0 1\n2 0 0 2\n3 0 0 2\n4 0 0 9\n");
   const std::string b = folder.write("b.xyz", "1 1 1\nnan 0 0\n2 2 2\n");
   OutputConfig config;
   config.stations =
       folder.write("stations.txt", "one 0 0 5 1\ntwo 0 0 6 a.xyz 2\nbee 0 0 7 b.xyz\nnone 0 0 8 77\n");
-  const auto stations = stations_of({a, b}, config);
-  REQUIRE(stations.size() == 3);
+  PointsOfNone of_none;
+  const auto stations = stations_of({a, b}, config, &of_none);
+  REQUIRE(stations.size() == 4);
+  CHECK(stations[3].points == 0);
+  CHECK(stations[3].subject == "number 77");
+  CHECK_FALSE(stations[3].counts());
+  CHECK(of_none.points == 1);
+  CHECK(of_none.subject == "number 9 of " + a);
   CHECK(stations[0].points == 1);
   CHECK(stations[1].points == 2);
   CHECK(stations[2].name == "bee");
   CHECK(stations[2].points == 2);
+}
+
+TEST_CASE("a file of stations none of which has a point is an error that names what the scan has") {
+  const ScratchFolder folder;
+  const std::string scan = folder.write("a.xyz", "x y z scan\n1 0 0 1\n2 0 0 2\n");
+  OutputConfig config;
+  config.stations = folder.write("stations.txt", "five 0 0 5 5\nsix 0 0 6 6\n");
+  CHECK_THROWS_WITH(stations_of({scan}, config),
+                    config.stations +
+                        ": no station has a point: five has those of number 5, and the scan has "
+                        "points of number 1 of " +
+                        scan);
 }
 
 TEST_CASE("a station far off its points is not certain, however far it is") {
