@@ -74,7 +74,7 @@ Truth read_truth(const std::filesystem::path& file, std::vector<io::ScanInput> s
 Surface read_surface(const std::filesystem::path& file);
 
 // Throws `Error` if the result is of another scan: it has ids, or a number of points, that the truth does not
-// have.
+// have. Throws, too, if the points of a loop are in no order.
 Evaluation evaluate(const Result& result, const Truth& truth, const EvaluationRule& rule);
 
 }  // namespace lacuna::evaluation

@@ -19,7 +19,7 @@ struct HoleAreas {
 // the triangulation of its loop that has the least area. Outer curves have none, and neither has a loop with
 // a point that is not finite. Places at most `buffer` apart are near. Each surface is divided into pieces
 // with edges of at most half the buffer, and the centroid of a piece decides for the piece. Without a buffer,
-// all areas are 0. Cost: n log n for points and pieces.
+// all areas are 0. Cost: n log n for points and pieces. Memory: the pieces of the true holes.
 HoleAreas compare_areas(std::span<const LoopIds> loops, const Truth& truth,
                         std::span<const TrueMatch> matches, double buffer);
 
