@@ -168,12 +168,12 @@ std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig c
         tools::require_lengths(*found->scan);
         found->warnings = tools::input_warnings(*found->scan);
         found->scratch = std::make_unique<TemporaryStorage>(*found->scan, config.run);
-        const auto area = io::read_area(*found->scan, config);
+        auto area = io::read_area(*found->scan, config);
         const auto stations = io::watch_stations(*found->scan, config.output, found->scratch->path());
         found->detection.emplace(
             io::ExplainedDetection{*detect(*found->scan, config, found->scratch->path(), watched)});
         if (stations) io::find_causes(*stations, *found->scan, config.run, *found->detection);
-        if (area) found->detection->area = io::check_area(*area, *found->scan, config, watched);
+        if (area) found->detection->area = io::check_area(std::move(*area), *found->scan, config, watched);
         std::ranges::copy(tools::station_warnings(found->detection->stations),
                           std::back_inserter(found->warnings));
         std::ranges::copy(tools::scan_warnings(*found->scan, *found->detection, config),
@@ -192,9 +192,9 @@ std::vector<std::string> check(std::vector<io::ScanInput> inputs, const io::File
         check_config(config);
         io::FileScan scan(std::move(inputs), config.input, Memory::share(config.run.memory_limit).reading);
         warnings = tools::input_warnings(scan);
-        const auto area = io::read_area(scan, config);
+        auto area = io::read_area(scan, config);
         if (!area) throw Error("area: is empty; allowed: a file of polygons");
-        const io::AreaCheck checked = io::check_area(*area, scan, config, watched);
+        const io::AreaCheck checked = io::check_area(std::move(*area), scan, config, watched);
         std::ranges::copy(tools::area_warnings(checked), std::back_inserter(warnings));
         io::ResultFolder results(folder);
         io::write_voids(checked, scan, config.area, results);

@@ -18,6 +18,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace lacuna::tools {
@@ -37,7 +38,7 @@ void run_check(const CheckArguments& arguments) {
   const FilesConfig config = arguments.run.start();
   if (config.area.area.empty()) throw WrongOption("--area is required");
   const std::unique_ptr<FileScan> scan = open_inputs(expand_inputs(arguments.scans, config), config);
-  const Area area = *read_area(*scan, config);
+  Area area = *read_area(*scan, config);
   std::optional<MadeFolder> parent;
   std::optional<ResultFolder> folder;
   if (!arguments.run.out.empty()) {
@@ -47,9 +48,9 @@ void run_check(const CheckArguments& arguments) {
     check_not_input(*folder, *scan);
   }
   const std::unique_ptr<Progress> progress = arguments.run.show_progress();
-  const AreaCheck check = check_area(area, *scan, config, *progress);
+  const PlanGrid grid = area.grid;
+  const AreaCheck check = check_area(std::move(area), *scan, config, *progress);
   print_warnings(area_warnings(check));
-  const PlanGrid& grid = area.grid;
   const Eigen::Vector2d size(static_cast<double>(grid.columns), static_cast<double>(grid.rows));
   const Eigen::Vector2d min = grid.from_cells({0, 0}), max = grid.from_cells(size);
   const Eigen::AlignedBox3d bounds(Eigen::Vector3d(min.x(), min.y(), 0),

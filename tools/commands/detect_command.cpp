@@ -33,6 +33,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <spdlog/spdlog.h>
@@ -144,7 +145,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   const std::unique_ptr<FileScan> opened = open_inputs(inputs, config);
   FileScan& scan = *opened;
 
-  const std::optional<Area> area = read_area(scan, config);
+  std::optional<Area> area = read_area(scan, config);
   const MadeFolder out_parent(parent_of(arguments.out));
   watch_results(arguments.out, arguments.out / "holes.json");  // from the first temporary file on
   ResultFolder out(arguments.out);
@@ -167,7 +168,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   ExplainedDetection detection{*detect(scan, running, is_in_memory ? fs::path() : scratch.path(), *progress)};
   detection.summary.memory_limit = Memory::share(config.run.memory_limit).limit;  // files included
   if (stations) find_causes(*stations, scan, config.run, detection);
-  if (area) detection.area = check_area(*area, scan, config, *progress);
+  if (area) detection.area = check_area(std::move(*area), scan, config, *progress);
   progress->begin("write", 0);
   const std::vector<fs::path> written = write_results(detection, scan, with_min_hole(config), out);
   note_complete_results();
