@@ -16,7 +16,7 @@
 namespace lacuna::io {
 namespace {
 
-constexpr std::size_t kMostVoids = 500, kMostOthers = 2000, kMostPolygons = 100'000;
+constexpr std::size_t kMostVoids = 500, kMostOthers = 2000, kMostPolygons = 10'000;
 constexpr double kStepsOfMap = 800;  // a map shows nothing finer than this part of its extent
 
 using Event = Json::parse_event_t;

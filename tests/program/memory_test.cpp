@@ -93,9 +93,9 @@ TEST_CASE("the check of an area stays within the memory limit") {
 std::string star(int corners) {
   std::string text = R"({"type": "Polygon", "coordinates": [[)", first;
   for (int i = 0; i < corners; ++i) {
-    const double angle = 2 * std::numbers::pi * i / corners, radius = 4.5 + 0.05 * (i % 2);
-    const std::string corner = "[" + std::to_string(5 + radius * std::cos(angle)) + "," +
-                               std::to_string(5 + radius * std::sin(angle)) + "]";
+    const double angle = 2 * std::numbers::pi * i / corners, radius = 0.7 + 0.01 * (i % 2);
+    const std::string corner = "[" + std::to_string(0.85 + radius * std::cos(angle)) + "," +
+                               std::to_string(0.85 + radius * std::sin(angle)) + "]";
     if (i == 0) first = corner;
     text += corner + ",";
   }
@@ -108,7 +108,7 @@ TEST_CASE("an area of many corners stays within the memory limit, or is refused 
                     coast = scratch.write("coast.json", star(900'000)),
                     small = scratch.write("small.json", star(9));
   REQUIRE(test::run_bench({"synth", "surface", scan, "--points", "30000", "--holes", "0"}).exit_code == 0);
-  const Words limits = {"--void-rule", "1", "--memory-limit", "128MiB"};
+  const Words limits = {"--void-rule", "0.1", "--memory-limit", "128MiB"};
   const auto check = [&](const Words& words, int exit_code) {
     const test::ProgramResult result = test::run_program(with(with({"check", scan}, words), limits));
     INFO(result.err);
@@ -123,7 +123,7 @@ TEST_CASE("an area of many corners stays within the memory limit, or is refused 
                              Words{"--area", small, "--classes", area + "," + coast}})
     CHECK_THAT(check(words, 1).err,
                Contains("coast.json: ") && Contains(" corners of polygons") && Contains("allowed: "));
-  run_within("160MiB", {"detect", scan, "--area", area, "--void-rule", "1", "--report", "--quiet", "--out",
+  run_within("160MiB", {"detect", scan, "--area", area, "--void-rule", "0.1", "--report", "--quiet", "--out",
                         (scratch / "detected").string()});
 }
 
