@@ -134,6 +134,22 @@ PlanGrid grid_over(std::span<const PlanPolygon> polygons, std::size_t rasters, d
   return grid;
 }
 
+// Throws `Error` where the squares of the table do not fit in `memory` bytes.
+void check_tiles(const PlanGrid& grid, double memory, const AreaConfig& config) {
+  constexpr double kBytesOfTile = 240;
+  if (!(config.area_tile > 0)) return;
+  const double cells = config.area_tile / grid.edge();  // along an edge
+  const double tiles =
+      (static_cast<double>(grid.columns) / cells + 2) * (static_cast<double>(grid.rows) / cells + 2);
+  if (tiles * kBytesOfTile <= memory) return;
+  std::ostringstream message;
+  message << "area_tile = " << config.area_tile << ": the area has " << std::floor(tiles)
+          << " squares with this edge, more than fit in the " << std::floor(memory / (1 << 20))
+          << " MiB that the memory limit leaves for them; allowed: an edge of "
+          << config.area_tile * std::sqrt(tiles * kBytesOfTile / memory) * 1.1 << " or more";
+  throw Error(message.str());
+}
+
 // ---- the voids
 
 // Edges of outlines across rows that fit in memory.
@@ -407,9 +423,10 @@ std::optional<Area> read_area(const FileScan& scan, const FilesConfig& config) {
   area.polygons = files.read(config.area.area);
   if (!config.area.except.empty()) area.exceptions = files.read(config.area.except);
   area.classes = read_classes(config.area.classes, files);
-  const auto half = static_cast<double>(Memory::share(config.run.memory_limit).limit / 2);
+  const auto limit = static_cast<double>(Memory::share(config.run.memory_limit).limit);
   area.grid = grid_over(area.polygons, area.exceptions.empty() ? 3 : 4,
-                        half - static_cast<double>(files.bytes()), config.area);
+                        limit / 2 - static_cast<double>(files.bytes()), config.area);
+  check_tiles(area.grid, limit / 8, config.area);
   return area;
 }
 

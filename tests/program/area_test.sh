@@ -353,6 +353,8 @@ END
 echo '{"type":"Polygon","coordinates":[[[0,0],[299,0],[299,299],[0,299],[0,0]]]}' >wide.geojson
 refuse "points are so far apart that outlines of voids have .* edges" check wide.xyz --columns "x y z" --area wide.geojson \
   --void-rule 1.5 --memory-limit 112MiB
+refuse "area_tile = 0.5: the area has 360000 squares with this edge, more than .* allowed: an edge of 1.3.* or more" check wide.xyz \
+  --columns "x y z" --area wide.geojson --void-rule 0.5 --area-tile 0.5 --memory-limit 112MiB
 refuse "--area is required" check "${some[@]}"
 refuse "earth.txt: its places are geocentric, as of EPSG:4978, and --area needs a plan; .*EPSG:32632" check earth.txt \
   --columns "x y z" "${on[@]}"
