@@ -167,13 +167,14 @@ std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig c
                                                      Memory::share(config.run.memory_limit).reading);
         tools::require_lengths(*found->scan);
         found->warnings = tools::input_warnings(*found->scan);
-        found->scratch = std::make_unique<TemporaryFolder>(temporary_parent(config.run.scratch), kScratchPrefix);
-        const auto area = io::read_area(*found->scan, config);
+        found->scratch =
+            std::make_unique<TemporaryFolder>(temporary_parent(config.run.scratch), kScratchPrefix);
+        auto area = io::read_area(*found->scan, config);
         const auto stations = io::watch_stations(*found->scan, config.output, found->scratch->path());
         found->detection.emplace(
             io::ExplainedDetection{*detect(*found->scan, config, found->scratch->path(), watched)});
         if (stations) io::find_causes(*stations, *found->scan, config.run, *found->detection);
-        if (area) found->detection->area = io::check_area(*area, *found->scan, config, watched);
+        if (area) found->detection->area = io::check_area(std::move(*area), *found->scan, config, watched);
         std::ranges::copy(
             tools::station_warnings(found->detection->stations, found->detection->points_of_none),
             std::back_inserter(found->warnings));
@@ -194,9 +195,9 @@ std::vector<std::string> check(std::vector<io::ScanInput> inputs, const io::File
         io::FileScan scan(std::move(inputs), config.input, Memory::share(config.run.memory_limit).reading);
         tools::require_lengths(scan);
         warnings = tools::input_warnings(scan);
-        const auto area = io::read_area(scan, config);
+        auto area = io::read_area(scan, config);
         if (!area) throw Error("area: is empty; allowed: a file of polygons");
-        const io::AreaCheck checked = io::check_area(*area, scan, config, watched);
+        const io::AreaCheck checked = io::check_area(std::move(*area), scan, config, watched);
         std::ranges::copy(tools::area_warnings(checked), std::back_inserter(warnings));
         io::ResultFolder results(folder);
         io::write_voids(checked, scan, config.area, results);

@@ -2,6 +2,7 @@
 #include "bench/evaluation/evaluation.hpp"
 
 #include "bench/evaluation/loop_kind.hpp"
+#include "bench/evaluation/loop_order.hpp"
 #include "bench/evaluation/loops_reader.hpp"
 #include "bench/evaluation/mesh_boundary.hpp"
 #include "bench/evaluation/mesh_reader.hpp"
@@ -15,6 +16,7 @@
 #include "io/scan/file_scan.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <string>
@@ -30,21 +32,25 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kLoopsEnding = ".loops.txt";
 
-std::vector<double> confidences(const Json& loops) {
-  std::vector<double> values;
-  bool any = false;
-  for (const Json& loop : loops) {
-    const auto found = loop.find("confidence");
-    const bool known = found != loop.end() && found->is_number();
-    values.push_back(known ? found->get<double>() : std::numeric_limits<double>::quiet_NaN());
-    any = any || known;
-  }
-  if (!any) values.clear();
-  return values;
+double confidence_of(const Json& loop) {
+  const auto found = loop.find("confidence");
+  const bool is_known = found != loop.end() && found->is_number();
+  return is_known ? found->get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
+// Reads one loop at a time, and of a loop its confidence alone.
 void read_report(const fs::path& file, Result& result) {
-  const Json report = read_json(file);
+  using Event = Json::parse_event_t;
+  bool is_in_loops = false;
+  const auto keep = [&](int depth, Event event, const Json& parsed) {
+    if (depth == 1 && event == Event::key) is_in_loops = parsed == "loops";
+    if (!is_in_loops) return true;
+    if (depth == 3 && event == Event::key) return parsed == "confidence";
+    if (depth != 2 || event != Event::object_end) return true;
+    result.confidence.push_back(confidence_of(parsed));
+    return false;
+  };
+  const Json report = read_json(file, kResultOfDetect, keep);
   try {
     result.points = report.at("counts").at("points").get<std::uint64_t>();
     result.columns = report.value("/parameters/input/columns"_json_pointer, std::string());
@@ -55,15 +61,16 @@ void read_report(const fs::path& file, Result& result) {
         scan.pose = Eigen::Matrix4d::Map(rows.data()).transpose();
       }
     }
-    if (report.at("loops").size() != result.loops.size()) {
-      throw Error(file.string() + ": " + std::to_string(report.at("loops").size()) + " loops, but " +
+    if (result.confidence.size() != result.loops.size() || !report.at("loops").empty()) {
+      throw Error(file.string() + ": " + std::to_string(result.confidence.size()) + " loops, but " +
                   result.file.string() + " has " + std::to_string(result.loops.size()) +
                   "; both must be of one run");
     }
-    result.confidence = confidences(report.at("loops"));
   } catch (const Json::exception&) {
     throw Error(file.string() + ": is not a report of lacuna detect, with counts, inputs and loops");
   }
+  const auto is_unknown = [](double confidence) { return std::isnan(confidence); };
+  if (std::ranges::all_of(result.confidence, is_unknown)) result.confidence.clear();
 }
 
 bool is_ply(const fs::path& file) {
@@ -246,6 +253,7 @@ Evaluation evaluate(const Result& result, const Truth& truth, const EvaluationRu
   }
   for (const LoopIds& loop : result.loops) check_ids(result.file, loop, truth);
   if (result.boundary) check_ids(result.file.parent_path() / "boundary.ply", *result.boundary, truth);
+  check_order(result, truth);
   Evaluation evaluation{.tolerances = tolerances_of_places(result, truth, rule.tolerance)};
   const MatchRule match = match_rule(truth, rule, evaluation.tolerances);
   evaluation.loops = match_loops(result.loops, truth.loops, truth.positions, match);

@@ -81,7 +81,7 @@ Surface read_surface(const std::filesystem::path& file);
 MatchRule match_rule(const Truth& truth, const EvaluationRule& rule, std::span<const double> tolerances);
 
 // Throws `Error` if the result is of another scan: it has ids, or a number of points, that the truth does not
-// have.
+// have. Throws, too, if the points of a loop are in no order.
 Evaluation evaluate(const Result& result, const Truth& truth, const EvaluationRule& rule);
 
 }  // namespace lacuna::evaluation

@@ -4,10 +4,12 @@
 #include "bench/evaluation/loop_kind.hpp"
 #include "bench/evaluation/triangle_pieces.hpp"
 #include "io/lids/triangulate_polygon.hpp"
+#include "tools/matching/edge_tree.hpp"
+#include "tools/matching/point_tree.hpp"
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -16,71 +18,113 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-struct Pieces {
-  Points centroids;
-  std::vector<double> areas;
-  std::vector<double> reaches;  // how far from a piece others are near
-};
+Points points_of(const LoopIds& ids, const Truth& truth) {
+  Points points;
+  for (const std::uint64_t id : ids) points.push_back(truth.positions[id]);
+  return points;
+}
 
-void add_pieces(const LoopIds& ids, const Truth& truth, const MatchRule& rule, Pieces& pieces) {
-  Points loop;
+// Returns how far from the surface of a hole others are near.
+double reach_of(const LoopIds& ids, const MatchRule& rule) {
   double reach = 0;
-  for (const std::uint64_t id : ids) {
-    loop.push_back(truth.positions[id]);
-    reach += rule.tolerance_at(id) / static_cast<double>(ids.size());
-  }
+  for (const std::uint64_t id : ids) reach += rule.tolerance_at(id) / static_cast<double>(ids.size());
+  return reach;
+}
+
+// Visits the pieces of the surface of a loop, as visit_pieces() does.
+template <class Skip, class Visit>
+void visit_surface(const Points& loop, double longest_edge, const Skip& skip, const Visit& visit) {
   const bool is_finite = std::all_of(loop.begin(), loop.end(), [](const auto& p) { return p.allFinite(); });
   if (loop.size() < 3 || !is_finite) return;
   const io::LidMesh lid = io::triangulate_polygon(loop);
-  for (const auto& [a, b, c] : lid.triangles) {
-    visit_pieces(
-        {lid.vertices[a], lid.vertices[b], lid.vertices[c]}, rule.tolerance / 2,
-        [](const Corners&) { return false; },
+  for (const auto& [a, b, c] : lid.triangles)
+    visit_pieces({lid.vertices[a], lid.vertices[b], lid.vertices[c]}, longest_edge, skip, visit);
+}
+
+// The surfaces of the true holes. Those of found holes pass by piece by piece, however many they are.
+class TrueSurfaces {
+ public:
+  TrueSurfaces(const Truth& truth, std::span<const TrueMatch> matches, const MatchRule& rule)
+      : longest_edge_(rule.tolerance / 2) {
+    for (const bool counts : {true, false}) {
+      for (std::size_t i = 0; i < truth.loops.size(); ++i) {
+        if (truth.hole_widths[i] && matches[i].counts == counts) add(truth.loops[i], truth, rule);
+      }
+      if (counts) covered_.resize(areas_.size());
+    }
+    std::vector<Segment> places;
+    for (std::size_t i = 0; i < covered_.size(); ++i) places.push_back({centroids_[i], centroids_[i], i});
+    counting_.emplace(std::move(places));
+    all_.emplace(centroids_);
+  }
+
+  // `reach`: of the found hole.
+  void take_found(const Points& loop, double reach) {
+    const auto is_far = [&](const Corners& part) {
+      double extent = 0;
+      const Eigen::Vector3d centroid = centroid_of(part);
+      for (const Eigen::Vector3d& corner : part) extent = std::max(extent, (corner - centroid).stableNorm());
+      if (all_->nearest_distance(centroid) <= std::max(reach, farthest_) + extent) return false;
+      found_ += area_of(part);
+      return true;
+    };
+    visit_surface(loop, longest_edge_, is_far, [&](const Corners& piece) {
+      found_ += area_of(piece);
+      const Eigen::Vector3d centroid = centroid_of(piece);
+      if (all_->nearest_distance(centroid) <= reach) right_ += area_of(piece);
+      counting_->owners_within(centroid, farthest_, near_);
+      for (const std::size_t of : near_) {
+        if ((centroids_[of] - centroid).stableNorm() <= reaches_[of]) covered_[of] = true;
+      }
+    });
+  }
+
+  HoleAreas areas() const {
+    HoleAreas areas{.found = found_, .right = right_};
+    for (std::size_t i = 0; i < covered_.size(); ++i) {
+      areas.truth += areas_[i];
+      if (covered_[i]) areas.covered += areas_[i];
+    }
+    return areas;
+  }
+
+ private:
+  void add(const TrueLoop& hole, const Truth& truth, const MatchRule& rule) {
+    LoopIds ids;
+    for (const auto& edge : hole.edges) ids.push_back(edge[0]);
+    const double reach = reach_of(ids, rule);
+    farthest_ = std::max(farthest_, reach);
+    visit_surface(
+        points_of(ids, truth), longest_edge_, [](const Corners&) { return false; },
         [&](const Corners& piece) {
-          pieces.centroids.push_back(centroid_of(piece));
-          pieces.areas.push_back(area_of(piece));
-          pieces.reaches.push_back(reach);
+          centroids_.push_back(centroid_of(piece));
+          areas_.push_back(area_of(piece));
+          reaches_.push_back(reach);
         });
   }
-}
 
-double area_of(const Pieces& pieces) {
-  return std::accumulate(pieces.areas.begin(), pieces.areas.end(), 0.0);
-}
-
-// Returns the area of the pieces that are near one of the others.
-double area_near(const Pieces& pieces, std::span<const Eigen::Vector3d> others) {
-  const PointTree tree(others);
-  double area = 0;
-  for (std::size_t i = 0; i < pieces.areas.size(); ++i) {
-    if (tree.nearest_distance(pieces.centroids[i]) <= pieces.reaches[i]) area += pieces.areas[i];
-  }
-  return area;
-}
+  double longest_edge_, farthest_ = 0;
+  Points centroids_;  // of the pieces; those of the holes that count come first
+  std::vector<double> areas_, reaches_;
+  std::vector<bool> covered_;  // of the pieces that count
+  std::optional<EdgeTree> counting_;
+  std::optional<PointTree> all_;
+  std::vector<std::size_t> near_;
+  double found_ = 0, right_ = 0;
+};
 
 }  // namespace
 
 HoleAreas compare_areas(std::span<const LoopIds> loops, const Truth& truth,
                         std::span<const TrueMatch> matches, const MatchRule& rule) {
   if (!(rule.tolerance > 0)) return {};
-  Pieces counting, others, found;
-  for (std::size_t i = 0; i < truth.loops.size(); ++i) {
-    if (!truth.hole_widths[i]) continue;  // an outer curve
-    LoopIds ids;
-    for (const auto& edge : truth.loops[i].edges) ids.push_back(edge[0]);
-    add_pieces(ids, truth, rule, matches[i].counts ? counting : others);
-  }
+  TrueSurfaces surfaces(truth, matches, rule);
   const PointTree tree(truth.points);
   for (const LoopIds& ids : loops) {
     if (kind_of(ids, truth.positions, truth.points, tree) == LoopKind::kHole)
-      add_pieces(ids, truth, rule, found);
+      surfaces.take_found(points_of(ids, truth), reach_of(ids, rule));
   }
-  HoleAreas areas{
-      .truth = area_of(counting), .covered = area_near(counting, found.centroids), .found = area_of(found)};
-  Points all = std::move(counting.centroids);
-  all.insert(all.end(), others.centroids.begin(), others.centroids.end());
-  areas.right = area_near(found, all);
-  return areas;
+  return surfaces.areas();
 }
 
 }  // namespace lacuna::evaluation

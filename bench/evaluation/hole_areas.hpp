@@ -20,7 +20,7 @@ struct HoleAreas {
 // a point that is not finite. Places of a hole are near others within the mean tolerance of the hole's
 // points. Each surface is divided into pieces with edges of at most half of the least tolerance, and the
 // centroid of a piece decides for the piece. With a tolerance of 0, all areas are 0. Cost: n log n for points
-// and pieces.
+// and pieces. Memory: the pieces of the true holes.
 HoleAreas compare_areas(std::span<const LoopIds> loops, const Truth& truth,
                         std::span<const TrueMatch> matches, const MatchRule& rule);
 

@@ -4,11 +4,17 @@
 #include "engine/run/error.hpp"
 #include "io/crs/gdal_session.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <span>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
@@ -16,25 +22,30 @@
 namespace lacuna::io {
 namespace {
 
-bool is_of_degrees(const OGREnvelope& box) {
-  return box.MinX >= -360 && box.MaxX <= 360 && box.MinY >= -90 && box.MaxY <= 90;
+bool is_of_degrees(const Eigen::Vector2d& place) {
+  return std::abs(place.x()) <= 360 && std::abs(place.y()) <= 90;
+}
+
+constexpr std::uint64_t kBytesOfCorner = 2 * sizeof(double);
+
+// Returns a name or a text as SQL has it.
+std::string in_sql(std::string_view text, char quote) {
+  std::string all(1, quote);
+  for (const char c : text) all.append(c == quote ? 2 : 1, c);
+  return all + quote;
 }
 
 // The polygons of one file.
 class Reader {
  public:
-  explicit Reader(AreaPolygons& polygons) : to_(polygons) {}
+  explicit Reader(HeldPolygons& polygons) : to_(polygons) {}
 
   void read() {
-    const char* const drivers[] = {"GPKG", "GeoJSON", "ESRI Shapefile", nullptr};
-    const Dataset dataset(GDALDataset::Open(to_.file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers));
-    std::error_code error;
-    if (!dataset && !std::filesystem::exists(to_.file, error) && !to_.file.starts_with("/vsi"))
-      throw Error(to_.file + ": no such file");
-    if (!dataset) fail("cannot be read as GeoPackage, GeoJSON or Shapefile");
-    const std::string_view format = dataset->GetDriverName();
-    for (OGRLayer* const layer : dataset->GetLayers()) read(*layer, format == "GeoJSON");
-    if (to_.polygons.empty()) fail("has no polygon");
+    if (to_.polygons.empty()) return read_layers();
+    OGRSpatialReference crs;
+    if (to_.file_crs.empty()) return;
+    if (!read_exact_crs(to_.file_crs, crs)) fail("its member crs is no known system");
+    convert(0, &crs, true);
   }
 
  private:
@@ -43,11 +54,141 @@ class Reader {
     throw Error(to_.file + ": " + reason + (text.empty() ? "" : " (GDAL: " + text + ")"));
   }
 
+  void read_layers() {
+    const char* const drivers[] = {"GPKG", "ESRI Shapefile", nullptr};
+    const Dataset dataset(GDALDataset::Open(to_.file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers));
+    if (!dataset) fail("cannot be read as GeoPackage, GeoJSON or Shapefile");
+    const bool is_geopackage = std::string_view(dataset->GetDriverName()) == "GPKG";
+    if (!is_geopackage) check_shapefile();
+    for (OGRLayer* const layer : dataset->GetLayers()) {
+      if (is_geopackage && !has_geometries(*dataset, *layer)) continue;
+      read(*layer);
+    }
+  }
+
+  // The index of the records has their lengths, in words of 16 bits. Without it, a record may be as long as
+  // the file.
+  void check_shapefile() const {
+    std::filesystem::path index = to_.file;
+    std::ifstream in(index.replace_extension(".shx"), std::ios::binary);
+    std::uint64_t longest = 0;
+    std::array<unsigned char, 8> record;
+    in.ignore(100);
+    while (in.read(reinterpret_cast<char*>(record.data()), record.size())) {
+      std::uint64_t words = 0;
+      for (std::size_t i = 4; i < 8; ++i) words = words << 8 | record[i];
+      longest = std::max(longest, 2 * words);
+    }
+    check_corners(to_, (longest > 0 ? longest : std::filesystem::file_size(to_.file)) / kBytesOfCorner);
+  }
+
+  // Whether a layer is a table of geometries; throws unless each of them fits in memory. To find the
+  // columns of a view, GDAL runs it, so the name comes first.
+  bool has_geometries(GDALDataset& dataset, OGRLayer& layer) const {
+    const std::string name = layer.GetName(), text = in_sql(name, '\'');
+    if (first_value(dataset, "SELECT COUNT(*) FROM gpkg_geometry_columns WHERE lower(table_name) = lower(" +
+                                 text + ")") == 0)
+      return false;
+    if (first_value(dataset,
+                    "SELECT COUNT(*) FROM sqlite_master WHERE type = 'table' AND "
+                    "sql NOT LIKE 'CREATE VIRTUAL%' AND lower(name) = lower(" +
+                        text + ")") == 0)
+      fail("layer " + name + " is no table, but a view, which may have no end; `ogr2ogr OUT.gpkg IN.gpkg " +
+           name + "` makes a table of it");
+    const std::string column = in_sql(layer.GetGeometryColumn(), '"');
+    const double longest =
+        first_value(dataset, "SELECT MAX(LENGTH(" + column + ")) FROM " + in_sql(name, '"'));
+    check_corners(to_, static_cast<std::uint64_t>(longest) / kBytesOfCorner);
+    return true;
+  }
+
+  // Returns the number that a query gives; 0 for none.
+  double first_value(GDALDataset& dataset, const std::string& query) const {
+    const auto release = [&](OGRLayer* layer) { dataset.ReleaseResultSet(layer); };
+    const std::unique_ptr<OGRLayer, decltype(release)> rows(
+        dataset.ExecuteSQL(query.c_str(), nullptr, nullptr), release);
+    if (!rows) fail("cannot be read");
+    const OGRFeatureUniquePtr row{rows->GetNextFeature()};
+    return row && row->GetFieldCount() > 0 ? row->GetFieldAsDouble(0) : 0;
+  }
+
+  void read(OGRLayer& layer) {
+    const std::size_t first = to_.polygons.size();
+    // A value of another column may be of any length.
+    std::vector<const char*> columns;
+    const OGRFeatureDefn& definition = *layer.GetLayerDefn();
+    for (int i = 0; i < definition.GetFieldCount(); ++i)
+      columns.push_back(definition.GetFieldDefn(i)->GetNameRef());
+    columns.push_back(nullptr);
+    layer.SetIgnoredFields(columns.data());
+    layer.ResetReading();
+    while (const OGRFeatureUniquePtr feature{layer.GetNextFeature()}) {
+      const OGRGeometry* const geometry = feature->GetGeometryRef();
+      if (geometry == nullptr || geometry->getDimension() != 2) continue;
+      if (geometry->hasCurveGeometry() == FALSE) {
+        add(*geometry);
+      } else {
+        add(*std::unique_ptr<OGRGeometry>(geometry->getLinearGeometry()));
+      }
+    }
+    if (!failures_.first().empty()) fail("cannot be read");
+    convert(first, layer.GetSpatialRef(), false);
+  }
+
+  void add(const OGRGeometry& geometry) {
+    const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+    if (type == wkbPolygon) {
+      PlanPolygon polygon;
+      for (const OGRLinearRing* const ring : *geometry.toPolygon()) add_ring(ring_of(*ring), polygon);
+      if (!polygon.empty()) take_polygon(std::move(polygon), to_);
+    } else if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection)) {
+      for (const OGRGeometry* const part : *geometry.toGeometryCollection()) add(*part);
+    }
+  }
+
+  Ring2 ring_of(const OGRLinearRing& ring) const {
+    check_corners(to_, static_cast<std::uint64_t>(ring.getNumPoints()));
+    Ring2 corners;
+    corners.reserve(static_cast<std::size_t>(ring.getNumPoints()));
+    for (int i = 0; i < ring.getNumPoints(); ++i) corners.emplace_back(ring.getX(i), ring.getY(i));
+    return corners;
+  }
+
+  // Converts the polygons from the first one on.
+  void convert(std::size_t first, const OGRSpatialReference* given, bool is_geojson) {
+    const auto conversion = conversion_from(given);
+    if (!conversion) return;
+    const bool from_degrees = given->IsGeographic() != 0;
+    for (PlanPolygon& polygon : std::span(to_.polygons).subspan(first)) {
+      for (Ring2& ring : polygon) convert(ring, *conversion, from_degrees, is_geojson);
+    }
+  }
+
+  void convert(Ring2& ring, OGRCoordinateTransformation& conversion, bool from_degrees,
+               bool is_geojson) const {
+    constexpr std::size_t kTogether = 1024;
+    std::array<double, kTogether> x, y;
+    for (std::size_t first = 0; first < ring.size(); first += kTogether) {
+      const std::span part = std::span(ring).subspan(first, std::min(kTogether, ring.size() - first));
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        if (from_degrees && !is_of_degrees(part[i])) fail_at_degrees(part[i], is_geojson);
+        x[i] = part[i].x();
+        y[i] = part[i].y();
+      }
+      bool is_well = conversion.Transform(static_cast<int>(part.size()), x.data(), y.data()) != FALSE;
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        part[i] = {x[i], y[i]};
+        is_well = is_well && part[i].allFinite();
+      }
+      if (!is_well) fail("cannot be converted to the coordinate reference system of the scan");
+    }
+  }
+
   // Degrees that are none come from a file that states no system, mostly.
-  [[noreturn]] void fail_at_degrees(const OGREnvelope& box, bool is_geojson) const {
+  [[noreturn]] void fail_at_degrees(const Eigen::Vector2d& place, bool is_geojson) const {
     std::ostringstream text;
     text.precision(10);
-    text << to_.file << ": its coordinates, such as " << box.MinX << " " << box.MinY
+    text << to_.file << ": its coordinates, such as " << place.x() << " " << place.y()
          << ", are read as degrees "
          << (is_geojson
                  ? "by RFC 7946, unless a member `crs` of the file names their system; a GeoPackage "
@@ -57,49 +198,8 @@ class Reader {
     throw Error(text.str());
   }
 
-  void read(OGRLayer& layer, bool is_geojson) {
-    const auto conversion = conversion_of(layer);
-    const bool from_degrees = conversion && layer.GetSpatialRef()->IsGeographic() != 0;
-    layer.ResetReading();
-    while (const OGRFeatureUniquePtr feature{layer.GetNextFeature()}) {
-      OGRGeometry* const geometry = feature->GetGeometryRef();
-      if (geometry == nullptr || geometry->getDimension() != 2) continue;
-      OGREnvelope box;
-      geometry->getEnvelope(&box);
-      if (from_degrees && !is_of_degrees(box)) fail_at_degrees(box, is_geojson);
-      if (conversion && geometry->transform(conversion.get()) != OGRERR_NONE)
-        fail("cannot be converted to the coordinate reference system of the scan");
-      // Curved polygons become polygons of straight edges.
-      const std::unique_ptr<OGRGeometry> straight(geometry->getLinearGeometry());
-      add(*straight);
-    }
-    if (!failures_.first().empty()) fail("cannot be read");
-  }
-
-  void add(const OGRGeometry& geometry) {
-    const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
-    if (type == wkbPolygon) {
-      PlanPolygon polygon;
-      for (const OGRLinearRing* const ring : *geometry.toPolygon()) add_ring(*ring, polygon);
-      if (!polygon.empty()) to_.polygons.push_back(std::move(polygon));
-    } else if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection)) {
-      for (const OGRGeometry* const part : *geometry.toGeometryCollection()) add(*part);
-    }
-  }
-
-  void add_ring(const OGRLinearRing& ring, PlanPolygon& polygon) {
-    Ring2 corners;
-    for (const OGRPoint& corner : ring) corners.emplace_back(corner.getX(), corner.getY());
-    if (!corners.empty() && corners.front() == corners.back()) corners.pop_back();
-    for (const Eigen::Vector2d& corner : corners) {
-      if (!corner.allFinite()) fail("has a corner that is not finite");
-    }
-    if (corners.size() >= 3) polygon.push_back(std::move(corners));
-  }
-
   // Null where positions are as they are.
-  std::unique_ptr<OGRCoordinateTransformation> conversion_of(OGRLayer& layer) {
-    const OGRSpatialReference* const given = layer.GetSpatialRef();
+  std::unique_ptr<OGRCoordinateTransformation> conversion_from(const OGRSpatialReference* given) {
     if (given == nullptr || given->IsLocal() != 0) return nullptr;
     to_.file_crs = given->GetName();
     OGRSpatialReference from = *given, to;
@@ -117,13 +217,13 @@ class Reader {
     return conversion;
   }
 
-  AreaPolygons& to_;
+  HeldPolygons& to_;
   GdalFailures failures_;
 };
 
 }  // namespace
 
-extern "C" void lacuna_read_area_polygons(AreaPolygons& polygons) {
+extern "C" void lacuna_read_area_polygons(HeldPolygons& polygons) {
   register_gdal_drivers();
   Reader(polygons).read();
 }

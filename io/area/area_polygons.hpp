@@ -3,24 +3,15 @@
 #pragma once
 
 #include "engine/export.hpp"
-#include "io/area/plan_polygon.hpp"
-
-#include <string>
-#include <vector>
+#include "io/area/held_polygons.hpp"
 
 namespace lacuna::io {
 
-struct AreaPolygons {
-  std::string file;                   // GeoPackage, GeoJSON or Shapefile
-  std::string crs;                    // of the scan, as FileScan::common_crs; empty if not known
-  std::vector<PlanPolygon> polygons;  // in coordinates of the scan
-  std::string file_crs;               // name of the file's system; empty if it has none
-  bool is_converted = false;          // from that system
-};
-
-// Fills in the polygons of all layers. They are converted where both systems are known and differ. Throws
-// `Error` if the file cannot be read, has no polygon, or has a system that cannot be converted.
-using ReadAreaPolygons = void(AreaPolygons& polygons);
+// Fills in the polygons of all layers, unless they are there, as those of GeoJSON are: in the system
+// `file_crs`. They are converted where both systems are known and differ. Of a GeoPackage, tables alone are
+// read: a view may have no end. Throws `Error` if the file cannot be read, has a system that cannot be
+// converted, or has more corners than are allowed.
+using ReadAreaPolygons = void(HeldPolygons& polygons);
 
 inline constexpr const char* kReadAreaPolygons = "lacuna_read_area_polygons";
 extern "C" LACUNA_API ReadAreaPolygons lacuna_read_area_polygons;

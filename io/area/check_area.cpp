@@ -3,21 +3,25 @@
 
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
+#include "engine/run/regular_file.hpp"
 #include "io/area/area_basis.hpp"
 #include "io/area/area_polygons.hpp"
 #include "io/area/area_tiles.hpp"
 #include "io/area/empty_places.hpp"
+#include "io/area/geojson_polygons.hpp"
 #include "io/area/plan_raster.hpp"
 #include "io/area/trace_voids.hpp"
 #include "io/crs/gis_module.hpp"
 #include "io/scan/plan_system.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <numbers>
 #include <sstream>
+#include <system_error>
 #include <tuple>
 #include <utility>
 
@@ -30,18 +34,53 @@ constexpr const char* kUser = "--area, --except and --classes";
 
 // ---- the area
 
-std::vector<PlanPolygon> read_polygons(const std::string& file, const FileScan& scan) {
-  static auto* const read = reinterpret_cast<ReadAreaPolygons*>(load_gis_function(kReadAreaPolygons, kUser));
-  AreaPolygons polygons{.file = file, .crs = scan.common_crs()};
-  read(polygons);
-  if (polygons.is_converted) spdlog::info("{}: is converted from {}", file, polygons.file_crs);
-  if (!polygons.is_converted && polygons.file_crs.empty() != scan.common_crs().empty())
-    spdlog::warn("{}: {} has no coordinate reference system; positions are compared as they are", file,
-                 polygons.file_crs.empty() ? "it" : "the scan");
-  return std::move(polygons.polygons);
+// GDAL opens those next to a Shapefile, too.
+void check_files(const std::filesystem::path& file) {
+  constexpr const char* kNeeded = "a file of polygons";
+  check_regular_file(file, kNeeded);
+  for (const char* const ending : {".shp", ".shx", ".dbf", ".prj", ".cpg", ".qix", ".sbn"}) {
+    const std::filesystem::path other = std::filesystem::path(file).replace_extension(ending);
+    std::error_code error;
+    if (std::filesystem::exists(other, error)) check_regular_file(other, kNeeded);
+  }
 }
 
-std::vector<ClassPolygons> read_classes(const std::string& files, const FileScan& scan) {
+// Reads the files of an area, whose corners share the memory.
+class PolygonFiles {
+ public:
+  PolygonFiles(const FileScan& scan, const FilesConfig& config)
+      : scan_(scan), memory_(Memory::share(config.run.memory_limit).limit / 8 * 3) {}
+
+  std::vector<PlanPolygon> read(const std::string& file) {
+    static auto* const read =
+        reinterpret_cast<ReadAreaPolygons*>(load_gis_function(kReadAreaPolygons, kUser));
+    HeldPolygons polygons{.file = file,
+                          .crs = scan_.common_crs(),
+                          .corners = corners_,
+                          .most_in_one = most_in_one_,
+                          .memory = memory_};
+    check_files(file);
+    const bool is_geojson = looks_like_geojson(file);
+    if (is_geojson) read_geojson_polygons(polygons);
+    if (!is_geojson || !polygons.polygons.empty()) read(polygons);
+    if (polygons.polygons.empty()) throw Error(file + ": has no polygon");
+    corners_ = polygons.corners;
+    most_in_one_ = polygons.most_in_one;
+    if (polygons.is_converted) spdlog::info("{}: is converted from {}", file, polygons.file_crs);
+    if (!polygons.is_converted && polygons.file_crs.empty() != scan_.common_crs().empty())
+      spdlog::warn("{}: {} has no coordinate reference system; positions are compared as they are", file,
+                   polygons.file_crs.empty() ? "it" : "the scan");
+    return std::move(polygons.polygons);
+  }
+
+  std::uint64_t bytes() const { return bytes_of_corners(corners_, most_in_one_); }
+
+ private:
+  const FileScan& scan_;
+  std::uint64_t memory_, corners_ = 0, most_in_one_ = 0;
+};
+
+std::vector<ClassPolygons> read_classes(const std::string& files, PolygonFiles& polygons) {
   std::vector<ClassPolygons> classes;
   std::istringstream names(files);
   for (std::string file; std::getline(names, file, ',');) {
@@ -54,35 +93,104 @@ std::vector<ClassPolygons> read_classes(const std::string& files, const FileScan
     const std::string name = std::filesystem::path(file).stem().string();
     const bool is_there = std::ranges::find(classes, name, &ClassPolygons::name) != classes.end();
     if (is_there) throw Error(file + ": a file of --classes before it has this name, too: " + name);
-    classes.push_back({name, read_polygons(file, scan)});
+    classes.push_back({name, polygons.read(file)});
   }
   return classes;
 }
 
-// The cells over all polygons.
-PlanGrid grid_over(std::span<const PlanPolygon> polygons, std::size_t rasters, const FilesConfig& config) {
+// Returns how many cells of an eighth of a size are over the box, along x and y.
+Eigen::Array2d cells_over(const Eigen::AlignedBox2d& bounds, double void_size) {
+  const PlanGrid grid{.size = void_size};
+  return grid.to_cells(bounds.max()).array().ceil() - grid.to_cells(bounds.min()).array().floor();
+}
+
+// Bytes of so many rasters, whose rows are whole words, and of lists of rows and columns.
+double bytes_of(const Eigen::Array2d& cells, std::size_t rasters) {
+  constexpr double kOfRow = 32, kOfColumn = 8, kWord = 64;
+  return cells.y() * (std::ceil(cells.x() / kWord) * 8 * static_cast<double>(rasters) + kOfRow) +
+         cells.x() * kOfColumn;
+}
+
+// The cells over all polygons, in `memory` bytes.
+PlanGrid grid_over(std::span<const PlanPolygon> polygons, std::size_t rasters, double memory,
+                   const AreaConfig& config) {
   Eigen::AlignedBox2d bounds;
   for (const PlanPolygon& polygon : polygons)
     for (const Ring2& ring : polygon)
       for (const Eigen::Vector2d& corner : ring) bounds.extend(corner);
-  PlanGrid grid{.size = void_size_of(config.area)};
-  grid.first = grid.to_cells(bounds.min()).array().floor();
-  const Eigen::Array2d size = grid.to_cells(bounds.max()).array().ceil();
-  const double most = static_cast<double>(Memory::share(config.run.memory_limit).limit / 2 * 8 / rasters);
-  if (!(size.prod() <= most) || !(size.maxCoeff() < std::numeric_limits<int>::max())) {
+  PlanGrid grid{.size = void_size_of(config)};
+  const auto fits = [&](const Eigen::Array2d& cells) {
+    return bytes_of(cells, rasters) <= memory && cells.maxCoeff() < std::numeric_limits<int>::max();
+  };
+  const Eigen::Array2d cells = cells_over(bounds, grid.size);
+  if (!fits(cells)) {
+    constexpr double kStep = 1.05;
+    double allowed = grid.size;
+    while (std::isfinite(allowed) && !fits(cells_over(bounds, allowed))) allowed *= kStep;
     std::ostringstream message;
-    message << "void_rule = " << config.area.void_rule << ": the area has " << size.x() << " x " << size.y()
-            << " cells of an eighth of this size, more than " << most
-            << " within the memory limit; allowed: a size of "
-            << grid.size * std::sqrt(std::max(size.prod() / most, 1.0)) * 1.01 << " or more";
+    message << "void_rule = " << config.void_rule << ": the area has " << cells.x() << " x " << cells.y()
+            << " cells of an eighth of this size, more than fit in the " << std::floor(memory / (1 << 20))
+            << " MiB that the memory limit leaves for them; allowed: a size of " << allowed << " or more";
     throw Error(message.str());
   }
-  grid.columns = static_cast<std::size_t>(size.x());
-  grid.rows = static_cast<std::size_t>(size.y());
+  grid.first = grid.to_cells(bounds.min()).array().floor();
+  grid.columns = static_cast<std::size_t>(cells.x());
+  grid.rows = static_cast<std::size_t>(cells.y());
   return grid;
 }
 
+// Throws `Error` where the squares of the table do not fit in `memory` bytes.
+void check_tiles(const PlanGrid& grid, double memory, const AreaConfig& config) {
+  constexpr double kBytesOfTile = 240;
+  if (!(config.area_tile > 0)) return;
+  const double cells = config.area_tile / grid.edge();  // along an edge
+  const double tiles =
+      (static_cast<double>(grid.columns) / cells + 2) * (static_cast<double>(grid.rows) / cells + 2);
+  if (tiles * kBytesOfTile <= memory) return;
+  std::ostringstream message;
+  message << "area_tile = " << config.area_tile << ": the area has " << std::floor(tiles)
+          << " squares with this edge, more than fit in the " << std::floor(memory / (1 << 20))
+          << " MiB that the memory limit leaves for them; allowed: an edge of "
+          << config.area_tile * std::sqrt(tiles * kBytesOfTile / memory) * 1.1 << " or more";
+  throw Error(message.str());
+}
+
 // ---- the voids
+
+// Edges of outlines across rows that fit in memory.
+std::uint64_t most_edges(const FilesConfig& config) {
+  constexpr std::uint64_t kBytesPerEdge = 200;
+  return Memory::share(config.run.memory_limit).limit / 4 / kBytesPerEdge;
+}
+
+[[noreturn]] void fail_long_outlines(std::uint64_t edges, const FilesConfig& config) {
+  throw Error("void_rule = " + config.area.void_rule +
+              ": the points are so far apart that outlines of voids have at least " + std::to_string(edges) +
+              " edges, more than the " + std::to_string(most_edges(config)) +
+              " that fit in the memory limit; allowed: a larger size");
+}
+
+// Throws `Error` where outlines are far too long for the memory, before it is decided which nearly empty
+// places are empty. That decision takes most of the time, and hardly makes outlines shorter.
+void refuse_far_too_long_outlines(const PlanRaster& empty, const PlanRaster& inside, const PlanGrid& grid,
+                                  const FilesConfig& config) {
+  constexpr std::uint64_t kFar = 2;
+  const auto copy = [&](std::size_t row, std::span<std::uint64_t> cells) {
+    std::ranges::copy(empty.row(row), cells.begin());
+  };
+  std::uint64_t edges = 0;
+  for (std::size_t row = 0; row < grid.rows; ++row) {
+    std::vector<std::uint64_t> voids(inside.row(row).size());
+    grow_row(grid, copy, row, kEmptyRadius, voids);
+    std::uint64_t last = 0;  // the cell before
+    for (std::size_t word = 0; word < voids.size(); ++word) {
+      const std::uint64_t cells = voids[word] & inside.row(row)[word];
+      edges += static_cast<std::uint64_t>(std::popcount(cells ^ (cells << 1 | last)));
+      last = cells >> 63;
+    }
+    if (edges > kFar * most_edges(config)) fail_long_outlines(edges, config);
+  }
+}
 
 // The plan of an area and its voids.
 class Plan {
@@ -90,7 +198,7 @@ class Plan {
   Plan(const PlanGrid& grid, const PlanRaster& inside, const std::optional<PlanRaster>& excepted,
        const PlanOfPoints& points)
       : grid_(grid), inside_(inside), excepted_(excepted), points_(points), hull_(grid.rows) {
-    for_each_run({points.hull}, grid, [&](std::size_t row, std::size_t from, std::size_t to) {
+    for_each_run({points.hull}, Frame::kCells, grid, [&](std::size_t row, std::size_t from, std::size_t to) {
       hull_[row] = {from, to};
     });
   }
@@ -114,21 +222,14 @@ class Plan {
 
   // Throws `Error` where the outlines of the voids do not fit in memory.
   void refuse_long_outlines(const FilesConfig& config) const {
-    constexpr double kBytesPerEdge = 200;
     std::vector<std::uint8_t> values(grid_.columns + 1);
-    double edges = 0;
+    std::uint64_t edges = 0;
     for (std::size_t row = 0; row < grid_.rows; ++row) {
       write_row(row, std::span(values).first(grid_.columns));
       for (std::size_t column = 0; column < grid_.columns; ++column)
         edges += values[column] != values[column + 1];
     }
-    const auto limit = static_cast<double>(Memory::share(config.run.memory_limit).limit);
-    if (edges * kBytesPerEdge <= limit / 4) return;
-    std::ostringstream message;
-    message << "void_rule = " << config.area.void_rule
-            << ": the points are so far apart that outlines of voids have " << edges
-            << " edges, more than fit in the memory limit; allowed: a larger size";
-    throw Error(message.str());
+    if (edges > most_edges(config)) fail_long_outlines(edges, config);
   }
 
   Void measure(TracedVoid&& traced, AreaTiles& tiles) const {
@@ -136,14 +237,15 @@ class Plan {
     result.kind = kind_of(traced);
     std::uint64_t cells = 0, excepted = 0;
     result.counts = !excepted_;
-    for_each_run(traced.outline, grid_, [&](std::size_t row, std::size_t from, std::size_t to) {
-      cells += to - from;
-      tiles.add_void_cells(row, from, to);
-      if (!excepted_) return;
-      excepted += count_bits(excepted_->row(row), from, to);
-      for (std::size_t column = from; column < to && !result.counts; ++column)
-        result.counts = points_.empty.has(column, row) && !excepted_->has(column, row);
-    });
+    for_each_run(traced.outline, Frame::kCells, grid_,
+                 [&](std::size_t row, std::size_t from, std::size_t to) {
+                   cells += to - from;
+                   tiles.add_void_cells(row, from, to);
+                   if (!excepted_) return;
+                   excepted += count_bits(excepted_->row(row), from, to);
+                   for (std::size_t column = from; column < to && !result.counts; ++column)
+                     result.counts = points_.empty.has(column, row) && !excepted_->has(column, row);
+                 });
     if (result.counts)
       tiles.add_void(static_cast<std::size_t>(traced.middle.x()),
                      static_cast<std::size_t>(traced.middle.y()));
@@ -242,7 +344,7 @@ PlanRaster missing_cells(const AreaCheck& check, const std::optional<PlanRaster>
                          const PlanGrid& grid) {
   PlanRaster missing(grid);
   for (const Void& each : std::span(check.voids).first(check.counting()))
-    for_each_run(to_cells(each.outline, grid), grid,
+    for_each_run(each.outline, Frame::kScan, grid,
                  [&](std::size_t row, std::size_t from, std::size_t to) { missing.set(row, from, to); });
   if (excepted) missing.subtract(*excepted);
   return missing;
@@ -254,7 +356,7 @@ void add_class(const ClassPolygons& polygons, const PlanGrid& grid, AreaCheck& c
   AreaClass& sum = check.classes.emplace_back(AreaClass{.name = polygons.name});
   for (Void& each : check.voids) {
     std::uint64_t cells = 0, within = 0;
-    for_each_run(to_cells(each.outline, grid), grid, [&](std::size_t row, std::size_t from, std::size_t to) {
+    for_each_run(each.outline, Frame::kScan, grid, [&](std::size_t row, std::size_t from, std::size_t to) {
       cells += to - from;
       within += count_bits(covered.row(row), from, to);
     });
@@ -298,11 +400,11 @@ std::vector<MiddleCell> middles_of(const AreaCheck& check, const PlanGrid& grid)
   return middles;
 }
 
-AreaPolygon measure(const PlanPolygon& outline, const PlanGrid& grid, const PlanRaster& missing,
+AreaPolygon measure(PlanPolygon outline, const PlanGrid& grid, const PlanRaster& missing,
                     std::span<const MiddleCell> middles) {
-  AreaPolygon polygon{.outline = outline};
+  AreaPolygon polygon{.outline = std::move(outline)};
   std::uint64_t cells = 0, missing_cells = 0;
-  for_each_run(to_cells(outline, grid), grid, [&](std::size_t row, std::size_t from, std::size_t to) {
+  for_each_run(polygon.outline, Frame::kScan, grid, [&](std::size_t row, std::size_t from, std::size_t to) {
     cells += to - from;
     missing_cells += count_bits(missing.row(row), from, to);
     auto at = std::ranges::lower_bound(middles, std::pair(row, from), {}, [](const MiddleCell& middle) {
@@ -322,14 +424,18 @@ std::optional<Area> read_area(const FileScan& scan, const FilesConfig& config) {
   if (config.area.area.empty()) return std::nullopt;
   require_plan(scan, "--area");
   Area area;
-  area.polygons = read_polygons(config.area.area, scan);
-  if (!config.area.except.empty()) area.exceptions = read_polygons(config.area.except, scan);
-  area.classes = read_classes(config.area.classes, scan);
-  area.grid = grid_over(area.polygons, area.exceptions.empty() ? 3 : 4, config);
+  PolygonFiles files(scan, config);
+  area.polygons = files.read(config.area.area);
+  if (!config.area.except.empty()) area.exceptions = files.read(config.area.except);
+  area.classes = read_classes(config.area.classes, files);
+  const auto limit = static_cast<double>(Memory::share(config.run.memory_limit).limit);
+  area.grid = grid_over(area.polygons, area.exceptions.empty() ? 3 : 4,
+                        limit / 2 - static_cast<double>(files.bytes()), config.area);
+  check_tiles(area.grid, limit / 8, config.area);
   return area;
 }
 
-AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config, Progress& progress) {
+AreaCheck check_area(Area area, FileScan& scan, const FilesConfig& config, Progress& progress) {
   // What is empty: the cells of the area without a point near them.
   const PlanGrid& grid = area.grid;
   const PlanRaster inside = rasterise(area.polygons, grid);
@@ -338,7 +444,8 @@ AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config
   AreaTiles tiles(config.area.area_tile, grid);
   tiles.add_area(inside);
   const PlanOfPoints points = find_empty_places(
-      grid, inside, Memory::share(config.run.memory_limit).limit / 8, scan, tiles, progress);
+      grid, inside, Memory::share(config.run.memory_limit).limit / 8, scan, tiles, progress,
+      [&](const PlanRaster& empty) { refuse_far_too_long_outlines(empty, inside, grid, config); });
 
   // The voids: the circles around what is empty.
   const Plan plan(grid, inside, excepted, points);
@@ -363,8 +470,8 @@ AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config
     const PlanRaster missing = missing_cells(check, excepted, grid);
     check.missing_area = grid.area(missing.count());
     const std::vector<MiddleCell> middles = middles_of(check, grid);
-    for (const PlanPolygon& outline : area.polygons)
-      check.polygons.push_back(measure(outline, grid, missing, middles));
+    for (PlanPolygon& outline : area.polygons)
+      check.polygons.push_back(measure(std::move(outline), grid, missing, middles));
   }
   for (const ClassPolygons& polygons : area.classes) add_class(polygons, grid, check);
   progress.end();

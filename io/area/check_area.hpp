@@ -27,8 +27,8 @@ struct Area {
   PlanGrid grid;
 };
 
-// Returns nothing where the config has no area. Throws `Error`: a file that cannot be used, or too many cells
-// for the memory limit.
+// Returns nothing where the config has no area. Throws `Error`: a file that cannot be used, or too many
+// corners or cells for the memory limit.
 LACUNA_API std::optional<Area> read_area(const FileScan& scan, const FilesConfig& config);
 
 // A place is empty if no point lies nearer to it than half of the void size, seen from above. Voids are what
@@ -49,7 +49,6 @@ LACUNA_API std::optional<Area> read_area(const FileScan& scan, const FilesConfig
 //
 // Reads the scan once or twice. Memory: 3 or 4 bits for each cell in the bounds of the area, and the
 // outlines. Cost: linear in points and in cells. Throws `Error` where outlines do not fit in memory.
-LACUNA_API AreaCheck check_area(const Area& area, FileScan& scan, const FilesConfig& config,
-                                Progress& progress);
+LACUNA_API AreaCheck check_area(Area area, FileScan& scan, const FilesConfig& config, Progress& progress);
 
 }  // namespace lacuna::io

@@ -201,7 +201,8 @@ class NearPoints {
 }  // namespace
 
 PlanOfPoints find_empty_places(const PlanGrid& grid, const PlanRaster& inside, std::uint64_t memory,
-                               FileScan& scan, AreaTiles& tiles, Progress& progress) {
+                               FileScan& scan, AreaTiles& tiles, Progress& progress,
+                               const std::function<void(const PlanRaster& empty)>& check) {
   // All is synthetic, or not all points can be held: that shows in the end alone.
   Counting counting;
   std::optional<MarkingObserver> marking;
@@ -222,6 +223,7 @@ PlanOfPoints find_empty_places(const PlanGrid& grid, const PlanRaster& inside, s
   PlanRaster undecided = std::move(marking->maybe);
   tiles = std::move(marking->tiles);
   marking.reset();
+  check(plan.empty);
 
   undecided.subtract(plan.empty);
   if (undecided.count() > 0) {

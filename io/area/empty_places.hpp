@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <set>
 
 namespace lacuna::io {
@@ -36,9 +37,10 @@ struct PlanOfPoints {
 // whose middle is nearly empty. Where such cells are, a second pass collects the points near them. A cell is
 // divided until its parts are decided, or 64 times smaller. So the size of a circle is exact to a five
 // hundredth, whatever the grid. Adds the points to `tiles`. Repeated points count once, if `memory` bytes
-// hold all points; else the pass is made again. Throws `Error` where the points near undecided cells need
-// more than `memory` bytes.
+// hold all points; else the pass is made again. `check` gets the cells with empty middles after the first
+// pass, and may throw. Throws `Error` where the points near undecided cells need more than `memory` bytes.
 PlanOfPoints find_empty_places(const PlanGrid& grid, const PlanRaster& inside, std::uint64_t memory,
-                               FileScan& scan, AreaTiles& tiles, Progress& progress);
+                               FileScan& scan, AreaTiles& tiles, Progress& progress,
+                               const std::function<void(const PlanRaster& empty)>& check);
 
 }  // namespace lacuna::io

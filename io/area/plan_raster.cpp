@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace lacuna::io {
@@ -48,6 +49,48 @@ void for_each_row_of_disc(const Eigen::Vector2d& middle, double radius, const Pl
   }
 }
 
+using VisitRun = std::function<void(std::size_t row, std::size_t from, std::size_t to)>;
+using Crossing = std::pair<std::size_t, double>;  // of a row's middle with an edge: row, place
+
+// Returns those of the rows [first, last); nothing where several rows have too many together.
+std::optional<std::vector<Crossing>> crossings_of(const PlanPolygon& polygon, Frame frame,
+                                                  const PlanGrid& grid, std::size_t first, std::size_t last) {
+  constexpr std::size_t kMost = std::size_t{1} << 17;
+  const auto to_cells = [&](const Eigen::Vector2d& corner) {
+    return frame == Frame::kCells ? corner : grid.to_cells(corner);
+  };
+  std::vector<Crossing> crossings;
+  for (const Ring2& ring : polygon) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Eigen::Vector2d a = to_cells(ring[i]), b = to_cells(ring[i + 1 < ring.size() ? i + 1 : 0]);
+      const std::size_t end = first_middle_from(std::max(a.y(), b.y()), last);
+      for (std::size_t row = std::max(first, first_middle_from(std::min(a.y(), b.y()), last)); row < end;
+           ++row) {
+        const double y = static_cast<double>(row) + 0.5;
+        crossings.emplace_back(row, a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+        if (crossings.size() > kMost && last - first > 1) return std::nullopt;
+      }
+    }
+  }
+  return crossings;
+}
+
+void visit_runs(const PlanPolygon& polygon, Frame frame, const PlanGrid& grid, std::size_t first,
+                std::size_t last, const VisitRun& visit) {
+  auto crossings = crossings_of(polygon, frame, grid, first, last);
+  if (!crossings) {
+    const std::size_t middle = first + (last - first) / 2;
+    visit_runs(polygon, frame, grid, first, middle, visit);
+    return visit_runs(polygon, frame, grid, middle, last, visit);
+  }
+  std::sort(crossings->begin(), crossings->end());
+  for (std::size_t i = 0; i + 1 < crossings->size(); i += 2) {
+    const std::size_t from = first_middle_from((*crossings)[i].second, grid.columns);
+    const std::size_t to = first_middle_from((*crossings)[i + 1].second, grid.columns);
+    if (from < to) visit((*crossings)[i].first, from, to);
+  }
+}
+
 }  // namespace
 
 void PlanRaster::set(std::size_t row, std::size_t from, std::size_t to) {
@@ -73,38 +116,14 @@ std::uint64_t count_bits(std::span<const std::uint64_t> row, std::size_t from, s
   return count;
 }
 
-void for_each_run(const PlanPolygon& polygon, const PlanGrid& grid,
-                  const std::function<void(std::size_t row, std::size_t from, std::size_t to)>& visit) {
-  std::vector<std::pair<std::size_t, double>> crossings;  // of rows' middles with edges: row, place
-  for (const Ring2& ring : polygon) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Eigen::Vector2d &a = ring[i], &b = ring[i + 1 < ring.size() ? i + 1 : 0];
-      const std::size_t end = first_middle_from(std::max(a.y(), b.y()), grid.rows);
-      for (std::size_t row = first_middle_from(std::min(a.y(), b.y()), grid.rows); row < end; ++row) {
-        const double y = static_cast<double>(row) + 0.5;
-        crossings.emplace_back(row, a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
-      }
-    }
-  }
-  std::sort(crossings.begin(), crossings.end());
-  for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
-    const std::size_t from = first_middle_from(crossings[i].second, grid.columns);
-    const std::size_t to = first_middle_from(crossings[i + 1].second, grid.columns);
-    if (from < to) visit(crossings[i].first, from, to);
-  }
-}
-
-PlanPolygon to_cells(PlanPolygon polygon, const PlanGrid& grid) {
-  for (Ring2& ring : polygon) {
-    for (Eigen::Vector2d& corner : ring) corner = grid.to_cells(corner);
-  }
-  return polygon;
+void for_each_run(const PlanPolygon& polygon, Frame frame, const PlanGrid& grid, const VisitRun& visit) {
+  visit_runs(polygon, frame, grid, 0, grid.rows, visit);
 }
 
 PlanRaster rasterise(std::span<const PlanPolygon> polygons, const PlanGrid& grid) {
   PlanRaster raster(grid);
   for (const PlanPolygon& polygon : polygons) {
-    for_each_run(to_cells(polygon, grid), grid,
+    for_each_run(polygon, Frame::kScan, grid,
                  [&](std::size_t row, std::size_t from, std::size_t to) { raster.set(row, from, to); });
   }
   return raster;

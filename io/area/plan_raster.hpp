@@ -78,14 +78,13 @@ class PlanRaster {
 // Counts the set bits [from, to) of a row.
 std::uint64_t count_bits(std::span<const std::uint64_t> row, std::size_t from, std::size_t to);
 
-// Calls visit(row, from, to) for cells [from, to) whose middles lie in the polygon. Its corners are in cells
-// of the grid; cells beyond the grid are left out. Rows ascend, and cells within a row. Memory: 16 bytes for
-// each crossing of an edge with the middle of a row.
-void for_each_run(const PlanPolygon& polygon, const PlanGrid& grid,
-                  const std::function<void(std::size_t row, std::size_t from, std::size_t to)>& visit);
+// What the corners of a polygon are in.
+enum class Frame { kScan, kCells };  // coordinates of the scan, or cells of a grid
 
-// Returns a polygon in cells, from one in coordinates of the scan.
-PlanPolygon to_cells(PlanPolygon polygon, const PlanGrid& grid);
+// Calls visit(row, from, to) for cells [from, to) whose middles lie in the polygon; cells beyond the grid are
+// left out. Rows ascend, and cells within a row. Memory: 4 MiB, or 32 bytes for each edge that a row crosses.
+void for_each_run(const PlanPolygon& polygon, Frame frame, const PlanGrid& grid,
+                  const std::function<void(std::size_t row, std::size_t from, std::size_t to)>& visit);
 
 // Sets the cells whose middles lie in one of the polygons, which have coordinates of the scan.
 PlanRaster rasterise(std::span<const PlanPolygon> polygons, const PlanGrid& grid);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 namespace lacuna::io {
@@ -86,6 +87,10 @@ void LasWriter::write_records(std::span<const LasExtraBytes> extra,
 void LasWriter::put_rows(std::span<const std::byte> records) {
   points_out_->put(records);
   points_ += records.size() / record_bytes_;
+  constexpr std::size_t kReturnAt = 14;
+  const auto mask = static_cast<std::byte>(from_.point_format < 6 ? 7 : 15);
+  for (std::size_t at = kReturnAt; at < records.size(); at += record_bytes_)
+    ++of_return_[std::to_integer<std::size_t>(records[at] & mask)];
 }
 
 void LasWriter::write_extended() {
@@ -103,10 +108,21 @@ void LasWriter::complete_header() {
   put_at(header_, 235, extended_ > 0 ? extended_at_ : std::uint64_t{0});
   put_at(header_, 243, extended_);
   put_at(header_, 247, points_);
+  if (points_ != from_.points) return count_anew();
   if (from_.minor >= 4) return;
   // Counts of returns have 64 bits since LAS 1.4.
   for (std::size_t i = 0; i < 5; ++i)
     put_at(header_, 255 + 8 * i, std::uint64_t{value_at<std::uint32_t>(header_, 111 + 4 * i)});
+}
+
+// The counts of the other header do not hold. Formats from 6 on have no counts of 32 bits, and neither has a
+// file of more points.
+void LasWriter::count_anew() {
+  const bool has_few = from_.point_format < 6 && points_ <= std::numeric_limits<std::uint32_t>::max();
+  const auto few = [&](std::uint64_t count) { return static_cast<std::uint32_t>(has_few ? count : 0); };
+  put_at(header_, 107, few(points_));
+  for (std::size_t i = 0; i < 15; ++i) put_at(header_, 255 + 8 * i, of_return_[i + 1]);
+  for (std::size_t i = 0; i < 5; ++i) put_at(header_, 111 + 4 * i, few(of_return_[i + 1]));
 }
 
 void LasWriter::finish() {

@@ -8,6 +8,7 @@
 #include "io/las/las_points_writer.hpp"
 #include "io/rows/rows_writer.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -20,7 +21,8 @@
 namespace lacuna::io {
 
 // The header of the other file goes over, as LAS 1.4 has it. It has the point format, scale, offset, bounds,
-// numbers of returns, identity and date, and maybe bytes behind its last field. All records go over byte for
+// numbers of returns, identity and date, and maybe bytes behind its last field. If it counts other points
+// than are put, all are counted anew. All records go over byte for
 // byte, except the records of LASzip and COPC and the descriptors of extra bytes.
 class LasWriter final : public RowsWriter {
  public:
@@ -39,6 +41,7 @@ class LasWriter final : public RowsWriter {
   void write_records(std::span<const LasExtraBytes> extra, const std::optional<LasCompression>& compression);
   void write_extended();
   void complete_header();
+  void count_anew();
 
   OutputFile& out_;
   std::filesystem::path file_;
@@ -49,6 +52,7 @@ class LasWriter final : public RowsWriter {
   std::unique_ptr<LasPointsWriter> points_out_;
   std::uint32_t records_ = 0, extended_ = 0;
   std::uint64_t points_ = 0, extended_at_ = 0, waveforms_at_ = 0;
+  std::array<std::uint64_t, 16> of_return_{};  // points of each return number
 };
 
 }  // namespace lacuna::io

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/loops/json.hpp"
 
-#include "engine/run/error.hpp"
-#include "engine/run/regular_file.hpp"
 #include "io/scan/file_scan.hpp"
 
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <variant>
 
 namespace lacuna::io {
@@ -30,27 +25,6 @@ Json begin_json(std::string_view schema) {
 
 std::string print(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
-Json read_json(const std::filesystem::path& file, const Json::parser_callback_t& keep,
-               std::string_view needed) {
-  constexpr int kDeepest = 32;
-  check_regular_file(file, needed);
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error(file.string() + ": cannot be opened: " + std::strerror(errno));
-  const auto keep_flat = [&](int depth, Json::parse_event_t event, Json& parsed) {
-    if (depth > kDeepest) {
-      throw Error(file.string() + ": is nested deeper than " + std::to_string(kDeepest) + " levels; " +
-                  std::string(needed) + " is needed");
-    }
-    return !keep || keep(depth, event, parsed);
-  };
-  try {
-    return Json::parse(in, keep_flat);
-  } catch (const Json::parse_error& error) {
-    throw Error(file.string() + ": byte " + std::to_string(error.byte) + ": is not JSON; " +
-                std::string(needed) + " is needed");
-  }
 }
 
 Json list(const Eigen::Vector3d& vector) {

@@ -4,16 +4,14 @@
 
 #include "engine/model/detection.hpp"
 #include "engine/model/points.hpp"
+#include "io/files/json_file.hpp"
 #include "io/options/options.hpp"
 #include "io/scan/row_filter.hpp"
 #include "io/stations/cause.hpp"
 
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
-
-#include <nlohmann/json.hpp>
 
 namespace lacuna::io {
 
@@ -22,19 +20,13 @@ class FileScan;
 // The form of holes.json, which docs/holes.schema.json describes.
 inline constexpr std::string_view kHolesSchema = "holes 3";
 
-using Json = nlohmann::ordered_json;  // keys stay in the order given; what is not finite is printed as null
+inline constexpr std::string_view kResultOfDetect = "a result of lacuna detect";  // for read_json()
 
 // Returns the first keys of each file: the program's version and the form of the file, such as "holes 1".
 Json begin_json(std::string_view schema);
 
 // Prints with the indent of nlohmann::json: -1 gives one line. A path need not be UTF-8, but the text is.
 std::string print(const Json& json, int indent);
-
-// Returns the content of a file that is no larger than memory; `keep` is called as nlohmann::json::parse does
-// it. Throws `Error` if the file is not regular, not JSON, or nested deeper than any result: printing and
-// copying such values is recursive. `needed` is for the error.
-Json read_json(const std::filesystem::path& file, const Json::parser_callback_t& keep = {},
-               std::string_view needed = "a result of lacuna detect");
 
 Json list(const Eigen::Vector3d& vector);
 Json corners(const Eigen::AlignedBox3d& box);  // {min, max}; null where it is empty

@@ -8,8 +8,9 @@
 
 namespace lacuna::io {
 
-// Returns voids.json of a folder with the largest voids alone, and with outlines as fine as a map shows them.
-// Returns null if the file is not there. Throws `Error` if it is not as Lacuna writes it.
+// Returns voids.json of a folder with the largest voids and the first polygons alone, and with outlines as
+// fine as a map shows them. Returns null if the file is not there. Throws `Error` if it is not as Lacuna
+// writes it.
 Json read_area_section(const std::filesystem::path& folder);
 
 }  // namespace lacuna::io

@@ -81,7 +81,7 @@ void read_holes(const fs::path& file, Scene& scene) {
     return false;
   };
   try {
-    scene.holes = read_json(file, keep);
+    scene.holes = read_json(file, kResultOfDetect, keep);
     if (scene.holes.at("schema") != kHolesSchema) {
       throw Error(file.string() + ": its schema is " + print(scene.holes.at("schema"), -1) + "; \"" +
                   std::string(kHolesSchema) + "\" is read");
@@ -256,7 +256,7 @@ Scene read_scene(const fs::path& folder, const SceneLimits& limits) {
     throw Error(folder.string() + ": not a folder; allowed: a folder with results of lacuna detect");
   Scene scene;
   read_holes(folder / "holes.json", scene);
-  if (const fs::path run = folder / "run.json"; fs::exists(run)) scene.run = read_json(run);
+  if (const fs::path run = folder / "run.json"; fs::exists(run)) scene.run = read_json(run, kResultOfDetect);
   scene.area = read_area_section(folder);
   read_loops(folder / "loops.ply", limits, scene);
   read_points(folder / "sample.ply", limits.positions - scene.loops.vertices.size(), scene);
@@ -267,7 +267,7 @@ Scene read_scene(const fs::path& folder, const SceneLimits& limits) {
 Json read_next_stations(const fs::path& folder) {
   const fs::path file = folder / kNextStationsFile;
   if (!fs::exists(file)) return nullptr;
-  const Json collection = read_json(file, {}, "a result of lacuna stations");
+  const Json collection = read_json(file, "a result of lacuna stations");
   Json stations = Json::array();
   try {
     for (const Json& feature : collection.at("features")) {

@@ -49,12 +49,19 @@ LasInput examine(const std::filesystem::path& file) {
   return input;
 }
 
+// Its header counts the points that were read: those that `--trust` chose.
+LasHeader header_as_read(InputFile& in, const ScanFile& file) {
+  LasHeader header = read_las_header(in);
+  header.points = file.rows();
+  return header;
+}
+
 // Reads the points of the file as records of the parts that are kept.
 class LasRows final : public InputRows {
  public:
   LasRows(const FileScan& scan, std::size_t file, const std::vector<Kept>& kept)
       : in_(scan.files()[file].name),
-        header_(read_las_header(in_)),
+        header_(header_as_read(in_, scan.files()[file])),
         // Its counts were checked when the scan was read.
         points_(las_points(in_, header_, Trust::kHeader, scan.memory())),
         kept_(kept),

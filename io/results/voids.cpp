@@ -8,18 +8,10 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace lacuna::io {
 namespace {
-
-Json rings_json(const PlanPolygon& polygon) {
-  Json rings = Json::array();
-  for (const Ring2& ring : polygon) {
-    Json& corners = rings.emplace_back(Json::array());
-    for (const Eigen::Vector2d& corner : ring) corners.push_back({corner.x(), corner.y()});
-  }
-  return rings;
-}
 
 Json void_json(std::size_t id, const Void& each, const AreaCheck& check) {
   Json shares = Json::object();
@@ -32,16 +24,14 @@ Json void_json(std::size_t id, const Void& each, const AreaCheck& check) {
           {"middle", {each.middle.x(), each.middle.y()}},
           {"spacing", each.spacing},
           {"excepted", each.excepted},
-          {"classes", shares},
-          {"outline", rings_json(each.outline)}};
+          {"classes", shares}};
 }
 
 Json polygon_json(const AreaPolygon& polygon, const AreaCheck& check) {
   return {{"answer", name_of(check.answer_of(polygon))},
           {"area", polygon.area},
           {"covered", polygon.covered()},
-          {"circle", polygon.circle},
-          {"outline", rings_json(polygon.outline)}};
+          {"circle", polygon.circle}};
 }
 
 Json tile_json(const AreaTile& tile) {
@@ -54,12 +44,37 @@ Json tile_json(const AreaTile& tile) {
           {"spacing", tile.spacing()}};
 }
 
+// Writes rings corner by corner: as JSON in memory they would take ten times the space.
+void write_rings(const PlanPolygon& polygon, OutputFile& out) {
+  std::string text = "[";
+  for (const Ring2& ring : polygon) {
+    text += &ring == &polygon.front() ? "[" : ",[";
+    for (const Eigen::Vector2d& corner : ring) {
+      text += &corner == &ring.front() ? "" : ",";
+      text += print(Json::array({corner.x(), corner.y()}), -1);
+      out.write(std::exchange(text, ""));
+    }
+    text += "]";
+  }
+  out.write(text + "]");
+}
+
+// Writes an object with one more member, the outline.
+void write_outlined(std::string object, const PlanPolygon& outline, OutputFile& out) {
+  object.back() = ',';
+  out.write(object + "\"outline\":");
+  write_rings(outline, out);
+  out.write("}");
+}
+
 // Writes `"key":[...]`, a line for each element.
-template <class List, class Print>
-void write_list(std::string_view key, const List& elements, const Print& print_element, OutputFile& out) {
+template <class List, class Write>
+void write_list(std::string_view key, const List& elements, const Write& write, OutputFile& out) {
   out.write(",\n  \"" + std::string(key) + "\": [");
-  for (std::size_t i = 0; i < elements.size(); ++i)
-    out.write((i == 0 ? "\n    " : ",\n    ") + print(print_element(i), -1));
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    out.write(i == 0 ? "\n    " : ",\n    ");
+    write(i);
+  }
   out.write("]");
 }
 
@@ -90,12 +105,16 @@ void write_json(const AreaCheck& check, const FileScan& scan, const AreaConfig& 
   text.resize(text.rfind('}'));
   while (text.back() == '\n') text.pop_back();
   out.write(text);
+  const auto write_polygon = [&](std::size_t i) {
+    write_outlined(print(polygon_json(check.polygons[i], check), -1), check.polygons[i].outline, out);
+  };
+  const auto write_void = [&](std::size_t i) {
+    write_outlined(print(void_json(i, check.voids[i], check), -1), check.voids[i].outline, out);
+  };
+  write_list("polygons", check.polygons, write_polygon, out);
+  write_list("voids", check.voids, write_void, out);
   write_list(
-      "polygons", check.polygons, [&](std::size_t i) { return polygon_json(check.polygons[i], check); }, out);
-  write_list(
-      "voids", check.voids, [&](std::size_t i) { return void_json(i, check.voids[i], check); }, out);
-  write_list(
-      "tiles", check.tiles, [&](std::size_t i) { return tile_json(check.tiles[i]); }, out);
+      "tiles", check.tiles, [&](std::size_t i) { out.write(print(tile_json(check.tiles[i]), -1)); }, out);
   out.write("\n}\n");
 }
 

@@ -75,7 +75,9 @@ class VoidsWriter {
     auto polygon = std::make_unique<OGRPolygon>();
     for (const Ring2& corners : outline) {
       auto ring = std::make_unique<OGRLinearRing>();
-      for (const Eigen::Vector2d& corner : corners) ring->addPoint(corner.x(), corner.y());
+      ring->setNumPoints(static_cast<int>(corners.size()), FALSE);
+      for (std::size_t i = 0; i < corners.size(); ++i)
+        ring->setPoint(static_cast<int>(i), corners[i].x(), corners[i].y());
       ring->closeRings();
       polygon->addRingDirectly(ring.release());
     }

@@ -297,7 +297,7 @@ refuse() {
 some=(holes.xyz --columns "x y z" --out refused)
 for command in check detect; do
   refuse "void_rule = \"\": --area needs it; allowed: a length above 0, or" "$command" "${some[@]}" --area holes.geojson
-  refuse "nothing.gpkg: no such file" "$command" "${some[@]}" --area nothing.gpkg --void-rule 4
+  refuse "nothing.gpkg: cannot be opened: No such file" "$command" "${some[@]}" --area nothing.gpkg --void-rule 4
   refuse "holes.xyz: cannot be read as GeoPackage" "$command" "${some[@]}" --area holes.xyz --void-rule 4
   refuse "void_rule = 1e-6: the area has .* cells of an eighth of this size, more than .* allowed: a size of .* or more" "$command" "${some[@]}" \
     --area holes.geojson --void-rule 1e-6
@@ -305,6 +305,39 @@ for command in check detect; do
     refuse "void_rule = \"$rule\"; allowed: a length above 0, or" "$command" "${some[@]}" --area holes.geojson --void-rule=$rule
   done
   refuse "area_tile is less than the void size, 4.0" "$command" "${some[@]}" --area holes.geojson --void-rule 4 --area-tile 3
+done
+mkfifo pipe.geojson
+for options in "--area pipe.geojson" "--area holes.geojson --except pipe.geojson" "--area holes.geojson --classes pipe.geojson"; do
+  refuse "pipe.geojson: is not a regular file; a file of polygons is needed" check "${some[@]}" --void-rule 4 $options
+done
+# A view may have no end. Its features are those of a table, or rows without one.
+for rows in "n.i % 2 = 0" "n.i < 0"; do
+  cp some.gpkg view.gpkg
+  python3 - "$rows" <<'END'
+import sqlite3, sys
+with sqlite3.connect("view.gpkg") as file:
+    file.execute("CREATE VIEW endless AS WITH n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) "
+                 "SELECT n.i AS fid, some.geom AS geom FROM n, some WHERE " + sys.argv[1])
+    file.execute("INSERT INTO gpkg_contents SELECT 'endless', data_type, 'endless', '', last_change, NULL, NULL, NULL, NULL, "
+                 "srs_id FROM gpkg_contents WHERE table_name = 'some'")
+    file.execute("INSERT INTO gpkg_geometry_columns SELECT 'endless', 'geom', geometry_type_name, srs_id, z, m "
+                 "FROM gpkg_geometry_columns WHERE table_name = 'some'")
+END
+  refuse "view.gpkg: layer endless is no table, but a view, which may have no end; .ogr2ogr" check "${some[@]}" \
+    --area view.gpkg --void-rule 4
+done
+# A polygon of a table or of a Shapefile that does not fit in memory is refused before it is read.
+python3 - <<'END'
+import json, math
+corners = 600_000
+ring = [[50 + (30 + i % 2) * f(2 * math.pi * i / corners) for f in (math.cos, math.sin)] for i in range(corners)]
+json.dump({"type": "Polygon", "coordinates": [ring + ring[:1]]}, open("coast.geojson", "w"))
+END
+ogr2ogr -f GPKG -a_srs EPSG:25832 coast.gpkg coast.geojson
+ogr2ogr -f "ESRI Shapefile" -a_srs EPSG:25832 coast.shp coast.geojson
+for file in coast.geojson coast.gpkg coast.shp; do
+  refuse "$file: .* corners of polygons, .* of them in one, take more than the 42 MiB that the memory limit leaves .* allowed: 550502 in one" \
+    check "${some[@]}" --area $file --void-rule 4 --memory-limit 112MiB
 done
 refuse "water.geojson: a file of --classes before it has this name, too: water" check "${some[@]}" --area holes.geojson \
   --void-rule 4 --classes water.gpkg,water.geojson
@@ -322,6 +355,8 @@ END
 echo '{"type":"Polygon","coordinates":[[[0,0],[299,0],[299,299],[0,299],[0,0]]]}' >wide.geojson
 refuse "points are so far apart that outlines of voids have .* edges" check wide.xyz --columns "x y z" --area wide.geojson \
   --void-rule 1.5 --memory-limit 112MiB
+refuse "area_tile = 0.5: the area has 360000 squares with this edge, more than .* allowed: an edge of 1.3.* or more" check wide.xyz \
+  --columns "x y z" --area wide.geojson --void-rule 0.5 --area-tile 0.5 --memory-limit 112MiB
 refuse "--area is required" check "${some[@]}"
 refuse "earth.txt: its places are geocentric, as of EPSG:4978, and --area needs a plan; .*EPSG:32632" check earth.txt \
   --columns "x y z" "${on[@]}"

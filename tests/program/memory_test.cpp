@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <span>
 
 #include <catch2/catch.hpp>
@@ -20,6 +21,7 @@ using namespace io;
 namespace {
 
 namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
 using test::with;
 using test::Words;
 
@@ -86,9 +88,86 @@ TEST_CASE("the check of an area stays within the memory limit") {
   REQUIRE(test::run_bench({"synth", "surface", scan, "--points", "1000000"}).exit_code == 0);
   const test::ProgramResult result =
       test::run_program({"check", scan, "--area", area, "--void-rule", "0.04", "--memory-limit", "112MiB"});
-  CHECK_THAT(result.out, Catch::Matchers::Contains("voids: 8 of"));
+  CHECK_THAT(result.out, Contains("voids: 8 of"));
   CAPTURE(result.peak_memory >> 20);  // MiB
   CHECK(result.peak_memory <= 112 << 20);
+}
+
+// A star of so many corners, which crosses itself nowhere.
+std::string star(int corners) {
+  std::string text = R"({"type": "Polygon", "coordinates": [[)", first;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / corners, radius = 0.7 + 0.01 * (i % 2);
+    const std::string corner = "[" + std::to_string(0.85 + radius * std::cos(angle)) + "," +
+                               std::to_string(0.85 + radius * std::sin(angle)) + "]";
+    if (i == 0) first = corner;
+    text += corner + ",";
+  }
+  return text + first + "]]}";
+}
+
+TEST_CASE("an area of many corners stays within the memory limit, or is refused before it is held") {
+  const test::ScratchFolder scratch;
+  const std::string scan = (scratch / "plane.ply").string(), area = scratch.write("area.json", star(600'000)),
+                    coast = scratch.write("coast.json", star(900'000)),
+                    small = scratch.write("small.json", star(9));
+  REQUIRE(test::run_bench({"synth", "surface", scan, "--points", "30000", "--holes", "0"}).exit_code == 0);
+  const Words limits = {"--void-rule", "0.1", "--memory-limit", "128MiB"};
+  const auto check = [&](const Words& words, int exit_code) {
+    const test::ProgramResult result = test::run_program(with(with({"check", scan}, words), limits));
+    INFO(result.err);
+    CAPTURE(words, result.peak_memory >> 20);  // MiB
+    CHECK(result.exit_code == exit_code);
+    CHECK(result.peak_memory <= 128 << 20);
+    return result;
+  };
+  check({"--area", area, "--out", (scratch / "out").string()}, 0);
+  check({"--area", small, "--except", area, "--classes", small}, 0);
+  for (const Words& words : {Words{"--area", coast}, Words{"--area", small, "--except", coast},
+                             Words{"--area", small, "--classes", area + "," + coast}})
+    CHECK_THAT(check(words, 1).err,
+               Contains("coast.json: ") && Contains(" corners of polygons") && Contains("allowed: "));
+  run_within("160MiB", {"detect", scan, "--area", area, "--void-rule", "0.1", "--report", "--quiet", "--out",
+                        (scratch / "detected").string()});
+}
+
+TEST_CASE("a hierarchy of many point tiles stays within the memory limit, or is refused") {
+  const auto info_of = [](int tiles) {
+    const test::ScratchFolder scratch;
+    fs::create_directories(scratch / "ept-data");
+    fs::create_directories(scratch / "ept-hierarchy");
+    std::string hierarchy = R"({"0-0-0-0": 1)";
+    for (int i = 0; i < tiles; ++i) hierarchy += ", \"21-" + std::to_string(i) + "-0-0\": 0";
+    scratch.write("ept-hierarchy/0-0-0-0.json", hierarchy + "}");
+    scratch.write("ept-data/0-0-0-0.laz", test::LasFile{.points = {test::las_point(20, 1, 2, 3)}}.bytes());
+    const std::string ept = scratch.write("ept.json", R"({"dataType": "laszip", "points": 1})");
+    const test::ProgramResult result = test::run_program({"info", ept, "--memory-limit", "64MiB"});
+    CAPTURE(tiles, result.peak_memory >> 20);  // MiB
+    CHECK(result.peak_memory <= 64 << 20);
+    return result;
+  };
+  CHECK(info_of(90'000).exit_code == 0);
+  test::check_failure(info_of(800'000), 1, "that fit in the memory limit");
+}
+
+TEST_CASE("lacuna-bench score takes the memory of the true holes, however large the found ones are") {
+  const test::ScratchFolder scratch;
+  fs::create_directories(scratch / "clouds");
+  fs::create_directories(scratch / "loops");
+  const std::string clouds = (scratch / "clouds").string();
+  REQUIRE(test::run_bench({"synth", "surface", clouds + "/s.ply", "--points", "20000"}).exit_code == 0);
+  Random random(1);
+  std::string loops;
+  for (int loop = 0; loop < 200; ++loop) {
+    for (int i = 0; i < 12; ++i) loops += std::to_string(static_cast<int>(random.uniform(0, 19'000))) + " ";
+    loops += "\n";
+  }
+  scratch.write("loops/s.txt", loops);
+  const test::ProgramResult result = test::run_bench({"score", clouds, (scratch / "loops").string()});
+  INFO(result.err);
+  CHECK(result.exit_code == 0);
+  CAPTURE(result.peak_memory >> 20);  // MiB
+  CHECK(result.peak_memory <= 64 << 20);
 }
 
 TEST_CASE("a scan thinned in several shares stays within the memory limit") {

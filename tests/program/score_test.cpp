@@ -5,7 +5,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <random>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -110,6 +114,32 @@ TEST_CASE("a loop through random points is false, on a surface and on a closed m
   CHECK(row(text, "per hole", "solid") == "solid 1 0 of 0 0 of 0 1 0");
   CHECK(row(text, "per hole", "all") == "all 3 3 of 3 1 of 1 2 0");
   CHECK(row(text, "per point", "closed") == "closed 0.000 - 0.000 0.000 - 0.000");
+}
+
+TEST_CASE("a loop whose points are in no order is refused in one line that names it, and a bow is not") {
+  const Clouds made;
+  std::istringstream lines(made.truth("surface-plane"));
+  std::vector<std::string> loops;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with('#')) loops.push_back(line);
+  }
+  const auto is_shorter = [](const std::string& a, const std::string& b) { return a.size() < b.size(); };
+  std::sort(loops.begin(), loops.end(), is_shorter);
+  std::istringstream words(loops.back());  // the outer curve
+  std::vector<std::string> ids{std::istream_iterator<std::string>(words), {}};
+  const auto line_of = [&] {
+    std::string line;
+    for (const std::string& id : ids) line += id + " ";
+    return line + "\n";
+  };
+  // Two halves of the curve that are joined wrongly: two long edges.
+  std::reverse(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(ids.size() / 2));
+  made.answer("surface-plane", loops[0] + "\n" + line_of());
+  CHECK(row(made.score(), "per hole", "surface") == "surface 1 1 of 3 1 of 1 0 0");
+  std::shuffle(ids.begin(), ids.end(), std::mt19937(1));
+  made.answer("surface-plane", loops[0] + "\n" + line_of());
+  check_failure(run_bench({"score", made.clouds, made.results}), 1,
+                "surface-plane.txt: loop 1 (from 0): its points are not in order along a curve");
 }
 
 TEST_CASE("folders without clouds or without any loops are errors of one line") {

@@ -158,8 +158,10 @@ TEST_CASE("a folder of Entwine's point tiles is the scan in its files") {
   CHECK(files_of({ept.folder / "ept.json"}) == tiles);
   ept.write("ept.json", R"({"dataType": "zstandard"})");
   CHECK_THAT(ept.error(), Contains("allowed: laszip"));
-  ept.write("ept.json", "[");
+  ept.write("ept.json", "{}");
   CHECK_THAT(ept.error(), Contains("has no \"dataType\""));
+  ept.write("ept.json", "[]");
+  CHECK_THAT(ept.error(), Contains("an ept.json is needed"));
 }
 
 TEST_CASE(
@@ -192,8 +194,14 @@ TEST_CASE(
   fails(sum, "ept.json: has no number \"points\"");
   Ept cut;
   fs::remove(cut.folder / "ept-hierarchy" / "1-0-0-0.json");
-  fails(cut, "1-0-0-0.json: is missing");
-  hierarchy("{", "0-0-0-0.json: is missing, or no JSON object");
+  fails(cut, "1-0-0-0.json: cannot be opened: No such file");
+  for (const char* const bad : {"{", "[]", "7", R"({"0-0-0-0": 1e999})"})
+    hierarchy(bad, "a hierarchy of point tiles is needed");
+  hierarchy(R"({"0-0-0-0": )" + std::string(100'000, '['), "'0-0-0-0': a list is not the number of points");
+  hierarchy(R"({"0-0-0-0": ")" + std::string(500'000, 'x') + R"("})", "xxx...' is not the number of points");
+  hierarchy(R"({"0-0-0-0": ")" + std::string(2'000'000, 'x') + R"("})", "a value of more than 1 MiB");
+  hierarchy(R"([{"0-0-0-0": 2}])", "'': a list is not the number of points");
+  hierarchy(R"({"00-0-0-0": 6})", "'00-0-0-0': '6' is not the number of points");
   hierarchy(R"({"0-0-0-0": -1})", "0-0-0-0.json: the hierarchy names this file more than once");
   hierarchy(R"({"0-0-0-0": 2, "1-0-0-0": 2, "1-0-0-1": -2})", "is not the number of points of a tile, or -1");
   hierarchy(R"({"../a": -1})", "is not the number of points of a tile, or -1");

@@ -27,6 +27,19 @@ TEST_CASE("letters of any language stay as they are") {
   }
 }
 
+TEST_CASE("a long line keeps its begin and its end, and no character is cut") {
+  CHECK(shortened("a.ply: short") == "a.ply: short");
+  for (const std::string unit : {"x", "ö", "点", "\xf0\x9f\x95\xb3"}) {
+    std::string text = "a.json: ";
+    while (text.size() < 1'000'000) text += unit;
+    const std::string line = shortened(text + ": is not allowed");
+    CHECK(line.size() < 1000);
+    CHECK(line.starts_with("a.json: " + unit));
+    CHECK(line.ends_with(unit + ": is not allowed"));
+    CHECK(visible(line) == line);
+  }
+}
+
 TEST_CASE("bytes that are not UTF-8 are shown one by one, and the next character is found") {
   CHECK(visible("a\xff"
                 "b") == "a\\xffb");

@@ -18,6 +18,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <spdlog/spdlog.h>
@@ -41,16 +42,16 @@ void run_check(const CheckArguments& arguments) {
   if (config.area.area_tile > 0 && arguments.run.out.empty())
     spdlog::warn("--area-tile changes nothing without --out");
   const std::unique_ptr<FileScan> scan = open_inputs(expand_inputs(arguments.scans, config), config);
-  const Area area = *read_area(*scan, config);
+  Area area = *read_area(*scan, config);
   std::optional<OutFolder> out;
   if (!arguments.run.out.empty()) {
     out.emplace(arguments.run.out, kVoidsFile);
     check_not_input(out->results(), *scan);
   }
   const std::unique_ptr<Progress> progress = arguments.run.show_progress();
-  const AreaCheck check = check_area(area, *scan, config, *progress);
+  const PlanGrid grid = area.grid;
+  const AreaCheck check = check_area(std::move(area), *scan, config, *progress);
   print_warnings(area_warnings(check));
-  const PlanGrid& grid = area.grid;
   const Eigen::Vector2d size(static_cast<double>(grid.columns), static_cast<double>(grid.rows));
   const Eigen::Vector2d min = grid.from_cells({0, 0}), max = grid.from_cells(size);
   const Eigen::AlignedBox3d bounds(Eigen::Vector3d(min.x(), min.y(), 0),

@@ -31,6 +31,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <spdlog/spdlog.h>
@@ -124,7 +125,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   const std::unique_ptr<FileScan> opened = open_inputs(inputs, config);
   FileScan& scan = *opened;
 
-  const std::optional<Area> area = read_area(scan, config);
+  std::optional<Area> area = read_area(scan, config);
   // Each of these may use the one before, and goes before it.
   OutFolder out(arguments.out, "holes.json");
   ResultFolder& results = out.results();
@@ -138,7 +139,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   const std::unique_ptr<StationViews> stations = watch_stations(scan, config.output, scratch.path());
   ExplainedDetection detection{*detect(scan, config, scratch.path(), *progress)};
   if (stations) find_causes(*stations, scan, config.run, detection);
-  if (area) detection.area = check_area(*area, scan, config, *progress);
+  if (area) detection.area = check_area(std::move(*area), scan, config, *progress);
   progress->begin("write", 0);
   const std::vector<fs::path> written = write_results(detection, scan, with_min_hole(config), results);
   note_complete_results();

@@ -29,7 +29,7 @@ class Console {
  public:
   void print_line(std::string_view line) {
     const std::lock_guard lock(mutex_);
-    write(erased() + visible(line) + '\n' + bar_);
+    write(erased() + shortened(visible(line)) + '\n' + bar_);
   }
   void show_bar(std::string bar) {
     const std::lock_guard lock(mutex_);
@@ -44,7 +44,7 @@ class Console {
   // Keeps the console. It avoids stdio, whose lock another thread may have.
   void print_last_line(std::string_view line) {
     if (!mutex_.try_lock_for(kLastLineAfter) || !can_write_now()) return;
-    const std::string text = erased() + visible(line) + '\n';
+    const std::string text = erased() + shortened(visible(line)) + '\n';
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
   }
 

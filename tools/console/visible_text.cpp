@@ -83,6 +83,17 @@ std::string visible(std::string_view text) {
   return shown;
 }
 
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kBegin = 600, kEnd = 300;
+  if (text.size() <= kBegin + kEnd) return text;
+  const auto begin_of_character = [&](std::size_t at) {
+    while ((static_cast<unsigned char>(text[at]) & 0xc0) == 0x80) --at;
+    return at;
+  };
+  return text.substr(0, begin_of_character(kBegin)) + " ... " +
+         text.substr(begin_of_character(text.size() - kEnd));
+}
+
 void show_output_visibly(std::FILE* file) {
   static auto* const buffer =
       new VisibleBuffer(file);  // never destroyed: std::cout is flushed at the very end

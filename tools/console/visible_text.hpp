@@ -13,6 +13,9 @@ namespace lacuna::tools {
 // character. Bytes that are not UTF-8 become \xff. All else stays as it is.
 std::string visible(std::string_view text);
 
+// Leaves out the middle of a long line: a message may repeat what a file has, however much that is.
+std::string shortened(const std::string& text);
+
 // Everything that std::cout gets goes to `file` from now on, each line visible. A name that may hold a line
 // end is made visible before it is printed.
 void show_output_visibly(std::FILE* file);

@@ -16,7 +16,7 @@ std::filesystem::path ept_data(const std::filesystem::path& ept);
 
 // Throws `Error` unless the tiles are those of the hierarchy, which may have several files. Their points must
 // add up to the number in ept.json, and a tile must have as many as the hierarchy counts. The function opens
-// each tile once. Memory: the hierarchy, about 200 bytes for each tile.
+// each tile once. Memory: about 100 bytes for each tile of the hierarchy, within that of the options.
 void check_ept(const std::filesystem::path& ept, const io::ReadOptions& options);
 
 }  // namespace lacuna::tools

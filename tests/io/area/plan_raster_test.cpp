@@ -80,6 +80,31 @@ TEST_CASE("the cells of a polygon are those whose middles are inside, and severa
   }
 }
 
+TEST_CASE("a polygon that crosses rows very often has the same cells, in rows one after the other") {
+  const PlanGrid grid = grid_of(400, 1500);
+  Ring2 comb;  // up and down within each two columns
+  for (int i = 0; i < 100; ++i) {
+    comb.emplace_back(4 * i, 0);
+    comb.emplace_back(4 * i + 1, 1500);
+    comb.emplace_back(4 * i + 2, 1500);
+    comb.emplace_back(4 * i + 3, 2);
+  }
+  const PlanPolygon polygon{comb};
+  std::size_t last = 0;
+  std::vector<std::uint64_t> cells(grid.rows);
+  for_each_run(polygon, Frame::kCells, grid, [&](std::size_t row, std::size_t from, std::size_t to) {
+    REQUIRE(row >= last);
+    last = row;
+    cells[row] += to - from;
+  });
+  for (std::size_t row = 0; row < grid.rows; row += 7) {
+    std::uint64_t expected = 0;
+    for (std::size_t column = 0; column < grid.columns; ++column)
+      expected += is_inside(polygon, middle(column, row));
+    REQUIRE(cells[row] == expected);
+  }
+}
+
 TEST_CASE("a point clears the middles that are nearer than the radius, and no other") {
   Random random(2);
   const PlanGrid grid = grid_of(131, 40);

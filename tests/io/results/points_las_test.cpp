@@ -107,6 +107,31 @@ TEST_CASE("the annotated LAS file has every byte of the points, records and head
   }
 }
 
+TEST_CASE("the annotated LAS file has the points that --trust chooses, and its header counts them",
+          "[io][results]") {
+  for (const int format : {1, 6}) {
+    for (const auto& [counted, trust, rows] :
+         {std::tuple(8u, Trust::kFile, 5u), {3u, Trust::kFile, 5u}, {3u, Trust::kHeader, 3u}}) {
+      INFO("format " << format << ", counted " << counted << ", rows " << rows);
+      const ScratchFolder folder;
+      LasFile las = file_of(format, 4);
+      for (std::string& point : las.points) point[14] = 2;  // return number
+      std::string bytes = las.bytes();
+      put<std::uint32_t>(bytes, 107, counted);
+      put<std::uint64_t>(bytes, 247, counted);
+      FilesConfig config = las_config();
+      config.input.trust = trust;
+      FileScan scan({folder.write("a.las", bytes)}, config.input);
+      const std::string out = detect_to(folder, scan, rows, config);
+      CHECK(at<std::uint64_t>(out, 247) == rows);
+      CHECK(at<std::uint64_t>(out, 255 + 8) == (rows == counted ? 0 : rows));
+      CHECK(at<std::uint32_t>(out, 107) == (format < 6 || rows == counted ? rows : 0));
+      check_columns(read_table(folder / "a.las", 1000, {.trust = trust}),
+                    read_table(folder / "out" / "points" / "a.las"));
+    }
+  }
+}
+
 TEST_CASE("waveforms of LAS 1.3 behind the points become an extended record", "[io][results]") {
   const ScratchFolder folder;
   std::string bytes = file_of(4, 3).bytes();
