@@ -231,7 +231,7 @@ TEST_CASE("a process that is allowed too little stack or too few files ends with
   const std::string out = (scratch / "out").string();
   const std::vector<std::pair<std::string, std::string>> limits = {
       {"ulimit -s 64; ", "the system allows this process 64 KiB of stack (ulimit -s); allowed: 1024 or more"},
-      {"ulimit -n 5; ", "the system allows this process 5 open files (ulimit -n); allowed: 256 or more"},
+      {"ulimit -n 20; ", "the system allows this process 20 open files (ulimit -n); allowed: 256 or more"},
       {"ulimit -d 30000; ", "no more memory or threads"},
   };
   for (const auto& [limit, reason] : limits) {

@@ -99,7 +99,7 @@ TEST_CASE("a task that ends after its workspace was cleaned fails, and its part 
   const fs::path workspace = run.workspace;
   bool is_cleaned = false;
   const ProgramResult late =
-      test::run_program_beside({"work", run.workspace, "--step", "evaluate-0"}, [&](pid_t) {
+      test::run_program_beside({"work", run.workspace, "--step", "evaluate-0", "--quiet"}, [&](pid_t) {
         if (is_cleaned || !fs::exists(workspace / "level-0-0.lacuna")) return;
         is_cleaned = run_program({"clean", run.workspace}).exit_code == 0;
       });
