@@ -347,9 +347,9 @@ std::set<std::string> offered_by(const std::string& command) {
   return names;
 }
 
-// The sweep of a scanner in files. Some take part with an option alone: points that are withheld or noise, a
-// damaged file, a header with another number, a folder in a folder. One has rays without return, and one has
-// names of degrees.
+// The sweep of a scanner in files. Some take part with an option alone: withheld points, noise, a damaged
+// file, a header with another number, a folder in a folder. One has rays without return, and one has names of
+// degrees.
 class Sweep {
  public:
   Sweep() {

@@ -31,9 +31,11 @@ namespace {
 namespace fs = std::filesystem;
 
 struct FindArguments {
+  // Rays without return interrupt a line, whether they are dropped or at 0 0 0.
   explicit FindArguments(const Command& command)
-      : parameters(command,
-                   {.common = {"bounds", "where", "memory_limit"}, .rare = {"input", "threads", "scratch"}}) {
+      : parameters(command, {.common = {"bounds", "where", "memory_limit"},
+                             .rare = {"columns", "leave_out", "keep_withheld", "keep_noise", "trust", "crs",
+                                      "unit", "unit_z", "recursive", "skip_damaged", "threads", "scratch"}}) {
   }
 
   std::vector<fs::path> scans;
