@@ -98,7 +98,7 @@ Json read_json(const std::filesystem::path& file, std::string_view needed,
   } catch (const Json::out_of_range& error) {
     constexpr int kTooLarge = 406;
     if (error.id != kTooLarge) throw;  // of the caller
-    fail("has a number beyond those of double precision");
+    fail(text.is_too_long() ? "a value of more than 1 MiB" : "has a number beyond those of double precision");
   }
   return {};
 }
