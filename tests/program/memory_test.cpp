@@ -60,7 +60,7 @@ TEST_CASE("a volume of random points stays within the memory limit") {
 }
 
 TEST_CASE("two hundred neighbours of each point stay within the memory limit") {
-  check_limit(scattered(80'000, 1), {"--k", "200"});
+  check_limit(scattered(20'000, 1), {"--k", "200"});
 }
 
 TEST_CASE("the lid of a large hole stays within the memory limit") {
