@@ -28,8 +28,8 @@ from sets import (GROUPS, RANGE_NOISES, SYNTH_KINDS, cut_mesh, degraded, fail, i
                   quick_sets, real, run, synth)
 
 UNDECIDED = ("joined", "parted", "P", "U")  # such loops are neither right nor wrong
-JUDGED = "judged"  # group of the loops that were judged by eye
-OF_JUDGED = 0.3  # their weight, over the weight of all others
+RATED = "rated"  # group of the loops that were rated by eye
+OF_RATED = 0.3  # their weight, over the weight of all others
 REPORTED = 0.5  # the least confidence, by default
 MESH_SEEDS = (11, 12, 13, 14)
 CONTRAST = 6  # of densities that vary
@@ -148,7 +148,7 @@ def test_sets(arguments):
 @dataclass
 class Loop:
     group: str  # of the set
-    verdict: str  # of `lacuna-bench evaluate`, or a letter of the eye
+    verdict: str  # of `lacuna-bench evaluate`, or a mark of the eye
     kind: str
     confidence: float  # of the program
     terms: tuple = ()  # what the coefficients belong to
@@ -211,10 +211,10 @@ def standing_loops(arguments, case):
             for loop, verdict in zip(found, verdicts(arguments, case, folder), strict=True)]
 
 
-def judged_loops(arguments, name):
-    """The loops that stand on a real scan and were judged by eye."""
-    reported, judged = eye.reported_loops(arguments, name, ["--min-confidence", 0])
-    return [rated(JUDGED, loop, judged[place][0]) for loop, place in reported if place is not None]
+def rated_loops(arguments, name):
+    """The loops that stand on a real scan and were rated by eye."""
+    reported, rated = eye.reported_loops(arguments, name, ["--min-confidence", 0])
+    return [rated(RATED, loop, rated[place][0]) for loop, place in reported if place is not None]
 
 
 def of_all(arguments, cases, loops_of):
@@ -250,13 +250,13 @@ def log_odds(coefficients, loop):
 
 
 def weighted(loops):
-    """Each loop with its weight. In each group the true loops weigh the same in total; judged loops weigh alike."""
+    """Each loop with its weight. In each group the true loops weigh the same in total; rated loops weigh alike."""
     groups = by_group(loops)
-    judged = groups.pop(JUDGED, [])
+    rated = groups.pop(RATED, [])
     pairs = [(loop, 1 / max(1, sum(other.is_true for other in own))) for own in groups.values() for loop in own]
-    if judged:
-        weight = OF_JUDGED * sum(weight for _, weight in pairs) / len(judged)
-        pairs += [(loop, weight) for loop in judged]
+    if rated:
+        weight = OF_RATED * sum(weight for _, weight in pairs) / len(rated)
+        pairs += [(loop, weight) for loop in rated]
     return pairs
 
 
@@ -344,7 +344,7 @@ def main():
             print(f"calibrate: {case.name}", file=sys.stderr)
         case.ensure()
     loops = of_all(arguments, fitted, standing_loops)
-    loops += of_all(arguments, eye.present_scans(arguments.scans)[0], judged_loops)
+    loops += of_all(arguments, eye.present_scans(arguments.scans)[0], rated_loops)
     coefficients = {}
     for kind in eye.KINDS:
         coefficients[kind] = fit([loop for loop in decided(loops) if loop.kind == kind])

@@ -1,8 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Holds the loops that `lacuna detect` reports on real scans against loops of the same scans that were judged by eye.
-bench/accuracy/README.md has the table, and real/index.tsv says where each scan comes from. A scan that is absent is
-skipped."""
+"""Compares loops of `lacuna detect` on real scans with loops that were rated by eye. Scans that are absent are skipped."""
 
 import argparse
 import collections
@@ -16,33 +14,33 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from sets import run  # noqa: E402
 
-JUDGED = Path(__file__).resolve().parent / "real"
+RATED = Path(__file__).resolve().parent / "real"
 RIGHT, PARTLY, WRONG = "R", "P", "GVN"  # as real/*.eye.txt have them; G, V and N are three ways to be wrong
 KINDS = ("hole", "outer")
 SURE = 0.9
 
 
-def judged_loops(file):
-    """Letter, kind and ids of each."""
+def rated_loops(file):
+    """Mark, kind and ids of each."""
     lines = (line.split() for line in file.read_text(encoding="utf-8").splitlines())
     return [(words[0], words[1], words[2:]) for words in lines if words and words[0] != "#"]
 
 
 def present_scans(folder):
-    """The names of the judged scans that are in the folder, and how many there are in all."""
-    names = [file.name.removesuffix(".eye.txt") for file in sorted(JUDGED.glob("*.eye.txt"))]
+    """The names of the rated scans that are in the folder, and how many there are in all."""
+    names = [file.name.removesuffix(".eye.txt") for file in sorted(RATED.glob("*.eye.txt"))]
     return [name for name in names if (folder / f"{name}.ply").exists()], len(names)
 
 
 def reported_loops(arguments, name, options):
-    """The loops of `lacuna detect`, each with the place of the judged loop that it matches, or None; and the judged
+    """The loops of `lacuna detect`, each with the place of the rated loop that it matches, or None; and the rated
     loops."""
-    judged = judged_loops(JUDGED / f"{name}.eye.txt")
+    rated = rated_loops(RATED / f"{name}.eye.txt")
     folder = arguments.work / "out" / "real" / name
     shutil.rmtree(folder, ignore_errors=True)  # another version's results would be refused
     folder.parent.mkdir(parents=True, exist_ok=True)
     truth = folder.with_suffix(".loops.txt")
-    truth.write_text("".join(" ".join(ids) + "\n" for _, _, ids in judged), encoding="utf-8")
+    truth.write_text("".join(" ".join(ids) + "\n" for _, _, ids in rated), encoding="utf-8")
     scan = arguments.scans / f"{name}.ply"
     run([arguments.lacuna, "detect", scan, "--out", folder, "--quiet", "--threads", 1, "--sample-points", 0, "--unit", "m",
          *options])
@@ -50,23 +48,23 @@ def reported_loops(arguments, name, options):
     scores = json.loads(run([arguments.bench, "evaluate", folder, truth, "--scan", scan, "--json", "--min-vertices", 1]))
     places = [match["true_loop"] if match["verdict"] in ("found", "repeated") else None
               for match in scores["loop_matches"]]
-    return list(zip(loops, places, strict=True)), judged
+    return list(zip(loops, places, strict=True)), rated
 
 
 def count(arguments, name):
-    """Counts of one scan: (kind, letter) of reported loops, with None where none was judged; (kind, letter, "sure");
-    (kind, "judged") and (kind, "found") of the right ones."""
-    reported, judged = reported_loops(arguments, name, arguments.detect_options)
+    """Counts of one scan. (kind, mark): reported loops, None where none was rated, and with "sure" those of 0.9 and more.
+    (kind, "rated") and (kind, "found"): right ones."""
+    reported, rated = reported_loops(arguments, name, arguments.detect_options)
     counts = collections.Counter()
     for loop, place in reported:
-        letter = None if place is None else judged[place][0]
-        counts[loop["kind"], letter] += 1
+        mark = None if place is None else rated[place][0]
+        counts[loop["kind"], mark] += 1
         if loop["confidence"] >= SURE:
-            counts[loop["kind"], letter, "sure"] += 1
+            counts[loop["kind"], mark, "sure"] += 1
     found = {place for _, place in reported}
-    for place, (letter, kind, _) in enumerate(judged):
-        if letter == RIGHT:
-            counts[kind, "judged"] += 1
+    for place, (mark, kind, _) in enumerate(rated):
+        if mark == RIGHT:
+            counts[kind, "rated"] += 1
             counts[kind, "found"] += place in found
     return counts
 
@@ -76,11 +74,11 @@ def share(part, whole):
 
 
 def row(title, kind, counts):
-    right, partly, wrong = (sum(counts[kind, letter] for letter in letters) for letters in (RIGHT, PARTLY, WRONG))
-    sure, sure_wrong = (sum(counts[kind, letter, "sure"] for letter in letters) for letters in (RIGHT, WRONG))
+    right, partly, wrong = (sum(counts[kind, mark] for mark in marks) for marks in (RIGHT, PARTLY, WRONG))
+    sure, sure_wrong = (sum(counts[kind, mark, "sure"] for mark in marks) for marks in (RIGHT, WRONG))
     return (f"| {title} | {kind} | {right} | {partly} | {wrong} | {share(right, right + wrong)} "
             f"| {share(sure, sure + sure_wrong)} | {counts[kind, None]} "
-            f"| {share(counts[kind, 'found'], counts[kind, 'judged'])} of {counts[kind, 'judged']} |")
+            f"| {share(counts[kind, 'found'], counts[kind, 'rated'])} of {counts[kind, 'rated']} |")
 
 
 def parse_arguments():
@@ -96,15 +94,15 @@ def parse_arguments():
 
 def main():
     arguments = parse_arguments()
-    present, judged = present_scans(arguments.scans)
-    print(f"{len(present)} of {judged} scans are there\n")
+    present, rated = present_scans(arguments.scans)
+    print(f"{len(present)} of {rated} scans are there\n")
     groups = collections.defaultdict(collections.Counter)
     with ThreadPoolExecutor(arguments.jobs) as pool:
         for name, counts in zip(present, pool.map(lambda name: count(arguments, name), present)):
             for title in (name.split("-")[0], "all"):
                 groups[title].update(counts)
-    print("| scans | loops | right | partly | wrong | right of right and wrong | the same at 0.9 and more | not judged "
-          "| reported of the judged right |\n|---" + "|---" * 8 + "|")
+    print("| scans | loops | right | partly | wrong | right of right and wrong | the same at 0.9 and more | not rated "
+          "| reported of the rated right |\n|---" + "|---" * 8 + "|")
     for title in sorted(groups, key=lambda title: (title == "all", title)):
         for kind in KINDS:
             print(row(title, kind, groups[title]))

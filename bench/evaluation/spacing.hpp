@@ -16,8 +16,8 @@ using matching::PointTree;
 // point. The place is a point of the tree, whose points are distinct.
 double spacing_at(const Eigen::Vector3d& point, const PointTree& tree);
 
-// Returns the spacing of a place, in whatever lines its surroundings are sampled: of an even sampling whose
-// 32nd neighbour of a point is as far away as here. 0 where there are no more than 32 points. Cost: log n.
+// Returns the spacing of a place, also where it is sampled in lines. An even sampling of this spacing has its
+// 32nd neighbour as far away. Returns 0 where there are no more than 32 points. Cost: log n.
 double spacing_of_place(const Eigen::Vector3d& place, const PointTree& tree);
 
 // Returns the median over the points; 0 for fewer than two. The points are finite and distinct. If there are

@@ -120,6 +120,14 @@ void for_each_point_near(const TileStore& store, const Eigen::AlignedBox3d& box,
   }
 }
 
+// Returns a direction in the plane of the normal: across the axis that it is least along. It changes little
+// with the normal.
+Eigen::Vector3d across(const Eigen::Vector3d& normal) {
+  Eigen::Index least = 0;
+  normal.cwiseAbs().minCoeff(&least);
+  return normal.cross(Eigen::Vector3d::Unit(least)).normalized();
+}
+
 // A loop in its plane, with its surroundings: as wide as the loop.
 struct FlatLoop {
   LoopPlane plane;
@@ -127,8 +135,7 @@ struct FlatLoop {
   Eigen::AlignedBox3d box = {};
 
   FlatLoop(std::span<const LoopPoint> loop, const LoopShape& shape, Scratch& scratch)
-      : plane(shape.centroid, shape.normal, shape.normal.unitOrthogonal()),
-        width(2 * shape.area / shape.perimeter) {
+      : plane(shape.centroid, shape.normal, across(shape.normal)), width(2 * shape.area / shape.perimeter) {
     scratch.for_each(loop, [&](const LoopPoint& p) { box.extend(plane(p.position())); });
     box.min().array() -= width;
     box.max().array() += width;

@@ -11,10 +11,11 @@
 
 namespace lacuna {
 
-// Returns the largest distance from a place within the hole to a point, over the distance that nine in ten
-// places around the hole fall below. Both are measured in the plane of the loop, on a raster. It is 1 for a
-// gap like those around it, and 0 for a loop that encloses nothing. `points`: of the level; `spacing`: along
-// the loop. Cost: the points in the box of the hole and its surroundings, and at most 65,536 pixels.
+// Returns the largest distance from a place within the hole to a point, over the gap of the sampling around
+// it. Nine in ten places around the hole are nearer to a point than the gap. Distances are those in the plane
+// of the loop, on a raster. The result is 1 for a gap like those around it, and 0 for a loop that encloses
+// nothing. `points`: of the level; `spacing`: along the loop. Cost: the points in the box of the hole and its
+// surroundings, and at most 65,536 pixels.
 double prominence(const TileStore& points, std::span<const LoopPoint> loop, const LoopShape& shape,
                   double spacing, Scratch& scratch);
 

@@ -147,13 +147,35 @@ TEST_CASE("the truth is itself found, from either kind of file, without boundary
 
 TEST_CASE("the tolerance is in spacings") {
   const ScratchFolder folder;
-  std::string rows;
-  for (const int y : {0, 3}) rows += line(20).translated({0, double(y), 0}).text();
+  std::string rows;  // so few points that places have no spacing of their own
+  for (const int y : {0, 3}) rows += line(16).translated({0, double(y), 0}).text();
   const std::string scan = folder.write("rows.xyz", rows);  // neighbours at 1, 1, 2 and 2: spacing 1.5
   const std::string truth = folder.write("true.txt", "0 2 4 6 8 9 7 5 3 1\n");
-  const std::string found = folder.write("found.txt", "20 22 24 26 28 29 27 25 23 21\n");
+  const std::string found = folder.write("found.txt", "16 18 20 22 24 25 23 21 19 17\n");
   CHECK(evaluate({found, truth, "--scan", scan}).at("found") == 1);
   CHECK(evaluate({found, truth, "--scan", scan, "--tolerance", "1.99"}).at("found") == 0);
+}
+
+TEST_CASE("where points are farther apart, curves of one hole may be, too") {
+  const ScratchFolder folder;
+  // A coarse grid, and a fine one that decides the spacing of the scan.
+  const std::string scan =
+      folder.write("scan.xyz", plane(20).text() + plane(40).scaled(0.1).translated({100, 0, 0}).text());
+  const auto square = [](int x, int y, int edge) {  // by ids of the coarse grid
+    std::string ids;
+    const auto add = [&](int column, int row) { ids += std::to_string(20 * row + column) + " "; };
+    for (int i = 0; i < edge; ++i) add(x + i, y);
+    for (int i = 0; i < edge; ++i) add(x + edge, y + i);
+    for (int i = 0; i < edge; ++i) add(x + edge - i, y + edge);
+    for (int i = 0; i < edge; ++i) add(x, y + edge - i);
+    return ids + "\n";
+  };
+  const std::string truth = folder.write("true.txt", square(6, 6, 6)),
+                    near = folder.write("near.txt", square(8, 6, 6)),
+                    far = folder.write("far.txt", square(9, 9, 6));
+  CHECK(evaluate({near, truth, "--scan", scan}).at("found") == 1);
+  CHECK(evaluate({near, truth, "--scan", scan, "--tolerance", "1"}).at("found") == 0);
+  CHECK(evaluate({far, truth, "--scan", scan}).at("found") == 0);
 }
 
 TEST_CASE("the truth of a mesh is its boundary, without vertices that no face uses") {

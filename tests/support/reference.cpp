@@ -1039,11 +1039,13 @@ bool is_within(const std::vector<Eigen::Vector2d>& polygon, double x, double y) 
 // How far the hole stands out of the gaps around it: method.md, D.3.
 double prominence(const FoundLoop& loop, const Shape& shape, const Positions& points) {
   const double size = shape.area.stableNorm();
-  if (!(size > 0)) return 0;
+  if (!(size > 0) || !std::isfinite(size)) return 0;
   const double width = 2 * size / shape.length;
   Eigen::Matrix3d axes;
   axes.col(2) = shape.area / size;
-  axes.col(0) = Vector3d(axes.col(2)).unitOrthogonal();
+  Eigen::Index least = 0;
+  axes.col(2).cwiseAbs().minCoeff(&least);
+  axes.col(0) = Vector3d(axes.col(2)).cross(Vector3d::Unit(least)).normalized();
   axes.col(1) = axes.col(2).cross(axes.col(0));
   const auto flat = [&](const Vector3d& p) -> Vector3d { return axes.transpose() * (p - shape.centroid); };
   std::vector<Eigen::Vector2d> rim;
@@ -1085,6 +1087,7 @@ double prominence(const FoundLoop& loop, const Shape& shape, const Positions& po
   for (const Vector3d& p : loop.places) heights[pixel_of(flat(p))] = float(flat(p).z());
   std::set<Pixel> sampled;
   for (const Vector3d& p : points) {
+    if (!p.allFinite()) continue;
     const Vector3d at = flat(p);
     if (((at.head<2>() - corner).array() < 0).any() ||
         ((at.head<2>() - corner).array() / edge >= count.cast<double>().array()).any())

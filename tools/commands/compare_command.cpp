@@ -82,7 +82,8 @@ ComparedResult read_result(const fs::path& folder) {
 Comparison::Comparison(ComparedResult first, ComparedResult second, double length)
     : before(std::move(first)), after(std::move(second)), tolerance(length) {
   constexpr double kDistances = 2;
-  if (tolerance == 0) {
+  has_places = tolerance == 0;
+  if (has_places) {
     tolerance = kDistances * std::max(before.median_distance, after.median_distance);
     for (ComparedResult* result : {&before, &after}) {
       for (ComparedLoop& loop : result->scan.loops)
@@ -99,7 +100,8 @@ std::string Comparison::print_counts() const {
   for (const auto& [change, count] : counts)
     text += (text.empty() ? "" : ", ") + print_count(count) + " " + std::string(name_of(change));
   return (text.empty() ? "no loops" : text) + "; curves of one hole are at most " +
-         print_length(tolerance, after.unit) + " apart";
+         print_length(tolerance, after.unit) + " apart" +
+         (has_places ? ", or twice the spacing along them" : "");
 }
 
 std::string Comparison::print_table() const {

@@ -23,8 +23,8 @@ struct ComparedResult {
 ComparedResult read_result(const std::filesystem::path& folder);
 
 struct Comparison {
-  // `tolerance` is how far apart the curves of one hole may be; 0 means twice the larger
-  // median distance of neighbours.
+  // `tolerance` is how far apart the curves of one hole may be. 0 means twice the spacing along them, and at
+  // least twice the larger median distance of neighbours.
   Comparison(ComparedResult before, ComparedResult after, double tolerance = 0);
 
   // Returns "2 closed, 1 opened, 14 same; curves of one hole are at most 2 cm apart".
@@ -33,7 +33,8 @@ struct Comparison {
   nlohmann::ordered_json json() const;
 
   ComparedResult before, after;
-  double tolerance;
+  double tolerance;  // the least
+  bool has_places;   // where points are farther apart, curves may be, too
   std::vector<matching::LoopChange> changes;
 };
 

@@ -55,7 +55,7 @@ TEST_CASE("a hole stands out of the gaps around it, and the less the more points
   CHECK(empty.track.evidence.compactness == Approx(1 / (2 * std::numbers::pi)).margin(0.04));
   CHECK(empty.track.confidence > 0.95);
   const LoopMeasures sparse = hole_of(with_patch(punched_plane(), kRadius, 3)),
-                     sparser = hole_of(with_patch(punched_plane(), kRadius, 6));
+                     sparser = hole_of(with_patch(punched_plane(), kRadius, 5));
   CHECK(sparse.track.evidence.prominence < sparser.track.evidence.prominence);
   CHECK(sparser.track.evidence.prominence < empty.track.evidence.prominence / 2);
   CHECK(sparse.track.confidence < sparser.track.confidence);
@@ -84,13 +84,15 @@ TEST_CASE("the height of a hole follows its loop: points on a cylinder fill a ho
   CHECK(hole_of(bent(with_patch(punched_plane(), kRadius, 3))).track.evidence.prominence < 4);
 }
 
-TEST_CASE("a turn or a move of the scan changes no prominence by more than a pixel") {
+TEST_CASE(
+    "a turn and a move of the scan change a prominence by less than half an octave, as pixels are half a "
+    "spacing") {
   const double before = hole_of(punched_plane()).track.evidence.prominence;
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   Cloud moved = punched_plane();
   for (Eigen::Vector3d& p : moved.positions) p = turn * p + Eigen::Vector3d(456'000, 5'432'000, 100);
-  CHECK(hole_of(moved).track.evidence.prominence == Approx(before).epsilon(0.25));
+  CHECK(hole_of(moved).track.evidence.prominence == Approx(before).epsilon(0.4));
 }
 
 TEST_CASE("outer curves have no prominence") {

@@ -104,7 +104,7 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
   CHECK_THAT(read_file(folder / "out/holes.json"), Contains("]},\n    {\"id\":1,\"kind\":\"outer\","));
   CHECK_THAT(
       read_file(folder / "out/holes.csv"),
-      Contains("\n0,hole,,3,1,1,0,0,0.1,0,0,0,0,,,,,,1,2,3,0,0,1,,,,\n1,outer,,4,1,1,0,0,0.1,,0,0,0,,,,,"
+      Contains("\n0,hole,,3,1,0,0,0,0.1,0,0,0,0,,,,,,1,2,3,0,0,1,,,,\n1,outer,,4,1,0,0,0,0.1,,0,0,0,,,,,"
                ",1,2,3,0,0,1,,,,\n"));
   config.output.no_coordinates = true;
   write_results(detection, scan, config, folder / "out");
