@@ -2,7 +2,6 @@
 #include "engine/scan_steps.hpp"
 
 #include "engine/bucket/bucket_scan.hpp"
-#include "engine/evaluate/check_normals.hpp"
 #include "engine/halo/eps_balls.hpp"
 #include "engine/parts/level_form.hpp"
 #include "engine/store/kept_scan.hpp"
@@ -147,15 +146,6 @@ Level store_all_points(const Run& given, const TaskShare& share, StoreFiles file
                                      given.job));
 }
 
-// Leaves out normals that are not wanted, or do not fit. Levels and outputs have no normals of theirs then.
-void choose_normals(Level& level, const Job& job) {
-  if (!level.store.has_normals()) return;
-  const NormalsUse use = job.config.normals.use;
-  if (use != NormalsUse::kEstimated) level.given_normals = check_normals(level.store, job.config, job.arena);
-  if (use == NormalsUse::kEstimated || (use == NormalsUse::kFitting && !level.given_normals.fit()))
-    level.store.leave_out_normals();
-}
-
 }  // namespace
 
 std::string step_of_level(std::string_view name, std::size_t level) {
@@ -218,7 +208,7 @@ Level first_level(const Run& run) {
     run.scan.set_pass_counts(level.input);
     for (const std::string_view step : {kSurvey, kTiles, kBucket}) run.parts.drop(std::string(step));
   }
-  choose_normals(level, run.job);
+  if (run.job.config.normals.use == NormalsUse::kEstimated) level.store.leave_out_normals();
   return level;
 }
 

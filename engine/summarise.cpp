@@ -29,7 +29,6 @@ Summary summarise(const Level& level, const Job& job) {
   summary.counts.dropped = survey.dropped;
   summary.bounds = survey.bounds;
   summary.resolution = level.edge;
-  summary.given_normals = level.given_normals;
   if (level.edge > 0) summary.counts.thinned_out = survey.points - survey.dropped - store.tiling().points();
   summary.strays = find_strays(store);
   if (summary.strays.points == 0) summary.strays.rest = summary.bounds;
@@ -46,6 +45,7 @@ void add_findings(const Totals& totals, const FoundLoops& found, std::span<const
   counts.duplicates = counts.points - counts.dropped - counts.thinned_out - totals.points;
   counts.candidates = totals.candidates;
   counts.undefined_normals = totals.undefined_normals;
+  counts.normals_off = totals.normals_off;
   counts.boundary_edges = found.edges;
   counts.components = found.components;
   for (const LevelLoops& level : levels) {

@@ -31,7 +31,7 @@ struct NeighbourhoodConfig {
 // Which normals points have: those that they came with, or estimated ones. A point without one has an
 // estimated normal.
 enum class NormalsUse : std::uint8_t {
-  kFitting,    // given ones, unless too many are off from the surface
+  kFitting,    // given ones, unless more than 45 degrees off from the estimated one
   kGiven,      // given ones
   kEstimated,  // estimated ones alone
 };

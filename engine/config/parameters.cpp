@@ -50,9 +50,8 @@ std::vector<Parameter> parameters(Config& config) {
 
       {"normals", "normals", Changes::kEvaluation, named(normals.use, kNormalsUses), 0, 2,
        "fitting, given or estimated",
-       "Normals of the files: fitting, used unless a tenth of a sample is off by more than 45 degrees; "
-       "given, "
-       "used; estimated, not used."},
+       "Normals of the files: fitting, used where within 45 degrees of the estimated one; given, used; "
+       "estimated, not used."},
       {"normals", "crease_threshold", Changes::kEvaluation, &normals.crease_threshold, 0, 1,
        "a number from 0 to 1", "Angle probability above which an estimated normal is turned at a crease."},
       {"normals", "orient_normals", Changes::kOutputs, &normals.orient, 0, 1, "true or false",

@@ -131,13 +131,17 @@ void fit_plane(const Slice& slice, double sigma_factor, Surface<V>& surface) {
   if (any<V>(hn::Not(surface.has_normal))) fit_ambiguous_planes(covariance, surface);
 }
 
-// A given normal takes the place of the estimated one. Returns where there is one.
-Mask use_given_normals(const Slice& slice, Surface<V>& surface) {
+// A given normal takes the place of the estimated one, unless it is off. Returns where it does.
+Mask use_given_normals(const Slice& slice, bool uses_normals_off, Surface<V>& surface, CriteriaValues& values) {
+  constexpr double kCosine45 = std::numbers::sqrt2 / 2;
   const Vector<V> given = slice.get(slice.batch.given_normals);
+  const Mask is_off = hn::And(surface.has_normal, hn::Abs(dot(given, surface.normal)) < all<V>(kCosine45));
+  slice.set(values.is_normal_off, hn::IfThenElseZero(is_off, all<V>(1)));
   const Mask is_given = given.x == given.x;
-  surface.normal = select(is_given, given, surface.normal);
-  surface.has_normal = hn::Or(surface.has_normal, is_given);
-  return is_given;
+  const Mask is_used = uses_normals_off ? is_given : hn::AndNot(is_off, is_given);
+  surface.normal = select(is_used, given, surface.normal);
+  surface.has_normal = hn::Or(surface.has_normal, is_used);
+  return is_used;
 }
 
 // ---- The largest gap between directions in the tangent plane (4.2)
@@ -240,7 +244,7 @@ void evaluate_criteria(const NeighbourBatch& batch, const CriteriaParameters& pa
     Surface<V>& surface = surfaces[i];
     surface.mean_distance = slice.get(batch.mean_distance);
     fit_plane(slice, parameters.sigma, surface);
-    estimated[i] = hn::Not(use_given_normals(slice, surface));
+    estimated[i] = hn::Not(use_given_normals(slice, parameters.uses_normals_off, surface, values));
     slice.set(planes.normals, select(surface.has_normal, surface.normal, vectors(kUndefined)));
   }
   BatchGaps gaps;

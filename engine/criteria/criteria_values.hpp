@@ -12,6 +12,7 @@ struct CriteriaParameters {
   double cos_cone;               // as in `TangentPlanes`
   double crease_threshold;       // angle probability from which a crease is looked for
   double shares[kMostCriteria];  // of the criteria, in the order of the table; sum 1
+  bool uses_normals_off;         // given ones, more than 45 degrees from the estimated ones
 };
 
 struct CriteriaValues {
@@ -20,6 +21,7 @@ struct CriteriaValues {
   Batch<double> mean_distance;            // r_p
   Batch<double> mean_offset[3];           // mu_p - p
   Batch<double> normal[3];                // NaN: no normal
+  Batch<double> is_normal_off;            // 1: the given one, by more than 45 degrees from the estimated one
   Batch<double> surface_share;            // of the boundary and the interior shape (4.4)
   Batch<double> gap_near;                 // ranks of the gap neighbours, nearer first; -1: no gap
   Batch<double> gap_far;

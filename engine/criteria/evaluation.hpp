@@ -18,6 +18,7 @@ struct Evaluation {
   LocalIndex gap_near = kNoIndex;        // gap neighbours, nearer first; kNoIndex: no gap
   LocalIndex gap_far = kNoIndex;
   float surface_share = 0;  // how much the neighbourhood resembles a surface (paper, 4.4), [0, 1]
+  bool is_normal_off = false;  // the given normal, by more than 45 degrees from the estimated one
 };
 
 }  // namespace lacuna

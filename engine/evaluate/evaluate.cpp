@@ -22,7 +22,9 @@ CriteriaParameters criteria_parameters(const NormalsConfig& normals, const Crite
   CriteriaParameters parameters{
       .sigma = criteria.sigma,
       .cos_cone = criteria.cone == 0 ? kNoCone : cosine(criteria.cone * std::numbers::pi / 180),
-      .crease_threshold = normals.crease_threshold};
+      .crease_threshold = normals.crease_threshold,
+      .shares = {},
+      .uses_normals_off = normals.use == NormalsUse::kGiven};
   const std::vector<double>& weights = criteria.weights;
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
   for (std::size_t i = 0; i < weights.size(); ++i) parameters.shares[i] = weights[i] / sum;
@@ -122,6 +124,7 @@ Evaluation evaluation(const CriteriaValues& values, std::size_t lane,
   e.probability = values.probability.at[lane];
   e.mean_distance = values.mean_distance.at[lane];
   e.surface_share = static_cast<float>(values.surface_share.at[lane]);
+  e.is_normal_off = values.is_normal_off.at[lane] != 0;
   if (values.gap_near.at[lane] >= 0) {
     e.gap_near = neighbours[static_cast<std::size_t>(values.gap_near.at[lane])];
     e.gap_far = neighbours[static_cast<std::size_t>(values.gap_far.at[lane])];

@@ -17,7 +17,7 @@ double length_unit(double extent) {
 
 // The sums of a tile, as plain data.
 struct TileSums {
-  std::uint64_t points, neighbours, candidates, undefined_normals;
+  std::uint64_t points, neighbours, candidates, undefined_normals, normals_off;
   ProbabilityBins probabilities;
   std::uint64_t edge_length_low;
   std::int64_t edge_length_high;
@@ -34,6 +34,7 @@ TileSums sums_of(const Totals& totals) {
           .neighbours = totals.neighbours,
           .candidates = totals.candidates,
           .undefined_normals = totals.undefined_normals,
+          .normals_off = totals.normals_off,
           .probabilities = totals.probabilities,
           .edge_length_low = static_cast<std::uint64_t>(totals.edge_length),
           .edge_length_high = static_cast<std::int64_t>(totals.edge_length >> 64)};
@@ -51,6 +52,7 @@ void add(const std::vector<TileSums>& of_tiles, const std::vector<DistanceBin>& 
     totals.neighbours += sums.neighbours;
     totals.candidates += sums.candidates;
     totals.undefined_normals += sums.undefined_normals;
+    totals.normals_off += sums.normals_off;
     totals.edge_length += (Int128{sums.edge_length_high} << 64) + sums.edge_length_low;
     for (std::size_t bin = 0; bin < kProbabilityBins; ++bin)
       totals.probabilities[bin] += sums.probabilities[bin];
@@ -73,7 +75,7 @@ double Totals::mean_edge_length() const {
 }
 
 double Totals::surface_area() const {
-  return std::numbers::pi * 2.25 * distances.sum_of_squares() / (mean_neighbours() + 2.5);
+  return std::numbers::pi * 2.25 * distances.sum_of_near_squares() / (mean_neighbours() + 2.5);
 }
 
 Totals sum_up(std::span<const Evaluation> evaluations, const Neighbourhoods& neighbourhoods, double threshold,
@@ -88,6 +90,7 @@ Totals sum_up(std::span<const Evaluation> evaluations, const Neighbourhoods& nei
     ++totals.probabilities[std::min(kProbabilityBins - 1,
                                     static_cast<std::size_t>(e.probability * kProbabilityBins))];
     totals.undefined_normals += !e.normal.allFinite();
+    totals.normals_off += e.is_normal_off;
     if (e.mean_distance > 0 && std::isfinite(e.mean_distance))
       ++distances[LengthBins::bin_of(e.mean_distance)];
     const double length =

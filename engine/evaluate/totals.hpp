@@ -26,6 +26,7 @@ struct Totals {
   std::uint64_t neighbours = 0;  // of |N_p|
   std::uint64_t candidates = 0;  // Pi above the threshold
   std::uint64_t undefined_normals = 0;
+  std::uint64_t normals_off = 0;
   ProbabilityBins probabilities{};
   Int128 edge_length = 0;  // over N_p of all p, in units of `length_unit`
   double length_unit = 1;
@@ -36,7 +37,8 @@ struct Totals {
   double median_distance() const { return distances.median(); }
   // Returns the area of the surface, where its points are even: the sum of the areas that they stand for. A
   // disc of 3/2 the mean distance holds its neighbours and the point. As measured for k from 8 to 50, it
-  // holds 1.5 more. The area is within 2 % on even samplings; points near a boundary count for more.
+  // holds 1.5 more. The area is within 2 % on even samplings; points near a boundary count for more,
+  // and outliers for nothing.
   double surface_area() const;
 };
 

@@ -28,14 +28,7 @@ struct Counts {
   std::uint64_t components = 0;       // of the boundary graph
   std::uint64_t raw_loops = 0;        // before selection
   std::uint64_t undefined_normals = 0;
-};
-
-// Normals that came with the points, compared with estimated ones at a sample of the surface.
-struct GivenNormals {
-  std::uint64_t checked = 0;
-  std::uint64_t off = 0;  // of these, by more than 45 degrees
-
-  bool fit() const { return off == 0 || 10 * off < checked; }
+  std::uint64_t normals_off = 0;  // given ones of distinct points, by more than 45 degrees from the estimated ones
 };
 
 struct PhaseTime {
@@ -65,7 +58,6 @@ struct Strays {
 
 struct Summary {
   Counts counts;
-  GivenNormals given_normals;       // none: `normals` is "estimated", or no point has one
   ProbabilityBins probabilities{};  // distinct points by their boundary probability
   Eigen::AlignedBox3d bounds;       // of the finite points; empty without any
   Strays strays;                    // without any, `rest` is `bounds`

@@ -27,7 +27,6 @@ struct Level {
   std::uint64_t tile_points = 0;     // the most in a tile
   TileStore store;                   // distinct points
   std::string seal;                  // the checksums of its parts, a line each; empty: it is not kept
-  GivenNormals given_normals;        // of the first level
   std::vector<std::uint64_t> input;  // of the first level: `PointSource::pass_counts`
   // Which point represents which. Only for a first level on a lattice, with results.points.
   std::optional<AppendLists<Represented>> represented;

@@ -427,7 +427,28 @@ TEST_CASE("the sampled surface has the area of the shape, whatever its density")
   CHECK(area(whole) - area(whole.punched({50, 50}, 25)) == Approx(25 * 25 * std::numbers::pi).epsilon(0.15));
   CHECK(area(density_step(100).jittered(0.25, 1)) == Approx(1e4).epsilon(0.12));
   CHECK(area(whole.joined(whole.noisy(0.05, 2))) == Approx(1e4).epsilon(0.1));
+  for (const double away : {1e3, 1e9}) {  // points far from all others have no surface
+    Cloud outliers;
+    for (int i = 1; i <= 20; ++i) outliers.positions.emplace_back(away * i, away * i * i / 7, -away * i);
+    CHECK(area(whole.joined(outliers)) == Approx(1e4).epsilon(0.08));
+  }
   CHECK(area({}) == 0);
+}
+
+// Each column of points is one point then. On a plane of the lattice it would be two, above and below.
+TEST_CASE("the frames of a grid that lie on each other have its hole, on any plane") {
+  const Cloud frame = plane(40).punched({20, 20}, 6);
+  for (const double height : {0.0, 1.0, 4.0, 0.3}) {
+    CAPTURE(height);
+    Cloud frames;
+    Random random(7);
+    for (int i = 0; i < 12; ++i) {
+      Cloud one = frame.translated({0, 0, height});
+      for (Eigen::Vector3d& p : one.positions) p.z() += random.uniform(-0.05, 0.05);
+      frames = frames.joined(one);
+    }
+    CHECK(run_engine(frames, tiled({}, 2000)).loop_ids().size() == 2);
+  }
 }
 
 // Without ties, ids decide nothing before the search for loops, whose origins are taken in ascending id.

@@ -61,18 +61,23 @@ TEST_CASE("given normals that do not fit the surface are estimated, unless the u
   Cloud cloud = punched_sheet();
   cloud.normals.assign(cloud.size(), {0, 0, 1});
   const Holes right = find_holes(cloud.positions, cloud.normals, with_points());
-  CHECK(right.summary.given_normals.checked > 0);
-  CHECK(right.summary.given_normals.off == 0);
+  CHECK(right.summary.counts.normals_off == 0);
   cloud.normals.assign(cloud.size(), {1, 0, 0});
   const Holes wrong = find_holes(cloud.positions, cloud.normals, with_points());
-  CHECK(wrong.summary.given_normals.checked == right.summary.given_normals.checked);
-  CHECK(wrong.summary.given_normals.off == wrong.summary.given_normals.checked);
+  CHECK(wrong.summary.counts.normals_off == cloud.size());
   const std::string without = bytes_of(find_holes(cloud.positions, with_points()));
   CHECK(bytes_of(wrong) == without);
+  for (std::size_t p = 0; p < cloud.size(); ++p) {
+    const bool is_at_rim = (cloud.positions[p].head<2>() - Eigen::Vector2d(15, 14)).norm() < 7;
+    cloud.normals[p] = is_at_rim ? Eigen::Vector3d(0, 1, 0) : Eigen::Vector3d(0, 0, 1);
+  }
+  const Holes at_rim = find_holes(cloud.positions, cloud.normals, with_points());
+  CHECK(at_rim.loops.size() == 3);
+  CHECK(at_rim.summary.counts.normals_off > 50);
   Config config = with_points();
   config.normals.use = NormalsUse::kEstimated;
   const Holes estimated = find_holes(cloud.positions, cloud.normals, config);
-  CHECK(estimated.summary.given_normals.checked == 0);
+  CHECK(estimated.summary.counts.normals_off == 0);
   CHECK(bytes_of(estimated) == without);
   config.normals.use = NormalsUse::kGiven;
   CHECK(bytes_of(find_holes(cloud.positions, cloud.normals, config)) != without);

@@ -275,9 +275,11 @@ void evaluate(const Positions& positions, const std::vector<Vector3d>& given, co
   point.shape = shape_shares(lambda).boundary;
   point.surface_share = shape_shares(lambda).surface;
 
-  point.normal = given_normal(given, id);
-  const bool estimated = !point.normal;
-  if (estimated) point.normal = estimated_normal(eigen);
+  point.normal = estimated_normal(eigen);
+  const std::optional<Vector3d> as_given = given_normal(given, id);
+  const bool is_off = as_given && point.normal && std::abs(as_given->dot(*point.normal)) < std::numbers::sqrt2 / 2;
+  const bool estimated = !as_given || (is_off && config.normals.use == NormalsUse::kFitting);
+  if (!estimated) point.normal = as_given;
   if (point.normal) {
     AngleOutcome angle = angle_criterion(offsets, *point.normal, criteria.cone);
     if (estimated && angle.probability > config.normals.crease_threshold && angle.gap) {
@@ -888,8 +890,8 @@ Loops loops_of(const Level& level, std::size_t number, const Config& config, Det
 using LatticeCell = std::array<double, 3>;
 
 LatticeCell lattice_cell(const Vector3d& p, double edge) {
-  return {std::floor(p.x() * (1 / edge)) + 0., std::floor(p.y() * (1 / edge)) + 0.,
-          std::floor(p.z() * (1 / edge)) + 0.};
+  return {std::floor(p.x() * (1 / edge) + 0.382) + 0., std::floor(p.y() * (1 / edge) + 0.382) + 0.,
+          std::floor(p.z() * (1 / edge) + 0.382) + 0.};
 }
 
 // Keeps of each cell the point nearest to its middle, then the lowest coordinates, then the lowest id.

@@ -134,6 +134,10 @@ std::vector<std::pair<std::string, std::string>> findings(const Summary& summary
                                        print_length(summary.median_distance, unit) + " away (median)");
   if (counts.undefined_normals > 0)
     facts.emplace_back("normals", "none at " + counted(counts.undefined_normals, "point", "points"));
+  if (counts.normals_off > 0) {
+    facts.emplace_back("given normals", counted(counts.normals_off, "is", "are") +
+                                            " off by more than 45 degrees from the estimated one");
+  }
   facts.emplace_back("boundary", counted(counts.boundary_points, "point", "points"));
   if (summary.e > 0) {  // the method of the paper
     facts.emplace_back("graph", counted(counts.boundary_edges, "eligible edge", "eligible edges") + ", " +

@@ -302,15 +302,14 @@ std::string stray_warning(const Strays& strays, double resolution) {
   return text.str();
 }
 
-std::string normals_warning(const GivenNormals& normals, NormalsUse use) {
-  if (normals.fit()) return "";
-  const double share = static_cast<double>(normals.off) / static_cast<double>(normals.checked);
+std::string normals_warning(const Counts& counts, NormalsUse use) {
+  constexpr std::uint64_t kFew = 100;
+  if (kFew * counts.normals_off < counts.points) return "";
   std::ostringstream text;
-  text << "the normals of the scan are off by more than 45 degrees from the surface at "
-       << std::lround(100 * share) << " % of a sample of the points"
+  text << print_count(counts.normals_off) << " normals of the scan are off by more than 45 degrees from the surface"
        << (use == NormalsUse::kGiven
                ? ", so that holes can be missed; --normals estimated leaves them out"
-               : "; they are estimated from the points instead; --normals given uses those of the scan");
+               : "; these are estimated from the points instead; --normals given uses those of the scan");
   return text.str();
 }
 
@@ -369,7 +368,7 @@ std::vector<std::string> scan_warnings(const FileScan& scan, const Detection& de
     warnings.push_back(std::move(nothing));
   if (std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
     warnings.push_back(std::move(strays));
-  if (std::string normals = normals_warning(summary.given_normals, config.normals.use); !normals.empty())
+  if (std::string normals = normals_warning(summary.counts, config.normals.use); !normals.empty())
     warnings.push_back(std::move(normals));
   const Counts& counts = summary.counts;
   const std::uint64_t points = counts.points - counts.dropped - counts.thinned_out - counts.duplicates;
