@@ -7,8 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 usage() {
   cat <<'TEXT'
 usage: tools/check.sh [--all]
-  without      the fast tests; then those of files and disk again, built to find memory errors and undefined
-               behaviour: half an hour on two cores
+  without      the fast tests: a quarter of an hour on two cores
   --all        before a release, and at the end of a large change: the slow tests, too; all tests of the libraries
                built to find memory errors, and built to find data races; instructions of a run; the program
                without headers that hide what is not included, linked to find classes defined twice: hours
@@ -79,24 +78,20 @@ tools/install.sh --tests
 build build all -DLACUNA_WERROR=ON
 run_tests build --label-regex "$( ((all)) && echo '^(fast|slow)$' || echo '^fast$')"
 
-# ---- memory errors and undefined behaviour: readers, writers and what is on disk; with --all the whole libraries
-
-# These measure memory and threads, of which the sanitizers take their own.
-measures='memory_test'
-export ASAN_OPTIONS=quarantine_size_mb=16  # freed memory that is not used again; 256 took a third more time
-export LSAN_OPTIONS=suppressions=$PWD/tests/support/leaks_of_others.txt:print_suppressions=0
-build build-sanitize lacuna_tests -DLACUNA_SANITIZE=address -DLACUNA_PYTHON=OFF "-DLACUNA_TESTED=$( ((all)) && echo 'engine|io' || echo 'engine/(store|bucket|parts|steps|run)|io')"
-LACUNA_DRAWN_SHARE=0.1 run_tests build-sanitize --exclude-regex "$measures"
-
-# ---- all else
+# ---- with sanitizers, and all else
 
 if ((all)); then
+  measures='memory_test'  # of memory and threads, of which the sanitizers take their own
+  export ASAN_OPTIONS=quarantine_size_mb=16  # freed memory that is not used again; 256 took a third more time
+  export LSAN_OPTIONS=suppressions=$PWD/tests/support/leaks_of_others.txt:print_suppressions=0
+  build build-sanitize lacuna_tests -DLACUNA_SANITIZE=address -DLACUNA_PYTHON=OFF
+  LACUNA_DRAWN_SHARE=0.1 run_tests build-sanitize --exclude-regex "$measures"
   tools/instructions.sh || failed=$((failed + 1))
   check_odr
   build_tbb
   export LD_LIBRARY_PATH=$PWD/build-threads/tbb/lib
   export TSAN_OPTIONS=suppressions=$PWD/tests/support/races_of_others.txt:exitcode=66
-  build build-threads lacuna_tests -DLACUNA_SANITIZE=thread -DLACUNA_PYTHON=OFF "-DLACUNA_TESTED=engine|io"
+  build build-threads lacuna_tests -DLACUNA_SANITIZE=thread -DLACUNA_PYTHON=OFF
   LACUNA_DRAWN_SHARE=0.05 run_tests build-threads --exclude-regex "$measures"
 fi
 
