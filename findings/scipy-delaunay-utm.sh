@@ -4,7 +4,7 @@
 # Guess: doubles resolve a nanometre at UTM coordinates, so a scan has the triangles that it has near the origin.
 # Seen: at a spacing of 5 cm, 76 of 10,000 points are used, and at 20 cm, 905. There is no warning. The others
 # count as coplanar. Qhull lifts points by their squares, which leave no digits for the distance of neighbours.
-# Long triangles look like holes, and heights of LinearNDInterpolator and griddata are off by up to a metre.
+# Long triangles look like holes, and heights of LinearNDInterpolator and griddata are off by more than a metre.
 # What helps: a shift to the origin first, and a look at the length of `coplanar`.
 set -euo pipefail
 shopt -s nullglob
