@@ -4,7 +4,7 @@
 # Guess: cells of NaN grow by the window, or are ignored and shrink. Either way, it is the same on all sides.
 # Seen: the void moves. After a window of 5 it has its size, two cells farther down and to the right, and after
 # grey_closing four. Void cells have heights, measured ones are void, and no mask of the result fits the scan.
-# What helps: -inf in place of NaN. The void then shrinks evenly, and is back in its place after grey_closing.
+# What helps: -inf in place of NaN. By maximum_filter the void shrinks evenly, and after grey_closing it is as before.
 set -euo pipefail
 shopt -s nullglob
 work=$(mktemp -d)
