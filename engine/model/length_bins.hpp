@@ -16,8 +16,8 @@ struct LengthBins {
   static double start_of(std::uint32_t bin);   // the shortest of the bin
   // Returns the median, as if the numbers of a bin were spread evenly over it. Returns 0 without any number.
   double median() const;
-  // Returns the sum within 1.6 %, without far numbers: those beyond the median and beyond a factor of 4 that
-  // holds fewer than one number in 4,096.
+  // Returns the sum within 1.6 %, without far numbers. They lie beyond the median, and beyond a factor of 4
+  // that holds fewer than one number in 4,096.
   double sum_of_near_squares() const;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lattice of a level consists of cubes of one edge. So the cell of a point depends on that point alone.
-// The origin of the coordinates lies inside of a cube: walls and floors are often at round numbers, and noise
-// would share their points out among the cubes of both sides.
+// The origin of the coordinates lies inside of a cube. Walls and floors are often at round numbers. On a face
+// of cubes, noise would share their points out among both sides.
 #pragma once
 
 #include <cstdint>

@@ -37,8 +37,8 @@ std::string print_bounds(const Eigen::AlignedBox3d& box, double margin);
 // such points.
 std::string stray_warning(const Strays& strays, double resolution);
 
-// Returns how many given normals do not fit, and what the run has done; empty for fewer than one in a hundred
-// points, as at creases.
+// Returns how many given normals do not fit, and what the run has done. It is empty for fewer than one in a
+// hundred points, as at creases.
 std::string normals_warning(const Counts& counts, NormalsUse use);
 
 // Returns, after the scan was read, a line where many points are left out as noise. Another line comes where
