@@ -60,7 +60,7 @@ def share_left(lengths, edge):
 
 
 def cell_of(p, edge):
-    return tuple(math.floor(x * (1 / edge) + 0.382) for x in p)
+    return tuple(0 if -0.25 <= x * (1 / edge) < 0 else math.floor(x * (1 / edge)) for x in p)
 
 
 def representatives(points, edge):

@@ -29,17 +29,17 @@ double LengthBins::median() const {
 
 double LengthBins::sum_of_near_squares() const {
   constexpr std::uint32_t kFactorOf4 = 2 * 64;
-  constexpr std::uint64_t kFew = 4096;
-  std::uint64_t all = 0, upto = 0, within = 0;  // within: the factor of 4 that begins behind a bin
+  constexpr std::uint64_t kFew = 100;
+  std::uint64_t all = 0, upto = 0, within = 0;  // within: the factor of 4 that ends at a bin
   for (const auto& [bin, count] : counts) all += count;
   double sum = 0;
-  auto ahead = counts.begin();
+  auto start = counts.begin();
   for (const auto& [bin, count] : counts) {
+    for (; start->first + kFactorOf4 < bin; ++start) within -= start->second;
+    if (2 * (upto - within) >= all && within * kFew < all) break;
     sum += static_cast<double>(count) * start_of(bin) * start_of(bin + 1);
     upto += count;
-    for (; ahead != counts.end() && ahead->first <= bin + kFactorOf4; ++ahead) within += ahead->second;
-    within -= count;
-    if (2 * upto >= all && within * kFew < all) break;
+    within += count;
   }
   return sum;
 }

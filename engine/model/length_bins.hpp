@@ -17,7 +17,7 @@ struct LengthBins {
   // Returns the median, as if the numbers of a bin were spread evenly over it. Returns 0 without any number.
   double median() const;
   // Returns the sum within 1.6 %, without far numbers. They lie beyond the median, and beyond a factor of 4
-  // that holds fewer than one number in 4,096.
+  // that holds fewer than one number in a hundred.
   double sum_of_near_squares() const;
 };
 

@@ -108,7 +108,7 @@ class OccupiedCells {
 // Two points of one cell are no farther apart than its diagonal and the error of rounding.
 double squared_reach(const Eigen::AlignedBox3d& box, double edge) {
   const double farthest = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
-  const double side = edge * (1 + 1e-12) + farthest * 1e-15;
+  const double side = edge * (1 + kBelowOrigin + 1e-12) + farthest * 1e-15;
   return 3 * side * side;
 }
 

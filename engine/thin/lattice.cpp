@@ -7,8 +7,6 @@
 namespace lacuna {
 namespace {
 
-constexpr double kOrigin = 0.382;  // of the coordinates, within its cell, in edges
-
 // The finaliser of MurmurHash3, for each coordinate in turn.
 std::uint64_t mixed(std::uint64_t hash, double coordinate) {
   hash = (hash ^ std::bit_cast<std::uint64_t>(coordinate)) * 0xff51afd7ed558ccdULL;
@@ -25,8 +23,8 @@ std::uint64_t hash_of(const Eigen::Vector3d& cell) {
 PointInCell Lattice::place_of(const Eigen::Vector3d& position) const {
   PointInCell place{.cell = {}, .squared_offset = 0, .hash = 0};
   for (int axis = 0; axis < 3; ++axis) {
-    const double edges = position[axis] * per_length_ + kOrigin;
-    place.cell[axis] = std::floor(edges) + 0.0;  // -0 is 0
+    const double edges = position[axis] * per_length_;
+    place.cell[axis] = std::floor(-kBelowOrigin <= edges && edges < 0 ? 0 : edges) + 0.0;  // -0 is 0
     const double offset = edges - place.cell[axis] - 0.5;
     place.squared_offset += offset * offset;
   }

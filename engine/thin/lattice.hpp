@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lattice of a level consists of cubes of one edge. So the cell of a point depends on that point alone.
-// The origin of the coordinates lies inside of a cube. Walls and floors are often at round numbers. On a face
-// of cubes, noise would share their points out among both sides.
+// The lattice of a level consists of cubes of one edge, counted from the origin of the coordinates. So the
+// cell of a point depends on that point alone. Cells at 0 reach a quarter of an edge below it: walls and
+// floors are often at 0, and noise would share their points out among the cells of both sides.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +18,8 @@ struct PointInCell {
 };
 
 std::uint64_t hash_of(const Eigen::Vector3d& cell);
+
+inline constexpr double kBelowOrigin = 0.25;  // in edges: how far the cells at 0 reach
 
 class Lattice {
  public:

@@ -890,8 +890,11 @@ Loops loops_of(const Level& level, std::size_t number, const Config& config, Det
 using LatticeCell = std::array<double, 3>;
 
 LatticeCell lattice_cell(const Vector3d& p, double edge) {
-  return {std::floor(p.x() * (1 / edge) + 0.382) + 0., std::floor(p.y() * (1 / edge) + 0.382) + 0.,
-          std::floor(p.z() * (1 / edge) + 0.382) + 0.};
+  const auto cell = [&](double x) {
+    const double edges = x * (1 / edge);
+    return edges >= -0.25 && edges < 0 ? 0 : std::floor(edges) + 0.;
+  };
+  return {cell(p.x()), cell(p.y()), cell(p.z())};
 }
 
 // Keeps of each cell the point nearest to its middle, then the lowest coordinates, then the lowest id.
