@@ -105,18 +105,22 @@ class TextReader final : public ScanReader {
     if (!columns_.has_more && next_cell(rest, columns_.separator, cell)) fail_number_of_values("more");
   }
 
-  // The last two are bytes of blanks and quotes in UTF-8 and Latin-1.
-  static constexpr std::string_view kBetweenThousands = ".,' \xa0\x80";
+  // Whether signs divide the digits of a number; bytes above 127 are of blanks and quotes.
+  static bool has_thousands(std::string_view cell) {
+    constexpr std::string_view kBetween = ".,' \xa0\x80",
+                               kOthers = "0123456789+-.,' \xa0\x80\xc2\xe2\xaf\x99";
+    const std::size_t first = cell.find_first_of(kBetween);
+    return first != cell.npos && first > 0 && cell.find_first_not_of(kOthers) == cell.npos;
+  }
 
   [[noreturn]] void fail_number(std::string_view cell, std::string_view row) const {
-    const bool has_thousands = is_numeric(cell) && cell.find_first_of(kBetweenThousands) != cell.npos;
     const bool is_header = count_numbers(split(row, columns_.separator)) == 0;
     in_.fail_at_line(
         in_.line(),
         in_quotes(cell) + " is not a number" +
-            (has_thousands ? "; thousands must not be divided"
-             : is_header   ? ", and no value of its line is; joined files with other columns must be read "
-                             "one by one"
+            (has_thousands(cell) ? "; thousands must not be divided"
+             : is_header ? ", and no value of its line is; joined files with other columns must be read "
+                           "one by one"
                          : "; --columns leaves a column out that has the name _, such as --columns x,y,z,_"));
   }
 
