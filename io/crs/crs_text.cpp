@@ -110,6 +110,17 @@ std::string_view without_vertical(std::string_view crs) {
   return is_code(crs) ? crs.substr(0, crs.find('+')) : horizontal_system(crs);
 }
 
+// It is the last node of the system, such as AUTHORITY["EPSG","25832"]] or ID["EPSG",25832]].
+std::string own_code(std::string_view system) {
+  constexpr std::string_view kEpsg = "\"EPSG\"";
+  const std::size_t at = system.rfind(kEpsg);
+  if (at == system.npos) return "";
+  std::string rest(system.substr(at + kEpsg.size()));
+  std::erase_if(rest, [](char c) { return c == '"' || c == ',' || c == ' '; });
+  const std::size_t end = rest.find_first_not_of("0123456789");
+  return end != rest.npos && rest.substr(end) == "]]" ? "EPSG:" + rest.substr(0, end) : "";
+}
+
 std::string_view unit_node(std::string_view system) {
   return find_node(system, kUnitKeywords, true);
 }

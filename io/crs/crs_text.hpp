@@ -2,6 +2,7 @@
 // Facts about a coordinate reference system from its well-known text (OGC 01-009; ISO 19162).
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace lacuna::io {
@@ -27,6 +28,9 @@ bool is_geographic(std::string_view crs);
 
 // Whether positions are from the centre of the Earth. False where the text is a code.
 bool is_geocentric(std::string_view crs);
+
+// Returns the code "EPSG:N" that a system in well-known text has of its own; empty if it has none.
+std::string own_code(std::string_view system);
 
 // Returns the last unit of length, as `UNIT["metre", 1]`. Units of angles, and of the geographic system below
 // a projected one, come before it. Returns an empty text if there is none.

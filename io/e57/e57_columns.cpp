@@ -128,7 +128,9 @@ void check_columns(const PagedFile& pages, const E57Scan& scan, std::size_t numb
     pages.fail_physical(scan.points_at, "scan " + std::to_string(number) + ": " + reason);
   };
   if (!has_all(scan, position_names(scan))) {
-    fail("its points have no position; cartesianX Y Z, or sphericalRange Azimuth Elevation are needed");
+    fail(
+        "its points have no position; cartesianX Y Z, or sphericalRange Azimuth Elevation are needed; "
+        "--skip-damaged leaves out this scan, if others have one");
   }
   std::unordered_set<std::string_view> names = {"scan"};
   for (const FieldColumn& column : columns) {
@@ -139,6 +141,19 @@ void check_columns(const PagedFile& pages, const E57Scan& scan, std::size_t numb
 }
 
 }  // namespace
+
+std::uint64_t drop_scans_without_position(E57Header& header) {
+  const auto has_position = [](const E57Scan& scan) { return has_all(scan, position_names(scan)); };
+  if (std::ranges::none_of(header.scans, has_position)) return 0;
+  std::uint64_t count = 0;
+  for (E57Scan& scan : header.scans) {
+    if (scan.records == 0 || has_position(scan)) continue;
+    scan.records = scan.points_at = 0;
+    scan.fields.clear();
+    ++count;
+  }
+  return count;
+}
 
 E57Columns e57_columns(const PagedFile& pages, const E57Header& header) {
   std::vector<std::pair<std::string, Scalar>> all;

@@ -45,6 +45,10 @@ struct E57ScanColumns {
   std::optional<std::size_t> invalid_state;  // the property that says which positions are none
 };
 
+// Takes the points from scans whose points have no position. Returns the number of these scans; 0, and
+// changes nothing, if no scan has a position.
+std::uint64_t drop_scans_without_position(E57Header& header);
+
 // Throws `Error` unless each scan with points has a position, and the names of its columns differ.
 // Cost: linear in the fields of all scans.
 E57Columns e57_columns(const PagedFile& pages, const E57Header& header);

@@ -60,12 +60,16 @@ double value_at(Column column, std::size_t row) {
 
 }  // namespace
 
-void spherical_to_cartesian(E57Rows rows) {
-  for_each_position(rows, [](const Eigen::Vector3d& ray) {
+std::size_t spherical_to_cartesian(E57Rows rows) {
+  constexpr double kTurn = 2 * std::numbers::pi * 1.001;
+  std::size_t wide = 0;
+  for_each_position(rows, [&](const Eigen::Vector3d& ray) {
+    wide += ray.tail<2>().cwiseAbs().maxCoeff() > kTurn ? 1 : 0;
     const Direction azimuth = direction(ray[1]), elevation = direction(ray[2]);
     return Eigen::Vector3d(ray[0] * elevation.cosine * azimuth.cosine,
                            ray[0] * elevation.cosine * azimuth.sine, ray[0] * elevation.sine);
   });
+  return wide;
 }
 
 void place_points(E57Rows rows, const Pose& pose) {

@@ -18,8 +18,9 @@ struct E57Rows {
 };
 
 // Turns range, azimuth and elevation, the angles in radians, into x y z. The position is NaN if an angle is
-// not finite or beyond 1e6. The bytes are equal on every machine. Error: 1e-15 times the range.
-void spherical_to_cartesian(E57Rows rows);
+// not finite or beyond 1e6. Returns the number of rows with an angle beyond a full turn. The bytes are equal
+// on every machine. Error: 1e-15 times the range.
+std::size_t spherical_to_cartesian(E57Rows rows);
 
 // Moves positions by the pose. A point exactly at the scanner is a ray without a return, and becomes NaN.
 void place_points(E57Rows rows, const Pose& pose);

@@ -21,10 +21,11 @@ constexpr std::size_t kTogether = 512;  // rows that stay in the cache while fie
 
 class E57Reader final : public ScanReader {
  public:
-  E57Reader(const std::filesystem::path& file, Trust trust)
-      : trusts_header_(trust == Trust::kHeader),
+  E57Reader(const std::filesystem::path& file, const ReadOptions& options)
+      : trusts_header_(options.trust == Trust::kHeader),
         header_(read_e57_header(file)),
         pages_(file, header_.page_bytes),
+        without_position_(options.skip_damaged ? drop_scans_without_position(header_) : 0),
         columns_(e57_columns(pages_, header_)) {}
 
   std::string format() const override {
@@ -55,12 +56,16 @@ class E57Reader final : public ScanReader {
 
   std::vector<ReaderNote> notes() const override {
     const auto count = std::ranges::count_if(header_.scans, &E57Scan::has_zero_rotation);
-    return {{.count = static_cast<std::uint64_t>(count),
-             .thing = "scan",
-             .what =
-                 " with the quaternion 0 0 0 0, taken for no rotation; a pose in a list of files can turn "
-                 "the file"}};
+    return {
+        {.count = static_cast<std::uint64_t>(count),
+         .thing = "scan",
+         .what = " with the quaternion 0 0 0 0, taken for no rotation; a pose in a list of files can turn "
+                 "the file"},
+        {.count = without_position_,
+         .thing = "scan",
+         .what = " whose points have no position; left out, as --skip-damaged says"}};
   }
+  RowFindings findings() const override { return findings_; }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
     assert(max_rows > 0);
@@ -107,13 +112,13 @@ class E57Reader final : public ScanReader {
       points_->take(i, rows.count, column(property), added);
     }
     for (const std::size_t property : scan_columns_.missing) fill_missing(column(property), rows.count);
-    const Pose& pose = header_.scans[next_scan_ - 1].pose;
-    if (scan_columns_.is_spherical) spherical_to_cartesian(rows);
-    place_points(rows, pose);
     if (scan_columns_.invalid_state) {
       const Column state = column(*scan_columns_.invalid_state);
       drop_invalid(rows, {.data = state.data, .stride = state.stride, .type = state.type});
     }
+    const Pose& pose = header_.scans[next_scan_ - 1].pose;
+    if (scan_columns_.is_spherical) findings_.wide_angles += spherical_to_cartesian(rows);
+    place_points(rows, pose);
     if (scan_columns_.has_normals) {
       const auto rank = [&](const char* name) { return columns_.ranks.at(name); };
       turn_normals({column(rank("nx")), column(rank("ny")), column(rank("nz"))}, rows.count, pose);
@@ -127,10 +132,12 @@ class E57Reader final : public ScanReader {
   bool trusts_header_;
   E57Header header_;
   PagedFile pages_;
+  std::uint64_t without_position_;  // scans that are left out
   E57Columns columns_;
   std::size_t next_scan_ = 0;
   std::optional<E57Points> points_;  // of the scan before the next one
   E57ScanColumns scan_columns_;
+  RowFindings findings_;
 };
 
 }  // namespace
@@ -140,7 +147,7 @@ bool looks_like_e57(const FileStart& start) {
 }
 
 std::unique_ptr<ScanReader> open_e57(const std::filesystem::path& file, const ReadOptions& options) {
-  return std::make_unique<E57Reader>(file, options.trust);
+  return std::make_unique<E57Reader>(file, options);
 }
 
 }  // namespace lacuna::io

@@ -3,6 +3,7 @@
 
 #include "io/crs/crs_text.hpp"
 #include "io/crs/length_unit.hpp"
+#include "io/crs/stated_crs.hpp"
 #include "io/files/little_endian.hpp"
 
 #include <algorithm>
@@ -86,8 +87,21 @@ bool LasCrs::is_geocentric() const {
   return model_ == kModelGeocentric && !is_projected();
 }
 
+void LasCrs::choose(bool has_text_bit) {
+  const std::string code = code_of_keys(), flat_code(without_vertical(code)),
+                    flat_text(horizontal_system(well_known_text_));
+  if (code.empty() || flat_text.empty() || flat_code == own_code(flat_text) ||
+      is_same_crs(flat_code, flat_text))
+    return;
+  do_keys_hold_ = !has_text_bit;
+  other_ = has_text_bit ? code : well_known_text_;
+}
+
 std::string LasCrs::text() const {
-  if (!well_known_text_.empty()) return well_known_text_;
+  return has_text() ? well_known_text_ : code_of_keys();
+}
+
+std::string LasCrs::code_of_keys() const {
   if (is_geocentric()) {
     const std::uint16_t code = geocentric_code(geographic_);
     return code == 0 ? "" : "EPSG:" + std::to_string(code);
@@ -100,7 +114,7 @@ std::string LasCrs::text() const {
 }
 
 bool LasCrs::is_geographic() const {
-  if (!well_known_text_.empty()) return io::is_geographic(well_known_text_);
+  if (has_text()) return io::is_geographic(well_known_text_);
   return !is_projected() && (model_ == kModelGeographic || (model_ == 0 && geographic_ != 0));
 }
 
@@ -110,17 +124,18 @@ std::string LasCrs::unit_of_keys() const {
 }
 
 std::string LasCrs::length_unit() const {
-  return well_known_text_.empty() ? unit_of_keys() : io::length_unit(well_known_text_);
+  return has_text() ? io::length_unit(well_known_text_) : unit_of_keys();
 }
 
 std::string LasCrs::other_unit() const {
-  const std::string unit = length_unit(), of_keys = unit_of_keys();
-  return unit.empty() || unit == of_keys ? "" : of_keys;
+  const std::string unit = length_unit(),
+                    other = has_text() ? unit_of_keys() : io::length_unit(well_known_text_);
+  return unit.empty() || unit == other ? "" : other;
 }
 
 std::string LasCrs::vertical_unit() const {
-  const std::string of_text = io::vertical_unit(well_known_text_);
-  return of_text.empty() ? unit_of_code(vertical_unit_) : of_text;
+  const std::string of_text = io::vertical_unit(well_known_text_), of_keys = unit_of_code(vertical_unit_);
+  return of_text.empty() || (do_keys_hold_ && !of_keys.empty()) ? of_keys : of_text;
 }
 
 }  // namespace lacuna::io

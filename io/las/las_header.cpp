@@ -2,6 +2,7 @@
 #include "io/las/las_header.hpp"
 
 #include "io/files/little_endian.hpp"
+#include "io/las/las_extra.hpp"
 #include "io/las/las_records.hpp"
 
 #include <algorithm>
@@ -53,8 +54,38 @@ bool is_extra_bytes(std::string_view user, std::uint16_t number) {
   return user == "LASF_Spec" && number == 4;
 }
 
+// The header while its records are read.
+struct Reading {
+  LasHeader& header;
+  std::vector<std::vector<LasExtraBytes>> extra{};  // of each record of them that is no copy of another
+
+  void take_extra(std::span<const std::byte> data) {
+    std::vector<LasExtraBytes> more = extra_bytes_of(data);
+    const auto is_copy = [&](const std::vector<LasExtraBytes>& other) {
+      return std::ranges::equal(more, other, {}, &LasExtraBytes::descriptor, &LasExtraBytes::descriptor);
+    };
+    if (std::ranges::none_of(extra, is_copy)) extra.push_back(std::move(more));
+  }
+
+  // One record is allowed, but programs add values by a second one.
+  void join_extra() {
+    std::size_t bytes = 0;
+    for (const auto& record : extra) {
+      for (const LasExtraBytes& one : record) bytes += las_extra_size(one);
+    }
+    const bool fit = bytes + las_point_bytes(header.point_format) <= header.record_bytes;
+    if (!fit && extra.size() > 1) {
+      header.extra_records = extra.size();
+      extra.erase(extra.begin(), extra.end() - 1);
+    }
+    for (const auto& record : extra)
+      header.extra_bytes.insert(header.extra_bytes.end(), record.begin(), record.end());
+  }
+};
+
 // Reads a variable length record. Records of other users and numbers are passed over.
-void read_record(InputFile& in, LasHeader& header) {
+void read_record(InputFile& in, Reading& reading) {
+  LasHeader& header = reading.header;
   std::array<std::byte, kRecordHeader> head;
   const std::uint64_t place = in.position();
   in.read(head.data(), head.size());
@@ -65,14 +96,15 @@ void read_record(InputFile& in, LasHeader& header) {
   header.records.push_back({user, number, place, kRecordHeader + bytes});
   std::vector<std::byte> data(bytes);
   in.read(data.data(), data.size());
-  if (is_extra_bytes(user, number)) header.extra_bytes = extra_bytes_of(data);
+  if (is_extra_bytes(user, number)) reading.take_extra(data);
   if (user == kProjection) header.crs.take(number, data);
   if (user == kLaszip && number == kLaszipLayout) header.laszip = std::move(data);
 }
 
 // Reads the records of LAS 1.4 behind the points: `count` of them, the first at byte `place`.
 void read_extended_records(const std::filesystem::path& file, std::uint64_t place, std::uint32_t count,
-                           LasHeader& header) {
+                           Reading& reading) {
+  LasHeader& header = reading.header;
   constexpr std::uint64_t kLongestText = 1 << 20;
   InputFile in(file, kHead);
   in.skip(std::min(place, in.remaining()));
@@ -86,7 +118,7 @@ void read_extended_records(const std::filesystem::path& file, std::uint64_t plac
                                                  " bytes goes on beyond the end of the file");
     const std::string user = text_at(head, 2, 16);
     header.extended.push_back({user, number, in.position() - kHead, kHead + bytes});
-    const bool is_extra = is_extra_bytes(user, number) && header.extra_bytes.empty();
+    const bool is_extra = is_extra_bytes(user, number);
     if ((user != kProjection && !is_extra) || bytes > kLongestText) {
       in.skip(bytes);
       continue;
@@ -94,7 +126,7 @@ void read_extended_records(const std::filesystem::path& file, std::uint64_t plac
     std::vector<std::byte> data(bytes);
     in.read(data.data(), data.size());
     if (is_extra) {
-      header.extra_bytes = extra_bytes_of(data);
+      reading.take_extra(data);
     } else {
       header.crs.take(number, data);
     }
@@ -181,16 +213,20 @@ LasHeader read_las_header(InputFile& in) {
   check_points(in, header);
 
   if (header.points_at < header_bytes) in.fail_at_byte(96, "the points begin within the header");
+  Reading reading{.header = header};
   const auto records = value_at<std::uint32_t>(head, 100);
   for (std::uint32_t i = 0; i < records; ++i) {
     if (in.position() + kRecordHeader > header.points_at)
       in.fail_at_byte(100,
                       std::to_string(records) + " variable length records do not fit before the first point");
-    read_record(in, header);
+    read_record(in, reading);
   }
   if (minor >= 4)
     read_extended_records(in.file(), value_at<std::uint64_t>(head, 235), value_at<std::uint32_t>(head, 243),
-                          header);
+                          reading);
+  constexpr std::uint16_t kTextBit = 16;  // of the global encoding, reserved before LAS 1.4
+  reading.join_extra();
+  header.crs.choose((value_at<std::uint16_t>(head, 6) & kTextBit) != 0);
   if (minor >= 3) find_waveforms(in.file(), value_at<std::uint64_t>(head, 227), header);
   in.skip(header.points_at - in.position());
   return header;

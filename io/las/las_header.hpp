@@ -40,8 +40,9 @@ struct LasHeader {
   std::uint16_t record_bytes = 0;  // of a point
   std::uint64_t points = 0;
   std::array<double, 3> scale{}, offset{};
-  std::vector<LasExtraBytes> extra_bytes;
-  std::vector<std::byte> laszip;  // data of the record "laszip encoded"; empty without it
+  std::vector<LasExtraBytes> extra_bytes;  // of all records of them; of the last where they do not fit
+  std::uint64_t extra_records = 0;         // that do not fit a point together; else 0
+  std::vector<std::byte> laszip;           // data of the record "laszip encoded"; empty without it
   LasCrs crs;
   std::vector<std::byte> bytes;  // the whole header block, as it is in the file
   std::vector<LasRecordExtent> records, extended;

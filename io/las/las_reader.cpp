@@ -69,6 +69,13 @@ class LasReader final : public ScanReader {
   bool is_slow() const override { return header_.is_compressed; }
   bool has_noise_classes() const override { return true; }
   std::string crs() const override { return header_.crs.text(); }
+  std::string other_crs() const override { return header_.crs.other_text(); }
+  std::vector<ReaderNote> notes() const override {
+    return {{.count = header_.extra_records,
+             .thing = "record",
+             .what = " of extra bytes, which are together longer than those of a point; the last one holds "
+                     "alone, and its values may be others"}};
+  }
   bool is_geographic() const override { return header_.crs.is_geographic(); }
   std::string length_unit() const override { return header_.crs.length_unit(); }
   std::string other_unit() const override { return header_.crs.other_unit(); }

@@ -81,9 +81,8 @@ Layout parse_layout(std::span<const std::byte> record) {
   }
   const auto coder = load<std::uint16_t>(&record[kCoderAt]);
   if (coder != 0) throw Corrupt("entropy coder " + std::to_string(coder) + " is not supported (0 is)");
-  if (layout.compressor != compressor::kPointwise && layout.chunk_points == 0) {
-    throw Corrupt("chunks of compressed points have 0 points each");
-  }
+  if (layout.chunk_points == 0)
+    layout.chunk_points = kVariableChunks;  // as LASzip takes it; LAStools writes 0
 
   const std::size_t count = load<std::uint16_t>(&record[kItemCountAt]);
   if (count == 0 || kItemsAt + count * kItemBytes > record.size()) {

@@ -337,9 +337,9 @@ class NumpyReader final : public ScanReader {
         rows.values.push_back(value);
       }
     }
-    const std::string doubt =
-        header_.has_names || !options.columns.empty() ? std::string() : doubt_of_first_columns(rows);
-    if (!doubt.empty())
+    if (header_.has_names || !options.columns.empty()) return;
+    if (is_matrix(rows)) in_.fail_at_byte(10, describe_matrix(header_.rows, rows.columns));
+    if (const std::string doubt = doubt_of_first_columns(rows); !doubt.empty())
       in_.fail_at_byte(begin_, "no names of columns, and " + doubt +
                                    "; --columns says what the columns are, such as --columns id,x,y,z or "
                                    "--columns x,y,z,a");

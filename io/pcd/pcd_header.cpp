@@ -5,6 +5,7 @@
 #include "io/files/number.hpp"
 #include "io/rows/scan_reader.hpp"
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <set>
@@ -67,6 +68,23 @@ void parse_data(Parser& parser, LineWords& words) {
   parser.fail("unknown encoding " + in_quotes(name) + "; allowed are ascii, binary and binary_compressed");
 }
 
+// The place, and the quaternion w x y z, which some programs leave out.
+Pose parse_viewpoint(LineWords& words) {
+  constexpr const char* kNeeded = "a position x y z and a quaternion are needed";
+  constexpr double kZero = 1e-6;
+  Eigen::Vector3d place;
+  for (double& coordinate : place) coordinate = words.number<double>(kNeeded);
+  std::array<double, 4> turn = {1, 0, 0, 0};
+  if (words.count_left() > 0) {
+    for (double& part : turn) part = words.number<double>(kNeeded);
+  }
+  const Eigen::Quaterniond quaternion(turn[0], turn[1], turn[2], turn[3]);
+  Pose pose = Pose::Identity();
+  if (quaternion.norm() > kZero) pose.linear() = quaternion.normalized().toRotationMatrix();
+  pose.translation() = place;
+  return pose;
+}
+
 // Returns false at the end of the header.
 bool parse_line(Parser& parser, std::string_view line) {
   LineWords words(parser.in, line);
@@ -78,7 +96,6 @@ bool parse_line(Parser& parser, std::string_view line) {
     parser.fail("a second line " + in_quotes(keyword) + "; one is allowed");
   }
   constexpr const char* kCount = "one whole number is needed";
-  constexpr const char* kViewpoint = "a position x y z and a quaternion are needed";
   if (keyword == "VERSION") {
     parse_version(parser, words);
   } else if (keyword == "FIELDS") {
@@ -108,7 +125,7 @@ bool parse_line(Parser& parser, std::string_view line) {
     parse_data(parser, words);
     return false;
   } else if (keyword == "VIEWPOINT") {
-    for (double& coordinate : parser.header.viewpoint) coordinate = words.number<double>(kViewpoint);
+    parser.header.viewpoint = parse_viewpoint(words);
   } else {
     parser.fail(
         "unknown keyword " + in_quotes(keyword) +
@@ -171,7 +188,8 @@ std::size_t PcdHeader::row_bytes() const {
 }
 
 std::optional<Eigen::Vector3d> PcdHeader::scanner() const {
-  return viewpoint.isZero(0) ? std::nullopt : std::optional(viewpoint);
+  const Eigen::Vector3d place = viewpoint.translation();
+  return place.isZero(0) ? std::nullopt : std::optional(place);
 }
 
 std::size_t PcdHeader::padding_bytes() const {

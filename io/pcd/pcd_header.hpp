@@ -4,6 +4,7 @@
 #pragma once
 
 #include "io/files/input_file.hpp"
+#include "io/rows/pose.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -32,7 +33,7 @@ struct PcdHeader {
   std::vector<PcdField> fields;  // at least one, with at most 65,536 values together
   std::uint64_t rows = 0;        // as declared: nothing may be allocated by it
   PcdEncoding encoding = PcdEncoding::kAscii;
-  Eigen::Vector3d viewpoint{0, 0, 0};  // the scanner's position
+  Pose viewpoint = Pose::Identity();  // of the scanner; turns by nothing if its quaternion is 0 0 0 0
 
   std::size_t row_bytes() const;
   // Returns where the scanner is; nothing at 0 0 0, which is the default.

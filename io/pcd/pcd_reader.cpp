@@ -28,6 +28,7 @@ class PcdReader final : public ScanReader {
     return place ? std::vector{ScannerPose{.place = *place}} : std::vector<ScannerPose>{};
   }
   bool has_scanner_at_zero() const override { return !rows_.header().scanner(); }
+  std::optional<Pose> viewpoint() const override { return rows_.header().viewpoint; }
   std::optional<std::uint64_t> expected_rows() const override { return rows_.header().rows; }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {

@@ -16,8 +16,9 @@ namespace lacuna::io {
 namespace {
 
 std::size_t find_vertex(const InputFile& in, const PlyHeader& header) {
-  for (std::size_t i = 0; i < header.elements.size(); ++i) {
-    if (header.elements[i].name == "vertex") return i;
+  for (const std::string_view name : {"vertex", "vertices", "point", "points"}) {
+    for (std::size_t i = 0; i < header.elements.size(); ++i)
+      if (header.elements[i].name == name) return i;
   }
   in.fail_at_line(in.line(), "the header has no element 'vertex'; points are needed");
 }

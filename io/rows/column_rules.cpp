@@ -4,8 +4,10 @@
 #include "io/files/property_name.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -16,14 +18,14 @@ constexpr std::size_t kFewestSampledRows = 10;
 
 using Synonyms = std::span<const std::string_view>;
 
-constexpr std::string_view kXNames[] = {"x",           "easting",    "east",       "e",        "xcoord",
-                                        "xcoordinate", "xutm",       "utmx",       "pointx",   "posx",
-                                        "positionx",   "cartesianx", "rechtswert", "eastings", "coordx",
-                                        "utmeasting",  "points0"};
-constexpr std::string_view kYNames[] = {"y",           "northing",   "north",    "n",         "ycoord",
-                                        "ycoordinate", "yutm",       "utmy",     "pointy",    "posy",
-                                        "positiony",   "cartesiany", "hochwert", "northings", "coordy",
-                                        "utmnorthing", "points1"};
+constexpr std::string_view kXNames[] = {"x",           "easting",    "east",        "e",        "xcoord",
+                                        "xcoordinate", "xutm",       "utmx",        "pointx",   "posx",
+                                        "positionx",   "cartesianx", "rechtswert",  "eastings", "coordx",
+                                        "utmeasting",  "points0",    "pointsmxyz0", "rdx"};
+constexpr std::string_view kYNames[] = {"y",           "northing",   "north",       "n",         "ycoord",
+                                        "ycoordinate", "yutm",       "utmy",        "pointy",    "posy",
+                                        "positiony",   "cartesiany", "hochwert",    "northings", "coordy",
+                                        "utmnorthing", "points1",    "pointsmxyz1", "rdy"};
 constexpr std::string_view kZNames[] = {"z",
                                         "height",
                                         "elevation",
@@ -41,7 +43,11 @@ constexpr std::string_view kZNames[] = {"z",
                                         "coordz",
                                         "ellipsoidalheight",
                                         "orthometricheight",
-                                        "points2"};
+                                        "points2",
+                                        "pointsmxyz2",
+                                        "hoehe",
+                                        "hhe",  // Höhe without its umlaut
+                                        "nap"};
 constexpr std::string_view kLongitudes[] = {"lon", "lng", "long", "longitude", "londeg"};
 constexpr std::string_view kLatitudes[] = {"lat", "latitude", "latdeg"};
 constexpr std::string_view kTimes[] = {"gpstime",    "gpstimes",   "time",     "times",   "timesec",
@@ -57,8 +63,12 @@ std::string lower_letters(std::string_view text) {
   return lower;
 }
 
-// "Easting (m)", "easting_m" and "EASTING[ft]" are "easting".
+// "Easting (m)", "easting_m" and "EASTING[ft]" are "easting", and "field.x" is "x".
 std::string plain_name(std::string_view name) {
+  if (const std::size_t dot = name.rfind('.'); dot != name.npos && dot + 2 == name.size()) {
+    const std::string axis = lower_letters(name.substr(dot + 1));
+    if (axis == "x" || axis == "y" || axis == "z") return axis;
+  }
   if (const std::size_t bracket = name.find_first_of("([{"); bracket != name.npos && bracket > 0)
     name = name.substr(0, bracket);
   while (!name.empty() && (name.back() == '_' || name.back() == ' ')) name.remove_suffix(1);
@@ -123,7 +133,92 @@ bool rises(const SampledRows& rows) {
   return true;
 }
 
+// The value that a share of the values is below; NaN without values.
+double quantile(std::vector<double>& values, double share) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+// Returns the median step to the value a row below, or a column to the right; NaN without one. Equal values
+// are no step.
+double median_step(const SampledRows& rows, std::size_t column, std::size_t right, std::size_t below) {
+  std::vector<double> steps;
+  for (std::size_t row = 0; row + below < rows.rows(); ++row) {
+    const double step = std::abs(rows.at(row + below, column + right) - rows.at(row, column));
+    if (std::isfinite(step) && step > 0) steps.push_back(step);
+  }
+  return quantile(steps, 0.5);
+}
+
+// Returns the rows with NaN for values that mean none, such as 0 of depths or -9999 of heights. These are the
+// least and the largest value, if many places have it.
+SampledRows without_missing(SampledRows rows) {
+  constexpr double kMany = 0.02;
+  double least = std::numeric_limits<double>::infinity(), largest = -least;
+  for (const double value : rows.values) {
+    if (!std::isfinite(value)) continue;
+    least = std::min(least, value);
+    largest = std::max(largest, value);
+  }
+  for (const double extreme : {least, largest}) {
+    if (static_cast<double>(std::ranges::count(rows.values, extreme)) <=
+        kMany * static_cast<double>(rows.values.size()))
+      continue;
+    std::ranges::replace(rows.values, extreme, std::numeric_limits<double>::quiet_NaN());
+  }
+  return rows;
+}
+
+// Whether the first column has even steps, behind a row that may number the columns.
+bool numbers_rows(const SampledRows& rows) {
+  const double step = rows.at(2, 0) - rows.at(1, 0);
+  for (std::size_t row = 2; row < rows.rows(); ++row) {
+    if (!(std::abs(rows.at(row, 0) - rows.at(row - 1, 0) - step) <= 1e-6 * std::abs(step))) return false;
+  }
+  return step != 0;
+}
+
+// `first`: the column from which the matrix begins.
+bool is_matrix_from(const SampledRows& rows, std::size_t first) {
+  constexpr double kAlike = 5, kSmooth = 0.2;
+  std::vector<double> along, down, values;
+  for (std::size_t column = first; column < rows.columns; ++column) {
+    if (column + 1 < rows.columns) along.push_back(median_step(rows, column, 1, 0));
+    down.push_back(median_step(rows, column, 0, 1));
+  }
+  for (std::size_t row = 0; row < rows.rows(); ++row) {
+    for (std::size_t column = first; column < rows.columns; ++column)
+      if (std::isfinite(rows.at(row, column))) values.push_back(rows.at(row, column));
+  }
+  const std::array<double, 3> of_first = {along[0], along[1], along[2]};
+  const auto is_none = [](double step) { return std::isnan(step); };
+  std::erase_if(down, is_none);
+  const std::size_t columns = along.size();
+  std::erase_if(along, is_none);
+  if (2 * along.size() < columns) return false;
+  const double spread = quantile(values, 0.9) - quantile(values, 0.1), step = quantile(along, 0.5);
+  const auto is_large = [&](double other) { return other > kAlike * step; };
+  return std::ranges::none_of(of_first, is_large) && quantile(along, 0.9) <= kAlike * step &&
+         step <= kSmooth * spread && !(quantile(down, 0.5) > kSmooth * spread);
+}
+
 }  // namespace
+
+bool is_matrix(const SampledRows& rows) {
+  constexpr std::size_t kMostOfPoints = 20, kFewestRows = 3;
+  if (rows.columns <= kMostOfPoints || rows.rows() < kFewestRows) return false;
+  const SampledRows known = without_missing(rows);
+  return is_matrix_from(known, 0) || (numbers_rows(rows) && is_matrix_from(known, 1));
+}
+
+std::string describe_matrix(std::uint64_t rows, std::size_t columns) {
+  return "a matrix of " + std::to_string(rows) + " x " + std::to_string(columns) +
+         ", as of heights or depths; points need x y z, such as `gdal_translate -of XYZ` makes of a raster; "
+         "--columns x,y,z,... says that the first columns are these";
+}
 
 bool is_name_of_degrees(std::string_view name) {
   const std::string plain = plain_name(name);

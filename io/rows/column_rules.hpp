@@ -41,4 +41,10 @@ struct SampledRows {
 // Fewer than ten rows say nothing.
 std::string doubt_of_first_columns(const SampledRows& rows);
 
+// Whether rows are those of a matrix of one quantity, such as heights or depths. Rows have more than 20
+// columns. The first three continue the others, and neighbours in rows and columns differ little.
+bool is_matrix(const SampledRows& rows);
+// Says so, as a reason of an error.
+std::string describe_matrix(std::uint64_t rows, std::size_t columns);
+
 }  // namespace lacuna::io

@@ -26,6 +26,7 @@ class MovedReader : public ScanReader {
   bool has_scanner_at_zero() const final { return reader_->has_scanner_at_zero(); }
   bool has_noise_classes() const final { return reader_->has_noise_classes(); }
   std::vector<ReaderNote> notes() const final { return reader_->notes(); }
+  RowFindings findings() const final { return reader_->findings(); }
 
   bool next(RowBatch& batch, std::size_t max_rows) final {
     if (!reader_->next(rows_, max_rows)) return false;
@@ -98,9 +99,12 @@ class PosedReader final : public MovedReader {
     return places;
   }
 
-  // A scan that is moved to its place, and names no scanner, begins at its own.
+  // A scan that is moved to its place, and names no scanner, begins at its own. So does a scan that is moved
+  // to the viewpoint of its file.
   std::vector<ScannerPose> scanners() const override {
     std::vector<ScannerPose> scanners = reader().scanners();
+    const std::optional<Pose> viewpoint = reader().viewpoint();
+    if (is_of_scanner_ && viewpoint && viewpoint->isApprox(pose_)) scanners.clear();
     if (scanners.empty() && is_of_scanner_) scanners.push_back({.place = Eigen::Vector3d::Zero()});
     for (ScannerPose& scanner : scanners) {
       scanner.place = pose_ * scanner.place;

@@ -39,26 +39,27 @@ Pose from_quaternion(const std::vector<double>& numbers) {
   return pose;
 }
 
-Pose from_matrix(const std::vector<double>& numbers) {
-  if (numbers.size() == 16 && (numbers[12] != 0 || numbers[13] != 0 || numbers[14] != 0 || numbers[15] != 1))
-    throw Error("the last row of a pose is not 0 0 0 1; the matrix may be transposed");
-  Pose pose = Pose::Identity();
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 4; ++column)
-      pose.matrix()(row, column) = numbers[static_cast<std::size_t>(4 * row + column)];
-  }
-  return pose;
+// Reads the matrix from its first rows, or from all of them.
+Eigen::Matrix4d matrix_of(const std::vector<double>& numbers) {
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    matrix(static_cast<Eigen::Index>(i / 4), static_cast<Eigen::Index>(i % 4)) = numbers[i];
+  return matrix;
 }
 
-void require_similarity(const Pose& pose) {
+}  // namespace
+
+Pose pose_of(const Eigen::Matrix4d& matrix) {
+  if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
+    throw Error("the last row of a pose is not 0 0 0 1; the matrix may be transposed");
+  const Pose pose(matrix);
   const Eigen::Matrix3d square = pose.linear().transpose() * pose.linear();
   const double scale = square.trace() / 3;
   const bool is_even = (square - scale * Eigen::Matrix3d::Identity()).norm() <= kTolerance * scale;
   if (!is_even || !(pose.linear().determinant() > 0))
     throw Error("the matrix of a pose does not turn the scan; it shears, mirrors or flattens it");
+  return pose;
 }
-
-}  // namespace
 
 Pose parse_pose(std::string_view text) {
   const std::vector<double> numbers = parse_numbers(text);
@@ -67,9 +68,7 @@ Pose parse_pose(std::string_view text) {
         "a pose of " + std::to_string(numbers.size()) +
         " numbers; allowed: 16 (a 4 x 4 matrix), 12 (its first rows), or 7 (x y z, quaternion x y z w)");
   if (numbers.size() == 7) return from_quaternion(numbers);
-  const Pose pose = from_matrix(numbers);
-  require_similarity(pose);
-  return pose;
+  return pose_of(matrix_of(numbers));
 }
 
 Pose read_pose(const std::filesystem::path& file) {

@@ -43,7 +43,7 @@ std::optional<Scalar> scalar_from_name(std::string_view name) {
   for (std::size_t i = 0; i < kNames.size(); ++i) {
     if (name == kNames[i].name || name == kNames[i].other) return static_cast<Scalar>(i);
   }
-  return std::nullopt;
+  return name == "bool" ? std::optional(Scalar::kUint8) : std::nullopt;
 }
 
 bool is_integer(Scalar type) {

@@ -12,7 +12,7 @@
 
 namespace lacuna::io {
 
-// Accepts both spellings of the PLY format: "char" and "int8", ...
+// Accepts both spellings of the PLY format, "char" and "int8", and so on. "bool" is a byte.
 std::optional<Scalar> scalar_from_name(std::string_view name);
 
 bool is_integer(Scalar type);

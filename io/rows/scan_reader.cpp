@@ -26,4 +26,19 @@ ReaderNote note_of_faces(std::uint64_t count, const char* thing) {
               "the whole surface"};
 }
 
+std::vector<ReaderNote> notes_of(const RowFindings& findings) {
+  return {
+      {.count = findings.repeated_lines,
+       .thing = "line",
+       .what = " equal to one before the rows, such as the header of a joined file; passed over"},
+      {.count = findings.other_places,
+       .thing = "scan",
+       .what = " whose scanner position (third line) and matrix name two places; the matrix holds, and a "
+               "pose in a list of files can move the file"},
+      {.count = findings.wide_angles,
+       .thing = "point",
+       .what = " with an azimuth or elevation beyond a full turn; angles are radians here, and these may be "
+               "degrees, so that points lie at wrong places"}};
+}
+
 }  // namespace lacuna::io

@@ -4,6 +4,7 @@
 
 #include "engine/export.hpp"
 #include "io/options/trust.hpp"
+#include "io/rows/pose.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -68,6 +69,16 @@ struct ReaderNote {
 // The note that the faces of a mesh are not read.
 ReaderNote note_of_faces(std::uint64_t count, const char* thing = "face");
 
+// What a reader finds in rows that its user may not expect, up to the last row that was read.
+struct RowFindings {
+  std::uint64_t repeated_lines = 0;  // of text, that stand before the rows, too
+  std::uint64_t other_places = 0;    // scans whose place is not the place of their pose
+  std::uint64_t wide_angles = 0;     // points with an angle beyond a full turn
+};
+inline constexpr std::uint64_t RowFindings::*kRowFindings[] = {
+    &RowFindings::repeated_lines, &RowFindings::other_places, &RowFindings::wide_angles};
+LACUNA_API std::vector<ReaderNote> notes_of(const RowFindings& findings);
+
 // The bytes of rows that readers and writers of files hold at a time.
 inline constexpr std::size_t kBatchBytes = std::size_t{32} << 20;
 
@@ -87,6 +98,8 @@ class LACUNA_API ScanReader {
   // Returns the coordinate reference system, as well-known text or a code such as "EPSG:25832"; empty if not
   // known.
   virtual std::string crs() const { return {}; }
+  // Returns another system that the file names as well; empty: it names one at most.
+  virtual std::string other_crs() const { return {}; }
   // Whether positions are longitude and latitude.
   virtual bool is_geographic() const;
   // Returns the unit of length, as unit_of_metres (io/crs/length_unit.hpp); empty if not known.
@@ -104,6 +117,10 @@ class LACUNA_API ScanReader {
   // Whether the classes 7 and 18 are noise. In other formats than LAS, they are labels of any meaning.
   virtual bool has_noise_classes() const { return false; }
   virtual std::vector<ReaderNote> notes() const { return {}; }
+  virtual RowFindings findings() const { return {}; }
+  // Returns where the file says that its scanner stood, and how it was turned. Some programs leave points in
+  // the scanner's own axes, and this pose moves them to their place.
+  virtual std::optional<Pose> viewpoint() const { return std::nullopt; }
 };
 
 struct ReadOptions {
@@ -111,6 +128,7 @@ struct ReadOptions {
   // The bytes that a reader may hold of a file whose points cannot be read one by one: LAZ.
   std::uint64_t memory = std::uint64_t{64} << 20;
   Trust trust = Trust::kNeither;
+  bool skip_damaged = false;  // scans of a file that cannot be read take no part, if the others can
 };
 
 // Fills a batch with rows of `stride` bytes, at most `max_rows`, for a reader that has them one by one.

@@ -31,6 +31,18 @@ std::string common(const std::vector<ScanFile>& files, std::string ScanFile::*te
   return first;
 }
 
+// The counts of a file that each pass makes anew.
+template <class File>
+auto pass_counts_of(File& file) {
+  std::vector counts = {&file.rows_read, &file.nearer_to_zero, &file.nearer_to_scanner};
+  for (const auto finding : kRowFindings) counts.push_back(&(file.findings.*finding));
+  return counts;
+}
+
+void begin_pass(ScanFile& file) {
+  for (std::uint64_t* count : pass_counts_of(file)) *count = 0;
+}
+
 }  // namespace
 
 std::filesystem::path full_name(const std::filesystem::path& file) {
@@ -38,7 +50,10 @@ std::filesystem::path full_name(const std::filesystem::path& file) {
 }
 
 ReadOptions read_options(const InputConfig& config, std::uint64_t memory) {
-  return {.columns = config.columns, .memory = memory, .trust = config.trust};
+  return {.columns = config.columns,
+          .memory = memory,
+          .trust = config.trust,
+          .skip_damaged = config.skip_damaged};
 }
 
 FileScan::FileScan(std::vector<ScanInput> inputs, InputConfig config, std::uint64_t memory)
@@ -59,17 +74,20 @@ void FileScan::add_file(ScanInput input) {
   const RowFilter filter(config_, file.name, *reader);
   file.layout = reader->layout();
   file.crs = reader->crs();
+  file.other_crs = reader->other_crs();
   add_units(*reader, file);
   file.format = reader->format();
   file.notes = reader->notes();
   file.has_scanner_at_zero = !file.pose && reader->has_scanner_at_zero();
+  const std::vector<ScannerPose> scanners = reader->scanners();
+  if (!file.pose && scanners.size() == 1 && !scanners[0].source) file.scanner = scanners[0].place;
   file.expected_rows = reader->expected_rows();
   file.is_geographic = reader->is_geographic();
   file.may_be_degrees =
       !file.is_geographic && file.crs.empty() && file.unit.empty() && look_like_degrees(*reader);
   reads_slowly_ = reads_slowly_ || reader->is_slow();
   has_normals_ = has_normals_ || has_vectors(file.layout, kNormalNames);
-  has_scanners_ = has_scanners_ || !reader->scanners().empty();
+  has_scanners_ = has_scanners_ || !scanners.empty();
 }
 
 // The system states the units that a file does not, or contradicts them.
@@ -160,6 +178,16 @@ void FileScan::check_unchanged() const {
   }
 }
 
+void FileScan::count_nearer(std::span<const Eigen::Vector3d> positions) {
+  ScanFile& file = files_[file_];
+  if (!file.scanner) return;
+  for (const Eigen::Vector3d& position : positions) {
+    const double from_zero = position.squaredNorm(), from_scanner = (position - *file.scanner).squaredNorm();
+    file.nearer_to_zero += from_zero < from_scanner ? 1 : 0;
+    file.nearer_to_scanner += from_zero > from_scanner ? 1 : 0;
+  }
+}
+
 // The engine does so too, but knows no files.
 void FileScan::refuse_too_far(const PointBatch& batch) const {
   const auto found = std::find_if(batch.positions.begin(), batch.positions.end(), is_too_far);
@@ -184,7 +212,7 @@ void FileScan::select(std::size_t first, std::size_t last, PointId id) {
   first_file_ = first;
   last_file_ = last;
   first_id_ = id;
-  for (ScanFile& file : files_) file.rows_read = 0;
+  for (ScanFile& file : files_) begin_pass(file);
 }
 
 void FileScan::rewind() {
@@ -204,12 +232,16 @@ bool FileScan::next(PointBatch& batch) {
   for (; file_ < last_file_; ++file_, reader_.reset()) {
     if (!reader_) {
       reader_ = open(file_);
-      files_[file_].rows_read = 0;
+      begin_pass(files_[file_]);
       filter_.emplace(config_, files_[file_].name, *reader_);
     }
-    if (!reader_->next(rows_, batch_rows(file_))) continue;
+    if (!reader_->next(rows_, batch_rows(file_))) {
+      files_[file_].findings = reader_->findings();
+      continue;
+    }
     const RowLayout& layout = reader_->layout();
     load_vectors(rows_, layout, kPositionNames, batch.positions);
+    count_nearer(batch.positions);
     if (observer_) read_ = batch.positions;
     filter_->apply(rows_, batch.positions, filtered_out_, before_filters_);
     if (observer_) observer_->take(file_, *reader_, rows_, read_, batch.positions);
@@ -308,17 +340,21 @@ std::vector<ScanInput> inputs_of(std::span<const std::string> names) {
 
 std::vector<std::uint64_t> FileScan::pass_counts() const {
   std::vector<std::uint64_t> counts;
-  for (const ScanFile& file : files_) counts.push_back(file.rows_read);
+  for (const ScanFile& file : files_) {
+    for (const std::uint64_t* count : pass_counts_of(file)) counts.push_back(*count);
+  }
   for (const FilterCount& filter : kFilterCounts) counts.push_back(filtered_out_.*filter.count);
   counts.push_back(filtered_out_.synthetic);
   return counts;
 }
 
 void FileScan::set_pass_counts(std::span<const std::uint64_t> counts) {
-  if (counts.size() != files_.size() + std::size(kFilterCounts) + 1)
+  if (counts.size() != pass_counts().size())
     fail_inconsistent("the workspace counts another number of files");
   auto count = counts.begin();
-  for (ScanFile& file : files_) file.rows_read = *count++;
+  for (ScanFile& file : files_) {
+    for (std::uint64_t* of_file : pass_counts_of(file)) *of_file = *count++;
+  }
   for (const FilterCount& filter : kFilterCounts) filtered_out_.*filter.count = *count++;
   filtered_out_.synthetic = *count;
 }

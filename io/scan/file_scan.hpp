@@ -63,13 +63,18 @@ struct ScanFile {
   RowLayout layout;
   std::vector<ReaderNote> notes;  // of its reader
   std::string crs;                // empty if it names none, or has a pose
+  std::string other_crs;          // that its records name as well; empty if they do not
   std::string unit;               // of length; empty if it names none
   std::string z_unit;             // of z, with what --unit-z states; empty if it is the unit of x and y
   std::string contradiction;      // how the units that it states contradict each other; empty if they do not
   double z_factor = 1;            // brings its z into the unit of x and y
   bool is_geographic = false;     // longitude and latitude, as its system or the names of its columns say
   bool may_be_degrees = false;    // its first rows look like them, and it says nothing of units
-  bool has_scanner_at_zero = false;            // it states 0 0 0 as its scanner's place, and no pose moves it
+  bool has_scanner_at_zero = false;        // it states 0 0 0 as its scanner's place, and no pose moves it
+  std::optional<Eigen::Vector3d> scanner;  // else its only scanner's place, if no pose moves it
+  // In the last pass: points that are nearer to 0 0 0 than to that scanner, and the others.
+  std::uint64_t nearer_to_zero = 0, nearer_to_scanner = 0;
+  RowFindings findings;                        // in the last pass
   std::optional<std::uint64_t> expected_rows;  // as its header declares; text declares none
   std::uint64_t rows_read = 0;                 // in the last pass
 
@@ -100,7 +105,7 @@ class LACUNA_API FileScan : public PointSource {
   std::vector<std::string> identity() const override;
   // Returns three texts for each file: its name as given, the absolute one, and its pose or nothing.
   std::vector<std::string> names() const override;
-  // Returns the rows that were read of each file, the rows that the filters left out, and synthetic ones.
+  // Returns what was counted in each file, the rows that the filters left out, and synthetic ones.
   std::vector<std::uint64_t> pass_counts() const override;
   void set_pass_counts(std::span<const std::uint64_t> counts) override;
 
@@ -135,6 +140,7 @@ class LACUNA_API FileScan : public PointSource {
   void add_units(const ScanReader& reader, ScanFile& file);
   void choose_crs();
   void choose_z_factors();
+  void count_nearer(std::span<const Eigen::Vector3d> positions);
   void refuse_too_far(const PointBatch& batch) const;
   std::string describe_no_point() const;
 

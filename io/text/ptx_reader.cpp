@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/text/ptx_reader.hpp"
 
+#include "engine/run/error.hpp"
 #include "io/files/input_file.hpp"
 #include "io/files/number.hpp"
 #include "io/rows/pose.hpp"
@@ -62,6 +63,7 @@ class PtxReader final : public ScanReader {
   }  // more blocks may follow
 
   std::vector<ScannerPose> scanners() const override { return scanners_; }
+  RowFindings findings() const override { return findings_; }
 
   bool next(RowBatch& batch, std::size_t max_rows) override {
     return fill_batch(batch, max_rows, layout_.stride, [&](std::byte* to) {
@@ -71,7 +73,7 @@ class PtxReader final : public ScanReader {
       if (!is_pending_) read_ray();
       is_pending_ = false;
       put_ray(to);
-      --left_;
+      if (--left_ == 0) end_block();
       return true;
     });
   }
@@ -86,17 +88,34 @@ class PtxReader final : public ScanReader {
     if (rows > 0 && columns > std::numeric_limits<std::uint64_t>::max() / rows)
       in_.fail_at_line(in_.line(),
                        "a grid of " + std::to_string(columns) + " x " + std::to_string(rows) + " rays");
-    for (int i = 0; i < 4; ++i) read_values(3);  // the scanner's place and axes, which the matrix has too
-    for (std::size_t i = 0; i < 4; ++i) {
-      read_values(4);
-      pose_.matrix().col(static_cast<Eigen::Index>(i)) =
-          Eigen::Vector4d::Map(line_.data());  // of row vectors
-    }
     left_ = columns * rows;
+    read_values(3);
+    const Eigen::Vector3d place = Eigen::Vector3d::Map(line_.data());
+    for (int i = 0; i < 3; ++i) read_values(3);  // the scanner's axes, which the matrix has too
+    read_matrix();
+    block_ = {.off = (place - pose_.translation()).norm()};
     scanners_.push_back(
         {.place = pose_.translation(), .axis = pose_.linear().col(2).normalized(), .source = scan_});
     ++scan_;
     return true;
+  }
+
+  // The matrix is of row vectors. Nothing depends on it in an empty grid.
+  void read_matrix() {
+    Eigen::Matrix4d matrix;
+    for (const Eigen::Index column : {0, 1, 2, 3}) {
+      read_values(4);
+      matrix.col(column) = Eigen::Vector4d::Map(line_.data());
+    }
+    try {
+      pose_ = left_ > 0 ? pose_of(matrix) : Pose(matrix);
+    } catch (const Error& error) {
+      in_.fail_at_line(in_.line(), std::string("of the matrix by columns, ") + error.what());
+    }
+  }
+
+  void end_block() {
+    if (block_.shorter > block_.steps / 2) ++findings_.other_places;
   }
 
   // Reads the next line that is not blank.
@@ -135,11 +154,12 @@ class PtxReader final : public ScanReader {
     return *count;
   }
 
-  void put_ray(std::byte* to) const {
-    const bool is_return = line_[0] != 0 || line_[1] != 0 || line_[2] != 0;
-    const Eigen::Vector3d place = is_return
-                                      ? pose_ * Eigen::Vector3d(line_[0], line_[1], line_[2])
-                                      : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  void put_ray(std::byte* to) {
+    const Eigen::Vector3d own = Eigen::Vector3d::Map(line_.data());
+    const bool is_return = !own.isZero(0);
+    if (is_return && own.allFinite()) block_.take(own);
+    const Eigen::Vector3d place =
+        is_return ? pose_ * own : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
     const auto put = [&](auto value) {
       std::memcpy(to, &value, sizeof value);
       to += sizeof value;
@@ -155,9 +175,26 @@ class PtxReader final : public ScanReader {
     put(scan_ - 1);
   }
 
+  // What the returns of a block say of its pose.
+  struct Block {
+    double off;  // from the place that the block states to the place of its matrix
+    std::optional<Eigen::Vector3d> last{};
+    std::uint64_t steps = 0, shorter = 0;  // from return to return; those that are shorter than `off`
+
+    void take(const Eigen::Vector3d& point) {
+      if (last) {
+        ++steps;
+        shorter += (point - *last).norm() < off ? 1 : 0;
+      }
+      last = point;
+    }
+  };
+
   InputFile in_;
   RowLayout layout_;
   Pose pose_;
+  Block block_{.off = 0};
+  RowFindings findings_;
   std::uint64_t left_ = 0;             // rays of the block not yet read
   std::uint32_t scan_ = 0;             // blocks begun
   std::vector<ScannerPose> scanners_;  // of the blocks begun

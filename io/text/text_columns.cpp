@@ -3,6 +3,7 @@
 
 #include "io/rows/column_rules.hpp"
 #include "io/rows/scan_reader.hpp"
+#include "io/text/split_numbers.hpp"
 #include "io/text/text_cells.hpp"
 #include "io/text/text_start.hpp"
 
@@ -55,6 +56,8 @@ class ColumnFinder {
     if (start.lines.empty() && start.count != std::uint64_t{0})
       in_.fail_at_line(in_.line(), std::string("the file ends here without a row; ") + kAllowed);
     columns_.block_rows = start.count;
+    for (std::size_t i = 0; i < std::min(places.row, start.lines.size()); ++i)
+      columns_.lines_before.emplace_back(without_end(start.lines[i].text));
     const std::string_view header_line =
         places.header ? std::string_view(start.lines[*places.header].text) : std::string_view();
     const Cells header = header_cells(header_line);
@@ -173,11 +176,27 @@ class ColumnFinder {
     columns_.are_degrees = columns_.are_degrees || position == PositionNames::kDegrees;
     const SampledRows rows = sample(names, lines);
     if (is_unnamed_) {
+      refuse_matrix(rows);
+      if (const std::string doubt = doubt_of_split_numbers(lines, columns_.separator); !doubt.empty())
+        in_.fail_at_line(in_.line(), doubt + ", in " + in_quotes(lines[0].text) +
+                                         " first; the program that wrote them can divide values by "
+                                         "semicolons, and --columns x,y,z,a,b,c says that they are columns");
       if (const std::string doubt = doubt_of_first_columns(rows); !doubt.empty())
         in_.fail_at_line(in_.line(), "no header line, and " + doubt + ", in " + in_quotes(lines[0].text) +
                                          " first; --columns says what the columns are, such as --columns "
                                          "id,x,y,z or --columns x,y,z,a");
     }
+  }
+
+  void refuse_matrix(const SampledRows& rows) {
+    if (!is_matrix(rows)) return;
+    const std::uint64_t line = in_.line();
+    std::uint64_t count = 1;
+    while (const auto next = in_.next_line()) {
+      const std::string_view text = without_blanks(*next);
+      count += text.empty() || is_comment(text) ? 0 : 1;
+    }
+    in_.fail_at_line(line, describe_matrix(count, rows.columns));
   }
 
   // Reads the sampled lines that have a value for each column, and marks columns with words as not read.

@@ -21,6 +21,7 @@ struct TextColumns {
   bool are_degrees = false;                 // x and y are longitude and latitude
   char separator = ' ';                     // of the rows
   std::optional<std::uint64_t> block_rows;  // a line before the rows counts them (.pts)
+  std::vector<std::string> lines_before;    // the rows, the header among them
   std::string first_row;  // if it was passed; else the next line is the first row, or a comment
 };
 

@@ -7,6 +7,7 @@
 #include "io/text/text_cells.hpp"
 #include "io/text/text_columns.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -29,6 +30,7 @@ class TextReader final : public ScanReader {
   std::string format() const override { return "text"; }
   const RowLayout& layout() const override { return layout_; }
   bool is_geographic() const override { return columns_.are_degrees; }
+  RowFindings findings() const override { return findings_; }
 
   // A file of counted rows may have more such blocks behind the first.
   std::optional<std::uint64_t> expected_rows() const override { return std::nullopt; }
@@ -41,7 +43,7 @@ class TextReader final : public ScanReader {
       }
       while (const auto line = in_.next_line()) {
         const std::string_view text = without_blanks(*line);
-        if (text.empty() || is_comment(text) || begins_block(text)) continue;
+        if (text.empty() || is_comment(text) || begins_block(text) || is_repeated(text)) continue;
         put_row(text, to);
         return true;
       }
@@ -53,6 +55,14 @@ class TextReader final : public ScanReader {
   }
 
  private:
+  // Files that were joined have their headers within.
+  bool is_repeated(std::string_view line) {
+    const bool is_one =
+        std::ranges::find(columns_.lines_before, without_end(line)) != columns_.lines_before.end();
+    findings_.repeated_lines += is_one ? 1 : 0;
+    return is_one;
+  }
+
   // Reads, in a file of counted rows, a bare count behind the rows of a block. Exports of several stations
   // have such counts.
   bool begins_block(std::string_view line) {
@@ -87,7 +97,7 @@ class TextReader final : public ScanReader {
       }
       if (!is_read_[i]) continue;
       if (!parse_cell(cell, value)) {
-        if (!is_missing(cell)) fail_number(cell);
+        if (!is_missing(cell)) fail_number(cell, row);
         value = std::numeric_limits<double>::quiet_NaN();
       }
       put(value);
@@ -95,10 +105,23 @@ class TextReader final : public ScanReader {
     if (!columns_.has_more && next_cell(rest, columns_.separator, cell)) fail_number_of_values("more");
   }
 
-  [[noreturn]] void fail_number(std::string_view cell) const {
-    in_.fail_at_line(in_.line(), in_quotes(cell) +
-                                     " is not a number; --columns leaves a column out that has the name _, "
-                                     "such as --columns x,y,z,_");
+  // Whether signs divide the digits of a number; bytes above 127 are of blanks and quotes.
+  static bool has_thousands(std::string_view cell) {
+    constexpr std::string_view kBetween = ".,' \xa0\x80",
+                               kOthers = "0123456789+-.,' \xa0\x80\xc2\xe2\xaf\x99";
+    const std::size_t first = cell.find_first_of(kBetween);
+    return first != cell.npos && first > 0 && cell.find_first_not_of(kOthers) == cell.npos;
+  }
+
+  [[noreturn]] void fail_number(std::string_view cell, std::string_view row) const {
+    const bool is_header = count_numbers(split(row, columns_.separator)) == 0;
+    in_.fail_at_line(
+        in_.line(),
+        in_quotes(cell) + " is not a number" +
+            (has_thousands(cell) ? "; thousands must not be divided"
+             : is_header ? ", and no value of its line is; joined files with other columns must be read "
+                           "one by one"
+                         : "; --columns leaves a column out that has the name _, such as --columns x,y,z,_"));
   }
 
   [[noreturn]] void fail_number_of_values(const std::string& comparison) const {
@@ -117,6 +140,7 @@ class TextReader final : public ScanReader {
   std::vector<char> is_read_;                // of each column of the file
   std::optional<std::uint64_t> block_rows_;  // of the current block, where its rows are counted
   std::uint64_t rows_ = 0;                   // of it so far
+  RowFindings findings_;
 };
 
 }  // namespace

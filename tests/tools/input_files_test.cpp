@@ -117,6 +117,23 @@ TEST_CASE("a pose follows a name in a list, as numbers or as the file that holds
   check_list_refused("a.xyz pose=none.xf\n", "none.xf");
 }
 
+TEST_CASE("a pose in a list may be the viewpoint of a PCD, whose scanner stands there then") {
+  const test::ScratchFolder scratch;
+  std::string pcd = test::ascii_pcd("1 2 3\n4 5 6\n", "10 20 30");
+  pcd.replace(pcd.find(" 1 0 0 0"), 8, " 0.70710678 0 0 0.70710678");  // a quarter turn around z
+  scratch.write("a.pcd", pcd);
+  scratch.write("b.xyz", "1 2 3\n");
+  FileScan scan(expand_inputs({as_list(scratch.write("list.txt", "a.pcd pose=viewpoint\n"))}), {});
+  PointBatch batch;
+  REQUIRE(scan.next(batch));
+  CHECK((batch.positions[0] - Eigen::Vector3d(8, 21, 33)).norm() < 1e-6);
+  const auto reader = scan.open(0);
+  REQUIRE(reader->scanners().size() == 1);
+  CHECK((reader->scanners()[0].place - Eigen::Vector3d(10, 20, 30)).norm() < 1e-6);
+  CHECK(FileScan(inputs_of(scan.names()), {}).open(0)->scanners()[0].place == reader->scanners()[0].place);
+  check_list_refused((scratch / "b.xyz").string() + " pose=viewpoint\n", "b.xyz has no VIEWPOINT");
+}
+
 TEST_CASE("a folder without a scan, an empty list and one that is missing are errors that name them") {
   const test::ScratchFolder scratch;
   fs::create_directory(scratch / "none");

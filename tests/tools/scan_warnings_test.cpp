@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/run/scan_warnings.hpp"
 
+#include "tests/io/io_support.hpp"
 #include "tests/io/las/las_file.hpp"
 #include "tests/support/drawn_files.hpp"
 #include "tests/support/e57_encoder.hpp"
@@ -167,6 +168,13 @@ TEST_CASE("stations and paths that do not count are warnings that say why and wh
   CHECK(station_warnings({station}).empty());
   station.certainty = std::numeric_limits<double>::quiet_NaN();  // not known
   CHECK(station_warnings({station}).empty());
+  station.path = 0;
+  station.points = 100;
+  station.spread = 0.02;
+  CHECK(station_warnings({station}).empty());
+  station.spread = 0.003;
+  CHECK_THAT(warning(),
+             Contains("station one, at 0 0 0, has most of its points within 0.34 degrees of one direction"));
   station.points = 0;
   CHECK(warning() == "station one does not count: the scan has no points of number 6");
   const Strings warned = station_warnings({}, {.points = 1234, .subject = "number 0 of a.ply"});
@@ -205,6 +213,69 @@ Strings warnings_of_filters(const std::string& file, const InputConfig& config) 
 }
 
 }  // namespace
+
+TEST_CASE("files around 0 0 0 whose viewpoints are elsewhere are a warning") {
+  const ScratchFolder folder;
+  // Points on a circle around a place.
+  const auto file = [&](const std::string& name, double x, const std::string& viewpoint) {
+    std::string rows;
+    for (int i = 0; i < 100; ++i)
+      rows += std::to_string(x + 2 * std::cos(0.0628 * i)) + " " + std::to_string(2 * std::sin(0.0628 * i)) +
+              " -1\n";
+    return folder.write(name, ascii_pcd(rows, viewpoint));
+  };
+  const auto warnings = [](const std::vector<ScanInput>& files) {
+    FileScan scan(files, {});
+    scan.rewind();
+    for (PointBatch batch; scan.next(batch);) {
+    }
+    FileScan kept(files, {});
+    kept.set_pass_counts(scan.pass_counts());  // as of a run that goes on
+    CHECK(filter_warnings(kept, {}, {}) == filter_warnings(scan, {}, {}));
+    return filter_warnings(scan, {}, {});
+  };
+  const auto first = file("first.pcd", 0, "0 0 0"), own = file("own.pcd", 0, "3 0 1.5"),
+             other = file("other.pcd", 0, "0 -9 0"), world = file("world.pcd", 3, "3 0 1.5"),
+             text = folder.write("a.xyz", "1 2 3\n");
+  const Strings two = warnings({own, other});
+  REQUIRE(two.size() == 1);
+  CHECK_THAT(
+      two[0],
+      Contains("own.pcd, and 1 more file: points lie around 0 0 0, and not around the viewpoint 3 0 1.5; ") &&
+          Contains("`FILE pose=viewpoint`"));
+  CHECK(warnings({first, own}).size() == 1);
+  for (const auto& files : {std::vector<ScanInput>{own},
+                            {own, text},
+                            {first, world},
+                            {own, world},
+                            {own, own},
+                            {{own, parse_pose("3 0 1.5 0 0 0 1")}, {other, parse_pose("0 -9 0 0 0 0 1")}}})
+    CHECK(warnings(files).empty());
+}
+
+TEST_CASE("records of a LAS file that name two systems are a warning with both, unless the user states one") {
+  const ScratchFolder folder;
+  Bytes keys;
+  for (const std::uint16_t number : {1, 1, 0, 1, 3072, 0, 1, 25832}) keys << number;
+  LasFile file{
+      .records = {las_record("LASF_Projection", 34735, keys.str()),
+                  las_record("LASF_Projection", 2112,
+                             "PROJCS[\"UTM 33N\",UNIT[\"metre\",1],AUTHORITY[\"EPSG\",\"25833\"]]")}};
+  for (const int format : {0, 6}) {
+    file.format = format;
+    file.minor = format < 6 ? 2 : 4;
+    file.points = {las_point(format < 6 ? 20 : 30, 1, 2, 3)};
+    for (const auto& [bits, holds] : {std::pair(0, "EPSG:25832"), std::pair(16, "UTM 33N")}) {
+      std::string bytes = file.bytes();
+      put(bytes, 6, static_cast<std::uint16_t>(bits));
+      const auto las = folder.write("a.las", bytes);
+      const Strings warned = input_warnings(FileScan({las}, {}));
+      REQUIRE(warned.size() == 1);
+      CHECK_THAT(warned[0], Contains("EPSG:25832") && Contains("UTM 33N") &&
+                                Contains(std::string("; ") + holds + " holds"));
+    }
+  }
+}
 
 TEST_CASE("faces of a mesh are a warning with their number, in every format that has them") {
   const ScratchFolder folder;

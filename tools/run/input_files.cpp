@@ -151,23 +151,32 @@ void add_ept(const fs::path& ept, const ReadOptions& options, const InputConfig&
   add_folder(data, options, config, files);
 }
 
-Pose find_pose(const fs::path& folder, std::string_view text) {
+// Returns what stands behind `pose=`: the numbers, the file that has them, or what the scan file itself says.
+Pose find_pose(const fs::path& folder, std::string_view text, const fs::path& scan,
+               const ReadOptions& options) {
   double number = 0;
-  const bool is_numbers = parse_number(text.substr(0, text.find_first_of(kPoseBlanks)), number);
-  return is_numbers ? parse_pose(text) : read_pose(folder / text);
+  const std::string_view first = text.substr(0, text.find_first_of(kPoseBlanks));
+  if (first == "viewpoint") {
+    const std::optional<Pose> viewpoint = open_scan(scan, options)->viewpoint();
+    if (!viewpoint)
+      throw Error("pose=viewpoint: " + scan.string() +
+                  " has no VIEWPOINT, as PCD has; allowed are the numbers of a pose, or a file of them");
+    return *viewpoint;
+  }
+  return parse_number(first, number) ? parse_pose(text) : read_pose(folder / text);
 }
 
 // A line of a list: a file name, and what may follow it.
-ScanInput parse_entry(const fs::path& folder, std::string_view line) {
+ScanInput parse_entry(const fs::path& folder, std::string_view line, const ReadOptions& options) {
   constexpr std::string_view kPose = "pose=";
   const std::size_t at = line.rfind(kPose);
   const bool has_pose = at != line.npos && at > 0 && kPoseBlanks.find(line[at - 1]) != kPoseBlanks.npos;
   if (!has_pose) return folder / line;
-  const std::string_view name = line.substr(0, line.find_last_not_of(kPoseBlanks, at - 1) + 1);
-  return {folder / name, find_pose(folder, line.substr(at + kPose.size()))};
+  const fs::path scan = folder / line.substr(0, line.find_last_not_of(kPoseBlanks, at - 1) + 1);
+  return {scan, find_pose(folder, line.substr(at + kPose.size()), scan, options)};
 }
 
-void add_list(const fs::path& list, std::vector<ScanInput>& files) {
+void add_list(const fs::path& list, const ReadOptions& options, std::vector<ScanInput>& files) {
   InputFile in(list);
   const std::size_t before = files.size();
   while (const auto line = in.next_line()) {
@@ -175,7 +184,7 @@ void add_list(const fs::path& list, std::vector<ScanInput>& files) {
     if (name.ends_with('\r')) name.pop_back();
     if (name.empty() || name.starts_with('#')) continue;
     try {
-      files.push_back(parse_entry(list.parent_path(), name));
+      files.push_back(parse_entry(list.parent_path(), name, options));
     } catch (const Error& error) {
       in.fail_at_line(in.line(), error.what());
     }
@@ -198,7 +207,7 @@ std::vector<ScanInput> expand_inputs(const std::vector<fs::path>& given, const F
           "that (./- for a file of this name)");
     }
     if (input.string().starts_with('@') && !fs::exists(input, error)) {
-      add_list(input.string().substr(1), files);
+      add_list(input.string().substr(1), options, files);
     } else if (const fs::path ept = find_ept(input); !ept.empty()) {
       add_ept(ept, options, config, files);
     } else if (fs::is_directory(input, error)) {

@@ -30,6 +30,7 @@ using namespace io;
 
 namespace {
 
+const Eigen::IOFormat kOnePlace(10, Eigen::DontAlignCols);  // a row vector
 constexpr const char* kDegrees = " is in longitude and latitude, and holes need lengths";
 
 // Returns the distance from the farthest coordinate of single precision to the next one.
@@ -73,15 +74,17 @@ std::string and_more(const FileScan& scan, std::size_t first, const IsIt& is_it)
   return more_files(count);
 }
 
-// One warning has the notes of all files that are alike.
-void warn_of_notes(const FileScan& scan, std::vector<std::string>& warnings) {
+// One warning has the notes of all files that are alike. `notes_of_file` returns those of a file.
+template <class NotesOfFile>
+void warn_of_notes(const FileScan& scan, const NotesOfFile& notes_of_file,
+                   std::vector<std::string>& warnings) {
   struct Alike {
     std::size_t first, others = 0;  // files
     std::uint64_t count = 0;
   };
   std::map<std::pair<std::string, std::string>, Alike> notes;
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
-    for (const ReaderNote& note : scan.files()[i].notes) {
+    for (const ReaderNote& note : notes_of_file(scan.files()[i])) {
       if (note.count == 0) continue;
       const auto [at, is_new] = notes.try_emplace({note.thing, note.what}, Alike{.first = i});
       at->second.others += is_new ? 0 : 1;
@@ -94,6 +97,32 @@ void warn_of_notes(const FileScan& scan, std::vector<std::string>& warnings) {
                        note.second);
 }
 
+// Warns of files that lie on each other where each has its scanner at 0 0 0, and its viewpoint elsewhere.
+void warn_of_own_axes(const FileScan& scan, std::vector<std::string>& warnings) {
+  const auto place_of = [&](std::size_t i) {
+    return scan.files()[i].scanner.value_or(Eigen::Vector3d::Zero());
+  };
+  const auto is_moved = [&](std::size_t i) { return scan.files()[i].scanner.has_value(); };
+  const auto is_around_scanner = [&](std::size_t i) {
+    const ScanFile& file = scan.files()[i];
+    return file.scanner && 2 * file.nearer_to_zero < 3 * file.nearer_to_scanner;
+  };
+  const auto first = find_file(scan, is_moved);
+  if (!first || find_file(scan, is_around_scanner)) return;
+  const auto is_elsewhere = [&](std::size_t i) {
+    const bool has_place = is_moved(i) || scan.files()[i].has_scanner_at_zero;
+    return has_place && place_of(i) != place_of(*first);
+  };
+  if (!find_file(scan, is_elsewhere)) return;
+  std::ostringstream place;
+  place.precision(10);
+  place << place_of(*first).transpose().format(kOnePlace);
+  warnings.push_back(file_name(scan, *first) + and_more(scan, *first, is_moved) +
+                     ": points lie around 0 0 0, and not around the viewpoint " + place.str() +
+                     "; if they are in the axes of their scanner, `FILE pose=viewpoint` in a list moves each "
+                     "PCD to its place, and `pose=` with numbers any file");
+}
+
 void warn_of_other_systems(const FileScan& scan, std::vector<std::string>& warnings) {
   const auto first = find_file(scan, [&](std::size_t i) { return !scan.files()[i].crs.empty(); });
   if (!first) return;
@@ -104,6 +133,17 @@ void warn_of_other_systems(const FileScan& scan, std::vector<std::string>& warni
         ": its coordinate reference system differs from the first file: " + crs_name(scan.files()[i].crs) +
         ", not " + crs_name(scan.files()[*first].crs) + "; results name none, unless --crs states it");
   }
+}
+
+void warn_of_two_systems(const FileScan& scan, std::vector<std::string>& warnings) {
+  const auto has_two = [&](std::size_t i) { return !scan.files()[i].other_crs.empty(); };
+  const auto first = find_file(scan, has_two);
+  if (!first) return;
+  const std::string holds = crs_name(scan.files()[*first].crs);
+  warnings.push_back(file_name(scan, *first) + and_more(scan, *first, has_two) +
+                     ": its records name two coordinate reference systems, " + holds + " and " +
+                     crs_name(scan.files()[*first].other_crs) + "; " + holds +
+                     " holds, by a bit of the header (global encoding); --crs states another");
 }
 
 // A file with a pose is in the system of the others, not in its own.
@@ -248,8 +288,10 @@ std::vector<std::string> input_warnings(const FileScan& scan) {
   std::vector<std::string> warnings;
   for (const std::size_t i : repeated_files(scan))
     warnings.push_back(file_name(scan, i) + ": given more than once; its points are the same");
-  warn_of_notes(scan, warnings);
+  warn_of_notes(
+      scan, [](const ScanFile& file) { return file.notes; }, warnings);
   if (scan.stated_crs().crs.empty()) {
+    warn_of_two_systems(scan, warnings);
     warn_of_other_systems(scan, warnings);
     warn_of_missing_systems(scan, warnings);
   } else {
@@ -317,6 +359,9 @@ std::vector<std::string> filter_warnings(const FileScan& scan, const InputConfig
                                          const Eigen::AlignedBox3d& bounds) {
   constexpr double kMostNoise = 0.03;
   std::vector<std::string> warnings;
+  warn_of_notes(
+      scan, [](const ScanFile& file) { return notes_of(file.findings); }, warnings);
+  warn_of_own_axes(scan, warnings);
   std::uint64_t points = 0;
   for (std::size_t i = 0; i < scan.files().size(); ++i) points += scan.files()[i].rows();
   const FilteredOut& left_out = scan.filtered_out();
@@ -399,11 +444,24 @@ std::vector<std::string> scan_warnings(const FileScan& scan, const Detection& de
 
 std::vector<std::string> station_warnings(const std::vector<StationSummary>& stations,
                                           const PointsOfNone& of_none) {
+  constexpr std::uint64_t kFewRays = 100;
+  constexpr double kFarOff = 0.01;  // the spread of rays to a square from 40 times its edge
   std::vector<std::string> warnings;
   for (const StationSummary& station : stations) {
     if (station.points == 0)
       warnings.push_back("station " + visible(station.name) + " does not count: the scan has no points of " +
                          visible(station.subject));
+    const double degrees = std::max(2 * 180 / std::numbers::pi * station.spread, 0.01);
+    if (station.points >= kFewRays && station.path == 0 && station.spread < kFarOff &&
+        !(station.certainty < StationView::kLeastCertain)) {
+      std::ostringstream far;
+      far.precision(2);
+      far << "station " << visible(station.name) << ", at " << station.place.transpose().format(kOnePlace)
+          << ", has most of its points within " << degrees
+          << " degrees of one direction, as from a place far off; causes of holes depend on it; points may "
+             "have been at their place before a pose moved them, or --stations states the true place";
+      warnings.push_back(far.str());
+    }
     if (station.points == 0 || !(station.certainty < StationView::kLeastCertain)) continue;
     const bool moved = station.path > 0;
     std::ostringstream message;
@@ -414,8 +472,7 @@ std::vector<std::string> station_warnings(const std::vector<StationSummary>& sta
       message << "at most " << 100 * station.certainty << " % of its points can have been seen from there"
               << (moved ? " at their times" : "") << ", as rays end at the first surface";
     } else {
-      message << "most of its points lie within "
-              << std::max(2 * 180 / std::numbers::pi * station.spread, 0.01)
+      message << "most of its points lie within " << degrees
               << " degrees of one direction, as from a place far off the scan";
     }
     message << "; its coordinates must have the unit and the system of the scan"

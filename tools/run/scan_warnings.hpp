@@ -41,14 +41,16 @@ std::string stray_warning(const Strays& strays, double resolution);
 // hundred points, as at creases.
 std::string normals_warning(const Counts& counts, NormalsUse use);
 
-// Returns, after the scan was read, a line where many points are left out as noise. Another line comes where
+// Returns, after the scan was read, what readers found in its rows. One line names files that lie around 0 0
+// 0 while they have viewpoints elsewhere. Another line comes where many points are left out as noise. Another
+// line comes where
 // --drop-origin dropped nothing, since the scanner's place in a file is 0 0 0. Then 0 0 0 lies farther from
 // the bounds of the points than these are wide.
 std::vector<std::string> filter_warnings(const io::FileScan& scan, const io::InputConfig& config,
                                          const Eigen::AlignedBox3d& bounds);
 
 // Names stations and trajectories that do not count, because they cannot have measured all of their points,
-// or have none. One line counts the points that are of no station.
+// or have none. Names stations that are far off, too. One line counts the points that are of no station.
 std::vector<std::string> station_warnings(const std::vector<io::StationSummary>& stations,
                                           const io::PointsOfNone& of_none = {});
 

@@ -119,6 +119,34 @@ TEST_CASE("well-known text counts over keys, up to its first zero") {
   CHECK(crs.text() == "PROJCS[\"A\"]");
 }
 
+TEST_CASE("the header's bit decides between keys and well-known text of two systems") {
+  const auto crs_of = [](std::uint16_t code, const std::string& text, bool has_text_bit) {
+    LasCrs crs;
+    take(crs, 34735, geo_keys({{3072, 0, 1, code}, {3076, 0, 1, 9003}}));
+    if (!text.empty()) take(crs, 2112, text);
+    crs.choose(has_text_bit);
+    return crs;
+  };
+  for (const std::string text : {"PROJCS[\"b\",UNIT[\"metre\",1],AUTHORITY[\"EPSG\",\"25833\"]]",
+                                 "PROJCRS[\"b\",LENGTHUNIT[\"metre\",1],ID[\"EPSG\", 25833]]"}) {
+    const LasCrs keys = crs_of(25832, text, false), of_text = crs_of(25832, text, true);
+    CHECK(keys.text() == "EPSG:25832");
+    CHECK(keys.other_text() == text);
+    CHECK(keys.length_unit() == "us-ft");
+    CHECK(keys.other_unit() == "m");
+    CHECK(of_text.text() == text);
+    CHECK(of_text.other_text() == "EPSG:25832");
+    CHECK(of_text.length_unit() == "m");
+    for (const bool has_text_bit : {false, true}) {
+      const LasCrs same = crs_of(25833, text, has_text_bit);  // the text says more than the code
+      CHECK(same.text() == text);
+      CHECK(same.other_text().empty());
+    }
+  }
+  CHECK(crs_of(25832, "", true).text() == "EPSG:25832");
+  CHECK(crs_of(32767, "PROJCS[\"b\"]", false).text() == "PROJCS[\"b\"]");  // keys without a code
+}
+
 TEST_CASE("keys that are cut are passed over") {
   const std::string keys = geo_keys({{3072, 0, 1, 25832}, {4096, 0, 1, 7837}});
   for (std::size_t length = 0; length < keys.size(); ++length) {

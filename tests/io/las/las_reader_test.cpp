@@ -176,6 +176,31 @@ TEST_CASE("extra bytes of LAS are columns by their descriptors, others by their 
   CHECK(value(table, 0, "extra_1") == 6);
 }
 
+TEST_CASE("records of extra bytes are joined in order where they fit a point, else the last one holds",
+          "[io]") {
+  const ScratchFolder folder;
+  std::string point = las_point(20 + 4 + 1, 1, 2, 3);
+  put<float>(point, 20, 2.5f);
+  put<std::uint8_t>(point, 24, 7);
+  const std::string a = las_record("LASF_Spec", 4, las_extra_descriptor("a", 9)),
+                    bad = las_record("LASF_Spec", 4, las_extra_descriptor("bad", 1)),
+                    all = las_record("LASF_Spec", 4,
+                                     las_extra_descriptor("a", 9) + las_extra_descriptor("bad", 1));
+  const auto open = [&](const std::vector<std::string>& records) {
+    return folder.write("a.las", LasFile{.points = {point}, .records = records}.bytes());
+  };
+  for (const auto& records : {std::vector{a, bad}, {a, bad, a}, {all, all}, {all}}) {
+    const auto file = open(records);
+    const Table table = read_table(file);
+    CHECK(value(table, 0, "a") == 2.5);
+    CHECK(value(table, 0, "bad") == 7);
+    CHECK(open_scan(file, {})->notes()[0].count == 0);
+  }
+  const auto file = open({a, all});
+  CHECK(value(read_table(file), 0, "bad") == 7);
+  CHECK(open_scan(file, {})->notes()[0].count == 2);
+}
+
 TEST_CASE("extra bytes of LAS without a name, or with the name of others, have names of their own", "[io]") {
   const ScratchFolder folder;
   std::string descriptors;

@@ -58,6 +58,17 @@ TEST_CASE("an array of NumPy that has no points is an error that says so", "[io]
                  {npy("'<f4'", "(2, 3)", false, three), "too early for the 2 rows"}});
 }
 
+TEST_CASE("a matrix of depths in NumPy is no list of points, in either order", "[io]") {
+  Bytes depths;  // a slope, 0 where a camera saw nothing
+  for (int i = 0; i < 40 * 30; ++i)
+    depths << static_cast<std::uint16_t>(i % 7 == 0 ? 0 : 2000 + 3 * (i / 30) + 5 * (i % 30));
+  check_refused("a.npy", {{npy("'<u2'", "(40, 30)", false, depths),
+                           "byte 10: a matrix of 40 x 30, as of heights or depths"},
+                          {npy("'<u2'", "(30, 40)", true, depths), "a matrix of 30 x 40"}});
+  const ScratchFolder folder;
+  CHECK(read_table(folder.write("a.npy", npy("'<u2'", "(10, 40, 3)", false, depths))).rows.size() == 400);
+}
+
 TEST_CASE("broken arrays of NumPy give one error or whole rows", "[io]") {
   check_broken_files(npy_files(), 9);
 }

@@ -317,7 +317,7 @@ TEST_CASE("a header that says something impossible is an error that names its li
                           {vertex + "property half w\n", "line 7: unknown type 'half'"},
                           {vertex + "property list float int w\n", "line 7: the count of a list"},
                           {vertex + "property list uchar w\n", "line 7: 'property"},
-                          {ply_header("element point 1\n"), "no element 'vertex'"},
+                          {ply_header("element sample 1\n"), "no element 'vertex'"},
                           {ply_header(vertices(0, "property float x\nproperty float y\n")), "property 'z'"},
                           {ply_header(vertices(0,
                                                "property float x\nproperty float y\n"
@@ -325,6 +325,15 @@ TEST_CASE("a header that says something impossible is an error that names its li
                            "no scalar property 'z'"},
                           {endless, "no 'end_header'"},
                           {std::string("ply\n").append(3u << 20, 'x'), "line 2: longer"}});
+}
+
+TEST_CASE("points of PLY may be elements of other names, and truths are bytes", "[io]") {
+  const ScratchFolder folder;
+  for (const std::string name : {"vertices", "point", "points"}) {
+    const std::string rest = " 1\n" + kXyz + "property bool seen\n";
+    const Table table = read_table(folder.write("a.ply", ply_header("element " + name + rest) + "1 2 3 1\n"));
+    CHECK(table.rows == std::vector<std::vector<double>>{{1, 2, 3, 1}});
+  }
 }
 
 TEST_CASE("names of position and normal may be capitals", "[io]") {

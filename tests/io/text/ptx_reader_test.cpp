@@ -61,6 +61,51 @@ TEST_CASE("what is wrong in PTX is said with its line", "[io]") {
                           {"9999999999999\n9999999999999\n" + kStill, "a grid of"}});
 }
 
+namespace {
+
+// A block of three rays, which lie one apart from `first` on along x.
+std::string block(const std::string& place, const std::string& matrix, double first = 1) {
+  std::string text = "3\n1\n" + place + "\n1 0 0\n0 1 0\n0 0 1\n" + matrix + "\n";
+  for (int i = 0; i < 3; ++i) text += std::to_string(first + i) + " 2 3 0.5\n";
+  return text;
+}
+
+const std::string kUnturned = "1 0 0 0\n0 1 0 0\n0 0 1 0\n";
+
+}  // namespace
+
+TEST_CASE("a matrix of PTX is a pose, as in a list of files", "[io]") {
+  const std::string rays = "the matrix by columns, ", odd = rays + "the matrix of a pose does not turn";
+  check_refused(
+      "a.ptx", {{block("0 0 0", "1 0 0 7\n0 1 0 8\n0 0 1 9\n0 0 0 1"),
+                 "line 10: of " + rays + "the last row of a pose is not 0 0 0 1"},
+                {block("0 0 0", "0 0 0 0\n0 0 0 0\n0 0 0 0\n7 8 9 1"), odd},
+                {block("0 0 0", "1 0 0 0\n0 1 0 0\n0 0 -1 0\n7 8 9 1"), odd},
+                {block("0 0 0", "2 0 0 0\n0 1 0 0\n0 0 1 0\n7 8 9 1"), odd},
+                {block("7 8 9", kUnturned + "7 8 9 1") + block("0 0 0", "1 0 0 7\n0 1 0 8\n0 0 1 9\n0 0 0 1"),
+                 "line 23: "}});
+  const ScratchFolder folder;
+  const std::string zeros = "0 0 0 0\n0 0 0 0\n0 0 0 0\n0 0 0 0\n";
+  const std::string empty = "0\n0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n" + zeros;
+  CHECK(read_table(folder.write("a.ptx", empty + block("0 0 0", "2 0 0 0\n0 2 0 0\n0 0 2 0\n7 8 9 1")))
+            .rows[0] == std::vector<double>{9, 12, 15, 0.5, 1});
+}
+
+TEST_CASE("PTX: a scanner position that is not the place of the matrix is found", "[io]") {
+  const ScratchFolder folder;
+  const auto findings = [&](const std::string& text) {
+    const auto reader = open_scan(folder.write("a.ptx", text), {});
+    for (RowBatch batch; reader->next(batch, 1);) {
+    }
+    return reader->findings();
+  };
+  CHECK(findings(block("7 8 9", kUnturned + "7 8 9.5 1")).other_places == 0);  // rounded, to half a step
+  CHECK(findings(block("7 8 9", kUnturned + "7 8 11 1")).other_places == 1);
+  CHECK(
+      findings(block("7 8 9", kUnturned + "7 8 9 1") + block("0 0 0", kUnturned + "7 8 9 1")).other_places ==
+      1);
+}
+
 TEST_CASE("PTX: a broken file gives one error or whole rays", "[io]") {
   check_broken_files(whole_files(), 7);
 }

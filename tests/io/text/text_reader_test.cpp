@@ -97,6 +97,132 @@ TEST_CASE("a first column that counts the rows, and whole numbers before decimal
   CHECK(read("id,x,y,z\n" + ids).rows.size() == 50);
 }
 
+namespace {
+
+// A hilly grid of heights, with another value where `is_missing` says so.
+double height(int row, int column) {
+  return 300 + 5 * std::sin(0.11 * row) + 4 * std::cos(0.13 * column);
+}
+std::string matrix(
+    int count, int columns, const std::string& separator,
+    const std::function<bool(int, int)>& is_missing = [](int, int) { return false; }) {
+  return rows(count, [&](int row) {
+    std::string text;
+    for (int column = 0; column < columns; ++column)
+      text += (column > 0 ? separator : "") +
+              (is_missing(row, column) ? "-9999" : std::to_string(height(row, column)));
+    return text;
+  });
+}
+
+}  // namespace
+
+TEST_CASE("a matrix of heights is no list of points", "[io]") {
+  const std::string part = "a matrix of 40 x 30, as of heights or depths; points need x y z";
+  for (const std::string separator : {" ", ",", "\t"})
+    CHECK_THAT(error(matrix(40, 30, separator)), Catch::Contains(part));
+  CHECK_THAT(error(matrix(40, 30, " ", [](int row, int column) { return column < 10 || row > 30; })),
+             Catch::Contains(part));
+  CHECK_THAT(error(matrix(40, 30, " ", [](int row, int column) { return (7 * row + 3 * column) % 10 < 3; })),
+             Catch::Contains(part));
+  // With a row and a column of numbers, as pandas writes it.
+  const std::string numbered = rows(30, [](int row) {
+    std::string text = number(row);
+    for (int column = 0; column < 30; ++column) text += "," + std::to_string(height(row, column));
+    return text;
+  });
+  CHECK_THAT(error(numbered), Catch::Contains("a matrix of 30 x 31"));
+  std::string names = "x y z";
+  for (int column = 3; column < 30; ++column) names += " a" + number(column);
+  CHECK(read(matrix(40, 30, " "), names).rows.size() == 40);
+  CHECK(read(matrix(40, 20, " ")).rows.size() == 40);
+}
+
+TEST_CASE("points with many attributes are no matrix", "[io]") {
+  const auto table = [](const std::function<double(int, int)>& attribute) {
+    return rows(40, [&](int row) {
+      const double x = std::fmod(row * 0.618, 1), y = std::fmod(row * 0.381, 1);
+      std::string text = std::to_string(x) + " " + std::to_string(y) + " 0";
+      for (int i = 0; i < 30; ++i) text += " " + std::to_string(attribute(row, i));
+      return text;
+    });
+  };
+  for (const auto& attribute : std::vector<std::function<double(int, int)>>{
+           [](int row, int i) { return std::fmod(row * 0.7 + i * 0.31, 1); },   // features
+           [](int row, int i) { return 0.5 + 0.2 * std::sin(0.1 * i + row); },  // a spectrum
+           [](int row, int i) { return row % 30 == i ? 1 : 0; },                // classes
+           [](int row, int i) { return 0.03 * i + 0.001 * row; },               // sorted
+           [](int row, int i) { return i % 11 == 5 ? 60 + row % 7 : std::fmod(row * 0.7 + i * 0.31, 2); }})
+    CHECK(read(table(attribute)).rows.size() == 40);
+}
+
+TEST_CASE("commas and blanks that mean two things are an error of one line", "[io]") {
+  const auto comma = [](double value, int decimals) {
+    std::string text(32, '\0');
+    text.resize(static_cast<std::size_t>(std::snprintf(text.data(), text.size(), "%.*f", decimals, value)));
+    std::replace(text.begin(), text.end(), '.', ',');
+    return text;
+  };
+  const auto with_commas = [&](const std::string& separator, int decimals, double shift,
+                               const std::string& more = "") {
+    return rows(40, [&](int i) {
+      return comma(shift + 0.317 * i, decimals) + separator + comma(-shift + 0.1 * i, decimals) + separator +
+             comma(12.018, decimals) + more;
+    });
+  };
+  const std::string commas = "line 1: commas divide the values, and may begin their decimals, too, in '";
+  for (const std::string& text : {with_commas(",", 3, 500'000), with_commas(", ", 2, 0.5),
+                                  with_commas(",", 1, 500), with_commas(",", 3, 7, ",88")})
+    CHECK_THAT(error(text), Catch::Contains(commas));
+  CHECK(read(with_commas(",", 3, 500), "x y z a b c").rows.size() == 40);
+  CHECK(read(with_commas(";", 3, 500)).rows[1][0] == 500.317);
+
+  const std::string blanks =
+      "line 1: blanks divide the values, and may divide the thousands of numbers, too, in '";
+  for (const std::string between : {"\t", " "}) {
+    const auto text = rows(20, [&](int i) {
+      return "500 3" + number(10 + i) + ".25" + between + "5 400 4" + number(20 + i) + ".36" + between +
+             "99.5";
+    });
+    CHECK_THAT(error(text), Catch::Contains(blanks));
+  }
+  CHECK_THAT(error(rows(20, [&](int i) { return "7 0" + number(10 + i) + ".25 8.5 99.5"; })),
+             Catch::Contains(blanks));
+  CHECK_THAT(
+      error(rows(
+          20, [](int i) { return "500,3" + number(10 + i) + ".25,5,400,4" + number(20 + i) + ".5,99.5"; })),
+      Catch::Contains("line 1: commas divide the values, and may divide the thousands"));
+  for (const char* cell : {"500'000.25", "500.000,25", "5.400.000",
+                           "500\xc2\xa0"
+                           "000.25"})
+    CHECK_THAT(
+        error("x;y;z\n1;2;3\n4;" + std::string(cell) + ";6\n"),
+        Catch::Contains("line 3: ") && Catch::Contains(" is not a number; thousands must not be divided"));
+
+  // Whole numbers and colours have neither.
+  CHECK(read(rows(20, [](int i) {
+          return number(12'345 + i) + ",23456,345,128,130," + number(100 + i);
+        })).rows.size() == 20);
+  CHECK(read(rows(20, [](int i) { return number(123 + i) + ".5 345.5 678.5 128 130 100"; })).rows.size() ==
+        20);
+  CHECK(read(rows(20, [](int i) {
+          return "500000.5\t5400000.5\t100.5\t128 130 " + number(100 + i);
+        })).rows.size() == 20);
+}
+
+TEST_CASE("lines before the rows may come again, as where files were joined", "[io]") {
+  const ScratchFolder folder;
+  const std::string header = "Easting,Northing,Height\r\nm,m,m\r\n";
+  const auto file = folder.write("a.csv", header + "1,2,3\r\n" + header + "4,5,6\r\n");
+  CHECK(read_table(file, 1).rows == Rows{{1, 2, 3}, {4, 5, 6}});
+  const auto reader = open_scan(file, {});
+  for (RowBatch batch; reader->next(batch, 1);) {
+  }
+  CHECK(reader->findings().repeated_lines == 2);
+  CHECK_THAT(error("x,y,z\n1,2,3\ny,x,z\n"),
+             Catch::Contains("line 3: 'y' is not a number, and no value of its line is"));
+}
+
 TEST_CASE("x on a grid is x", "[io]") {
   // A depth image without and with a fourth value, a row of a height model, a short profile.
   CHECK(error(rows(60, [&](int i) { return number(i) + " 0 1.5"; })).empty());
@@ -110,6 +236,13 @@ TEST_CASE("columns of the field are x, y and z by their names, also in comments"
   CHECK(names("# id Easting Northing Elevation\n7 1 2 3\n") == Names{"id", "x", "y", "z"});
   CHECK(names("Northing (m),Easting (m),Height (m)\n1,2,3\n") == Names{"y", "x", "z"});
   CHECK(names("# X_m Y_m Z_m\n1 2 3\n") == kThree);
+  for (const std::string header :
+       {"Points_m_XYZ:0,Points_m_XYZ:1,Points_m_XYZ:2", "Rechtswert;Hochwert;Hoehe",
+        "Rechtswert;Hochwert;H\xc3\xb6he", "Rechtswert;Hochwert;H\xf6he [m]", "RD_X RD_Y NAP",
+        "field.x,field.y,field.z"})
+    CHECK(names(header + "\n1,2,3\n") == kThree);
+  CHECK(names("field.x,field.y,field.z,x,y,z\n1,2,3,4,5,6\n") ==
+        Names{"field.x", "field.y", "field.z", "x", "y", "z"});
   CHECK(names("# a list\n# ID, X, Y, Z, ERROR, TRACK[] as (IMAGE, POINT)\n# Number of points: 2\n"
               "1 2 3 4 0.5 6 7\n2 3 4 5 0.5\n") == Names{"ID", "x", "y", "z", "ERROR"});
   CHECK(names("//X Y Z Nx Ny Nz\n1 2 3 4 5 6\n") == Names{"x", "y", "z", "nx", "ny", "nz"});
