@@ -93,8 +93,9 @@ void LasCrs::choose(bool has_text_bit) {
   if (code.empty() || flat_text.empty() || flat_code == own_code(flat_text) ||
       is_same_crs(flat_code, flat_text))
     return;
-  do_keys_hold_ = !has_text_bit;
-  other_ = has_text_bit ? code : well_known_text_;
+  // A geographic code alone is often what is left of a conversion.
+  do_keys_hold_ = !has_text_bit && (is_projected() || is_geocentric());
+  other_ = do_keys_hold_ ? well_known_text_ : code;
 }
 
 std::string LasCrs::text() const {
