@@ -115,7 +115,7 @@ struct AreaCheck {
   std::vector<Undecided> undecided;   // empty if the points decide
   std::vector<BasisLine> basis;       // of all figures
   // These are as in PlanOfPoints.
-  std::uint64_t points = 0, later_returns = 0, synthetic = 0, repeated = 0;
+  std::uint64_t points = 0, later_returns = 0, synthetic = 0, repeated = 0, near = 0;
   bool counts_once = true;
   std::vector<HeightGroup> apart;
   double height_gap = 0;    // between them and the others

@@ -487,7 +487,7 @@ double height_gap_of(const FileScan& scan, const FilesConfig& config, double voi
 }
 
 // Copies that files round differently lie some millimetres apart. Without times they must lie far nearer to
-// each other than the points of the scan, whose spacing is at least this.
+// each other than the points of the scan. Their spacing is no less than if all were in the area.
 CopyDistance copy_distance_of(const FileScan& scan, double void_size, double area) {
   constexpr double kOfVoidSize = 200, kOfSpacing = 25, kLeast = 1e-6;
   const std::vector<std::uint64_t> rows = scan.parts();
@@ -544,6 +544,7 @@ AreaCheck check_area(Area area, FileScan& scan, const FilesConfig& config, Progr
                   .later_returns = points.later_returns,
                   .synthetic = points.synthetic,
                   .repeated = points.repeated,
+                  .near = points.near,
                   .counts_once = points.counts_once,
                   .apart = points.apart,
                   .height_gap = rules.height_gap,

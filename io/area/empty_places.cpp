@@ -232,6 +232,7 @@ PlanOfPoints find_empty_places(const PlanGrid& grid, const PlanRaster& inside, c
   PlanOfPoints plan = std::move(marking->plan);
   plan.hull = marking->hull.corners();
   plan.repeated = marking->repeated.count();
+  plan.near = marking->repeated.near();
   plan.counts_once = counting.once;
   plan.all_synthetic = counting.takes_synthetic;
   plan.apart = std::move(apart);

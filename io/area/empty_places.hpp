@@ -32,6 +32,7 @@ struct PlanOfPoints {
   std::uint64_t points = 0, later_returns = 0, synthetic = 0;
   std::set<double> swaths;     // values of point_source_id of the points in the area
   std::uint64_t repeated = 0;  // points that are there once more; about so many where they do not count once
+  std::uint64_t near = 0;      // points without a time that lie as near to another as its rounded copy may
   bool counts_once = true;     // false: `points` has them as often as they are there
   bool all_synthetic = false;  // so that the whole scan has no other points, and these count
   std::vector<HeightGroup> apart;     // heights of points in the bounds of the area that cover nothing

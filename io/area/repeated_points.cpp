@@ -12,6 +12,7 @@ namespace {
 
 constexpr unsigned kStepBits = 8;                   // of a place along an axis, within its cell
 constexpr int kSteps = 1 << kStepBits, kNear = 32;  // of a cell, and of the distance of copies
+constexpr int kSame = 1;                            // apart by rounding alone
 constexpr unsigned kPlaceBits = 3 * kStepBits;
 
 std::uint64_t mixed(std::uint64_t bits) {  // splitmix64: Steele, Lea, Flood 2014
@@ -51,7 +52,8 @@ bool RepeatedPoints::add(const Eigen::Vector3d& place, double time) {
     const int at = own.steps[static_cast<std::size_t>(axis)];
     side[axis] = at < kNear ? -1 : at >= kSteps - kNear ? 1 : 0;
   }
-  for (unsigned sides = 0; sides < 8; ++sides) {
+  int distance = nearest(own);
+  for (unsigned sides = 1; sides < 8; ++sides) {
     Eigen::Array3d near = cell;
     bool is_cell = true;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -59,10 +61,13 @@ bool RepeatedPoints::add(const Eigen::Vector3d& place, double time) {
       is_cell = is_cell && side[axis] != 0;
       near[axis] += side[axis];
     }
-    if (!is_cell || !has_near(key_at(near))) continue;
+    if (is_cell) distance = std::min(distance, nearest(key_at(near)));
+  }
+  if (distance <= (time != 0 ? kNear : kSame)) {
     ++count_;
     return true;
   }
+  if (distance <= kNear) ++near_;
   std::uint64_t slot = own.hash;
   for (const int at : own.steps)
     slot = slot << kStepBits | static_cast<std::uint64_t>(std::clamp(at, 0, kSteps - 1));
@@ -79,17 +84,20 @@ std::size_t RepeatedPoints::slot_of(std::uint64_t hash) const {
   return mixed(hash) & (slots_.size() - 1);
 }
 
-bool RepeatedPoints::has_near(const Key& key) const {
+// Returns the least distance of a point of the cell, in steps along the axis where it is largest; more than
+// kNear without a point.
+int RepeatedPoints::nearest(const Key& key) const {
+  int least = kSteps;
   for (std::size_t at = slot_of(key.hash); slots_[at] != 0; at = (at + 1) & (slots_.size() - 1)) {
     if (slots_[at] >> kPlaceBits != key.hash) continue;
-    bool is_near = true;
+    int distance = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto other = static_cast<int>(slots_[at] >> (2 - axis) * kStepBits & (kSteps - 1));
-      is_near = is_near && std::abs(other - key.steps[axis]) <= kNear;
+      distance = std::max(distance, std::abs(other - key.steps[axis]));
     }
-    if (is_near) return true;
+    least = std::min(least, distance);
   }
-  return false;
+  return least;
 }
 
 void RepeatedPoints::put(std::uint64_t slot) {
@@ -105,6 +113,7 @@ void RepeatedPoints::make_space() {
   if (!may_grow) {
     ++sample_;
     count_ /= 2;
+    near_ /= 2;
   }
   const std::vector<std::uint64_t> before =
       std::exchange(slots_, std::vector<std::uint64_t>(may_grow ? 2 * slots_.size() : slots_.size()));

@@ -291,8 +291,11 @@ with open("anew.txt", "w") as out:
     for x, y, *more in rows:
         print(*(f"{round((float(v) - .005) * 100) / 100 + .005:.3f}" for v in (x, y)), *more, file=out)
 END
-check 0 east.txt anew.txt
-grep -q "; 2,[0-9]* points that are there again count once" checked.txt
+check 1 east.txt anew.txt
+grep -q "; 3,[0-9]* points that are there again count once" checked.txt
+for name in east anew; do cut -d " " -f 1-3 $name.txt >$name.places.txt; done
+check 1 {east,anew}.places.txt
+grep -q "warning: about 3,[0-9]* points without a time have another within a 25th of the spacing" checked.err
 # Too many to hold: a sample of them counts, and each as often as it is there.
 check 1 many.txt many.txt --memory-limit 112MiB
 grep -q "warning: about 4[789][0-9],... points in the area are there twice" checked.err

@@ -159,6 +159,11 @@ std::vector<std::string> area_warnings(const AreaCheck& check, std::string_view 
                        print_heights(check.apart) + ", more than " + print_length(check.height_gap, unit) +
                        " off all others, cover nothing, as no-data values and clouds; --bounds with "
                        "heights, min x y z max x y z, says which points count");
+  constexpr std::uint64_t kByChance = 20;  // one point in so many has another as near, at most
+  if (check.near > check.points / kByChance)
+    warnings.push_back("about " + counted(check.near, "point", "points") +
+                       " without a time have another within a 25th of the spacing, as copies have that two "
+                       "files round differently; such copies count twice in densities and spacings");
   if (!check.counts_once && check.repeated > 0)
     warnings.push_back("about " + print_count(check.repeated) +
                        " points in the area are there twice, as in tiles that overlap, and count twice in "
