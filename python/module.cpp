@@ -111,10 +111,12 @@ std::string evaluate(const fs::path& result_path, const fs::path& truth_path,
   return evaluation::print_json({result, truth, evaluation, result_path, truth_path, surface, rule});
 }
 
-std::string compare(const fs::path& before, const fs::path& after, double tolerance) {
+// Returns the comparison as JSON, and warnings.
+std::pair<std::string, std::vector<std::string>> compare(const fs::path& before, const fs::path& after,
+                                                         double tolerance) {
   const py::gil_scoped_release unlocked;
   const tools::Comparison comparison(tools::read_result(before), tools::read_result(after), tolerance);
-  return comparison.json().dump();
+  return {comparison.json().dump(), comparison.warnings};
 }
 
 }  // namespace

@@ -198,7 +198,7 @@ std::vector<std::string> check(std::vector<io::ScanInput> inputs, const io::File
         auto area = io::read_area(scan, config);
         if (!area) throw Error("area: is empty; allowed: a file of polygons");
         const io::AreaCheck checked = io::check_area(std::move(*area), scan, config, watched);
-        std::ranges::copy(tools::area_warnings(checked), std::back_inserter(warnings));
+        std::ranges::copy(tools::area_warnings(checked, scan.length_unit()), std::back_inserter(warnings));
         io::ResultFolder results(folder);
         io::write_voids(checked, scan, config.area, results);
       },

@@ -2,6 +2,7 @@
 // Whether a scan covers an area: the voids within polygons, seen from above.
 #pragma once
 
+#include "io/area/height_groups.hpp"
 #include "io/area/plan_polygon.hpp"
 
 #include <array>
@@ -35,14 +36,17 @@ constexpr std::string_view name_of(AreaAnswer answer) {
 
 // Why the points of a scan do not decide whether it covers an area.
 enum class Undecided : std::uint8_t {
-  kNoPoint,         // none is in the bounds of the area
-  kNoFirstReturn,   // none was measured, though later returns or synthetic points are there
-  kSyntheticAlone,  // the scan has no other points
-  kOtherSystems,    // files of the scan have different ones, and the config states none
-  kFewPoints,       // a square grid of their spacing leaves circles of the void size empty, too
+  kNoPoint,           // none is in the bounds of the area
+  kNoFirstReturn,     // none was measured, though later returns or synthetic points are there
+  kSyntheticAlone,    // the scan has no other points
+  kOtherSystems,      // files of the scan have different ones, and the config states none
+  kFewPoints,         // a square grid of their spacing leaves circles of the void size empty, too
+  kHeightsApart,      // voids are there only if points whose heights lie apart cover nothing
+  kCoarseConversion,  // the polygons may lie off by more than half of the void size
 };
-inline constexpr std::array<std::string_view, 5> kUndecided = {
-    "no point", "no first return", "synthetic points alone", "different systems", "few points"};
+inline constexpr std::array<std::string_view, 7> kUndecided = {
+    "no point",   "no first return", "synthetic points alone", "different systems",
+    "few points", "heights apart",   "coarse conversion"};
 constexpr std::string_view name_of(Undecided reason) {
   return kUndecided[static_cast<std::size_t>(reason)];
 }
@@ -111,8 +115,11 @@ struct AreaCheck {
   std::vector<Undecided> undecided;   // empty if the points decide
   std::vector<BasisLine> basis;       // of all figures
   // These are as in PlanOfPoints.
-  std::uint64_t points = 0, later_returns = 0, synthetic = 0, repeated = 0;
+  std::uint64_t points = 0, later_returns = 0, synthetic = 0, repeated = 0, near = 0;
   bool counts_once = true;
+  std::vector<HeightGroup> apart;
+  double height_gap = 0;    // between them and the others
+  double area_off = 0;      // how far the polygons may lie off, as their conversion says
   std::vector<Void> voids;  // those that count first; then by area, the largest first
   std::vector<AreaClass> classes;
   double tile_edge = 0;         // 0: no table

@@ -159,29 +159,59 @@ class Reader {
     const auto conversion = conversion_from(given);
     if (!conversion) return;
     const bool from_degrees = given->IsGeographic() != 0;
-    for (PlanPolygon& polygon : std::span(to_.polygons).subspan(first)) {
-      for (Ring2& ring : polygon) convert(ring, *conversion, from_degrees, is_geojson);
+    const std::span polygons = std::span(to_.polygons).subspan(first);
+    if (!polygons.empty()) note_accuracy(*conversion, polygons.front().front().front());
+    for (PlanPolygon& polygon : polygons) {
+      std::uint64_t corners = 0;
+      for (Ring2& ring : polygon) {
+        if (from_degrees) check_degrees(ring, is_geojson);
+        to_.corners -= ring.size();
+        ring = converted(ring, *conversion, from_degrees);
+        to_.corners += ring.size();
+        corners += ring.size();
+      }
+      to_.most_in_one = std::max(to_.most_in_one, corners);
     }
   }
 
-  void convert(Ring2& ring, OGRCoordinateTransformation& conversion, bool from_degrees,
-               bool is_geojson) const {
-    constexpr std::size_t kTogether = 1024;
-    std::array<double, kTogether> x, y;
-    for (std::size_t first = 0; first < ring.size(); first += kTogether) {
-      const std::span part = std::span(ring).subspan(first, std::min(kTogether, ring.size() - first));
-      for (std::size_t i = 0; i < part.size(); ++i) {
-        if (from_degrees && !is_of_degrees(part[i])) fail_at_degrees(part[i], is_geojson);
-        x[i] = part[i].x();
-        y[i] = part[i].y();
-      }
-      bool is_well = conversion.Transform(static_cast<int>(part.size()), x.data(), y.data()) != FALSE;
-      for (std::size_t i = 0; i < part.size(); ++i) {
-        part[i] = {x[i], y[i]};
-        is_well = is_well && part[i].allFinite();
-      }
-      if (!is_well) fail("cannot be converted to the coordinate reference system of the scan");
+  void check_degrees(const Ring2& ring, bool is_geojson) const {
+    for (const Eigen::Vector2d& corner : ring)
+      if (!is_of_degrees(corner)) fail_at_degrees(corner, is_geojson);
+  }
+
+  Eigen::Vector2d converted(Eigen::Vector2d place, OGRCoordinateTransformation& conversion) const {
+    if (conversion.Transform(1, &place.x(), &place.y()) == FALSE || !place.allFinite())
+      fail("cannot be converted to the coordinate reference system of the scan");
+    return place;
+  }
+
+  // Converts a ring, whose edges are cut into equal parts. A part bends by a square of its length, so the
+  // bend of the edge at its quarters says how many parts are straight enough.
+  Ring2 converted(const Ring2& ring, OGRCoordinateTransformation& conversion, bool from_degrees) const {
+    constexpr double kWholeTurn = 360, kMostParts = 1e6;
+    Ring2 result;
+    Eigen::Vector2d from = converted(ring.front(), conversion);
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Eigen::Vector2d &a = ring[i], &b = ring[i + 1 < ring.size() ? i + 1 : 0];
+      const Eigen::Vector2d to = converted(b, conversion);
+      Eigen::Vector2d edge = b - a;
+      if (from_degrees) edge.x() = std::remainder(edge.x(), kWholeTurn);  // across the antimeridian
+      double bend = 0;
+      for (const double at : {0.25, 0.5, 0.75})
+        bend = std::max(bend, (converted(a + at * edge, conversion) - (from + at * (to - from))).norm());
+      const double parts = std::clamp(std::ceil(std::sqrt(bend / to_.bend)), 1.0, kMostParts);
+      check_corners(to_, result.size() + static_cast<std::uint64_t>(parts) + ring.size() - i - 1);
+      result.push_back(from);
+      for (double part = 1; part < parts; ++part)
+        result.push_back(converted(a + part / parts * edge, conversion));
+      from = to;
     }
+    return result;
+  }
+
+  void note_accuracy(OGRCoordinateTransformation& conversion, const Eigen::Vector2d& place) {
+    to_.accuracy =
+        accuracy_of(*conversion.GetSourceCS(), *conversion.GetTargetCS(), {place.x(), place.y(), 0});
   }
 
   // Degrees that are none come from a file that states no system, mostly.

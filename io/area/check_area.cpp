@@ -12,6 +12,7 @@
 #include "io/area/plan_raster.hpp"
 #include "io/area/trace_voids.hpp"
 #include "io/crs/gis_module.hpp"
+#include "io/crs/length_unit.hpp"
 #include "io/scan/plan_system.hpp"
 
 #include <algorithm>
@@ -20,6 +21,8 @@
 #include <filesystem>
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <optional>
 #include <sstream>
 #include <system_error>
 #include <tuple>
@@ -45,17 +48,43 @@ void check_files(const std::filesystem::path& file) {
   }
 }
 
+// Returns so many metres in units of the scan. A scan without a unit is taken to be in metres.
+double from_metres(double metres, const FileScan& scan) {
+  return metres / metres_of_unit(scan.length_unit()).value_or(1);
+}
+
+// Returns the diameter of the least void, in units of the scan.
+double void_size_in(const FileScan& scan, const AreaConfig& config) {
+  const VoidSize size = void_size_of(config);
+  const std::optional<double> metres = metres_of_unit(scan.length_unit());
+  const std::string rule = "void_rule = " + config.void_rule;
+  if (!size.unit.empty()) {
+    if (!metres)
+      throw Error(rule + " is a length in " + std::string(size.unit) +
+                  ", and the scan states no unit; --unit states it");
+    return size.length * *metres_of_unit(size.unit) / *metres;
+  }
+  if (size.is_standards && metres && *metres != 1)
+    spdlog::warn(
+        "{}: the spacing is taken in {}, so that voids have {:.3g} m; standards are in metres, and a "
+        "unit may follow the number, as in anps:0.71m",
+        rule, scan.length_unit(), size.length * *metres);
+  return size.length;
+}
+
 // Reads the files of an area, whose corners share the memory.
 class PolygonFiles {
  public:
-  PolygonFiles(const FileScan& scan, const FilesConfig& config)
-      : scan_(scan), memory_(Memory::share(config.run.memory_limit).limit / 8 * 3) {}
+  PolygonFiles(const FileScan& scan, const FilesConfig& config, double void_size)
+      : scan_(scan), memory_(Memory::share(config.run.memory_limit).limit / 8 * 3), void_size_(void_size) {}
 
   std::vector<PlanPolygon> read(const std::string& file) {
+    constexpr double kBends = 500;  // of the void size, as exact as circles are
     static auto* const read =
         reinterpret_cast<ReadAreaPolygons*>(load_gis_function(kReadAreaPolygons, kUser));
     HeldPolygons polygons{.file = file,
                           .crs = scan_.common_crs(),
+                          .bend = void_size_ / kBends,
                           .corners = corners_,
                           .most_in_one = most_in_one_,
                           .memory = memory_};
@@ -67,6 +96,7 @@ class PolygonFiles {
     corners_ = polygons.corners;
     most_in_one_ = polygons.most_in_one;
     if (polygons.is_converted) spdlog::info("{}: is converted from {}", file, polygons.file_crs);
+    note_accuracy(polygons);
     if (!polygons.is_converted && polygons.file_crs.empty() != scan_.common_crs().empty())
       spdlog::warn("{}: {} has no coordinate reference system; positions are compared as they are", file,
                    polygons.file_crs.empty() ? "it" : "the scan");
@@ -74,10 +104,21 @@ class PolygonFiles {
   }
 
   std::uint64_t bytes() const { return bytes_of_corners(corners_, most_in_one_); }
+  double off() const { return off_; }  // of all files so far, where their conversion moves the datum
 
  private:
+  // A conversion within one datum is how all programs convert: polygons come back as they were.
+  void note_accuracy(const HeldPolygons& polygons) {
+    const double off = from_metres(polygons.accuracy.metres, scan_);
+    if (polygons.accuracy.moves_datum) off_ = std::max(off_, off);
+    if (!(off > void_size_ / 2)) return;
+    spdlog::warn("{}: the conversion from {} holds {}", polygons.file, polygons.file_crs,
+                 polygons.accuracy.print());
+  }
+
   const FileScan& scan_;
   std::uint64_t memory_, corners_ = 0, most_in_one_ = 0;
+  double void_size_, off_ = 0;
 };
 
 std::vector<ClassPolygons> read_classes(const std::string& files, PolygonFiles& polygons) {
@@ -112,13 +153,13 @@ double bytes_of(const Eigen::Array2d& cells, std::size_t rasters) {
 }
 
 // The cells over all polygons, in `memory` bytes.
-PlanGrid grid_over(std::span<const PlanPolygon> polygons, std::size_t rasters, double memory,
-                   const AreaConfig& config) {
+PlanGrid grid_over(std::span<const PlanPolygon> polygons, double void_size, std::size_t rasters,
+                   double memory, const AreaConfig& config) {
   Eigen::AlignedBox2d bounds;
   for (const PlanPolygon& polygon : polygons)
     for (const Ring2& ring : polygon)
       for (const Eigen::Vector2d& corner : ring) bounds.extend(corner);
-  PlanGrid grid{.size = void_size_of(config)};
+  PlanGrid grid{.size = void_size};
   const auto fits = [&](const Eigen::Array2d& cells) {
     return bytes_of(cells, rasters) <= memory && cells.maxCoeff() < std::numeric_limits<int>::max();
   };
@@ -130,7 +171,8 @@ PlanGrid grid_over(std::span<const PlanPolygon> polygons, std::size_t rasters, d
     std::ostringstream message;
     message << "void_rule = " << config.void_rule << ": the area has " << cells.x() << " x " << cells.y()
             << " cells of an eighth of this size, more than fit in the " << std::floor(memory / (1 << 20))
-            << " MiB that the memory limit leaves for them; allowed: a size of " << allowed << " or more";
+            << " MiB that the memory limit leaves for them; allowed: a size of " << allowed
+            << " or more, or a part of the area";
     throw Error(message.str());
   }
   grid.first = grid.to_cells(bounds.min()).array().floor();
@@ -143,6 +185,9 @@ PlanGrid grid_over(std::span<const PlanPolygon> polygons, std::size_t rasters, d
 void check_tiles(const PlanGrid& grid, double memory, const AreaConfig& config) {
   constexpr double kBytesOfTile = 240;
   if (!(config.area_tile > 0)) return;
+  if (config.area_tile < grid.size)
+    throw Error("area_tile is less than the void size, " + print_number(grid.size) +
+                "; allowed: 0 (off), or a length of this or more");
   const double cells = config.area_tile / grid.edge();  // along an edge
   const double tiles =
       (static_cast<double>(grid.columns) / cells + 2) * (static_cast<double>(grid.rows) / cells + 2);
@@ -190,6 +235,16 @@ void refuse_far_too_long_outlines(const PlanRaster& empty, const PlanRaster& ins
     }
     if (edges > kFar * most_edges(config)) fail_long_outlines(edges, config);
   }
+}
+
+// Whether a cell is empty and in no exception, so that its void counts.
+bool has_voids(const PlanRaster& empty, const std::optional<PlanRaster>& excepted) {
+  for (std::size_t row = 0; row < empty.rows(); ++row) {
+    const std::span<const std::uint64_t> cells = empty.row(row);
+    for (std::size_t word = 0; word < cells.size(); ++word)
+      if ((cells[word] & ~(excepted ? excepted->row(row)[word] : 0)) != 0) return true;
+  }
+  return false;
 }
 
 // The plan of an area and its voids.
@@ -379,6 +434,9 @@ std::vector<Undecided> undecided_reasons(const PlanOfPoints& points, const AreaC
   if (has_other_systems(scan)) reasons.push_back(Undecided::kOtherSystems);
   if (check.counting() > 0 && check.spacing > AreaCheck::most_spacing(check.void_size))
     reasons.push_back(Undecided::kFewPoints);
+  if (check.counting() > 0 && !points.apart.empty() && !points.has_voids_with_apart)
+    reasons.push_back(Undecided::kHeightsApart);
+  if (check.area_off > check.void_size / 2) reasons.push_back(Undecided::kCoarseConversion);
   return reasons;
 }
 
@@ -418,18 +476,42 @@ AreaPolygon measure(PlanPolygon outline, const PlanGrid& grid, const PlanRaster&
   return polygon;
 }
 
+// ---- the points
+
+// With bounds of heights, the user has said which points count.
+double height_gap_of(const FileScan& scan, const FilesConfig& config, double void_size) {
+  constexpr double kMetres = 100, kVoidSizes = 10;
+  constexpr std::size_t kNumbersWithHeights = 6;
+  if (config.input.bounds.size() == kNumbersWithHeights) return 0;
+  return std::max(from_metres(kMetres, scan), kVoidSizes * void_size);
+}
+
+// Copies that files round differently lie some millimetres apart. Without times they must lie far nearer to
+// each other than the points of the scan. Their spacing is no less than if all were in the area.
+CopyDistance copy_distance_of(const FileScan& scan, double void_size, double area) {
+  constexpr double kOfVoidSize = 200, kOfSpacing = 25, kLeast = 1e-6;
+  const std::vector<std::uint64_t> rows = scan.parts();
+  const double all =
+      std::max(1.0, static_cast<double>(std::accumulate(rows.begin(), rows.end(), std::uint64_t{0})));
+  const double with_time = void_size / kOfVoidSize;
+  const double least = kLeast * void_size;
+  return {with_time, std::clamp(std::sqrt(area / all) / kOfSpacing, least, std::max(with_time, least))};
+}
+
 }  // namespace
 
 std::optional<Area> read_area(const FileScan& scan, const FilesConfig& config) {
   if (config.area.area.empty()) return std::nullopt;
   require_plan(scan, "--area");
   Area area;
-  PolygonFiles files(scan, config);
+  const double void_size = void_size_in(scan, config.area);
+  PolygonFiles files(scan, config, void_size);
   area.polygons = files.read(config.area.area);
   if (!config.area.except.empty()) area.exceptions = files.read(config.area.except);
+  area.off = files.off();
   area.classes = read_classes(config.area.classes, files);
   const auto limit = static_cast<double>(Memory::share(config.run.memory_limit).limit);
-  area.grid = grid_over(area.polygons, area.exceptions.empty() ? 3 : 4,
+  area.grid = grid_over(area.polygons, void_size, area.exceptions.empty() ? 3 : 4,
                         limit / 2 - static_cast<double>(files.bytes()), config.area);
   check_tiles(area.grid, limit / 8, config.area);
   return area;
@@ -443,9 +525,14 @@ AreaCheck check_area(Area area, FileScan& scan, const FilesConfig& config, Progr
   if (!area.exceptions.empty()) excepted = rasterise(area.exceptions, grid);
   AreaTiles tiles(config.area.area_tile, grid);
   tiles.add_area(inside);
-  const PlanOfPoints points = find_empty_places(
-      grid, inside, Memory::share(config.run.memory_limit).limit / 8, scan, tiles, progress,
-      [&](const PlanRaster& empty) { refuse_far_too_long_outlines(empty, inside, grid, config); });
+  const PointRules rules{.height_gap = height_gap_of(scan, config, grid.size),
+                         .copies = copy_distance_of(scan, grid.size, grid.area(inside.count()))};
+  const PlanOfPoints points =
+      find_empty_places(grid, inside, rules, Memory::share(config.run.memory_limit).limit / 8, scan, tiles,
+                        progress, [&](const PlanRaster& empty) {
+                          refuse_far_too_long_outlines(empty, inside, grid, config);
+                          return has_voids(empty, excepted);
+                        });
 
   // The voids: the circles around what is empty.
   const Plan plan(grid, inside, excepted, points);
@@ -457,7 +544,11 @@ AreaCheck check_area(Area area, FileScan& scan, const FilesConfig& config, Progr
                   .later_returns = points.later_returns,
                   .synthetic = points.synthetic,
                   .repeated = points.repeated,
-                  .counts_once = points.counts_once};
+                  .near = points.near,
+                  .counts_once = points.counts_once,
+                  .apart = points.apart,
+                  .height_gap = rules.height_gap,
+                  .area_off = area.off};
   for (TracedVoid& traced : trace(plan, grid))
     check.voids_area += check.voids.emplace_back(plan.measure(std::move(traced), tiles)).area;
   std::sort(check.voids.begin(), check.voids.end(), [](const Void& a, const Void& b) {

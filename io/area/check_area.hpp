@@ -24,6 +24,7 @@ struct ClassPolygons {
 struct Area {
   std::vector<PlanPolygon> polygons, exceptions;  // in coordinates of the scan
   std::vector<ClassPolygons> classes;             // likewise
+  double off = 0;  // how far polygons and exceptions may lie off, as their conversion says
   PlanGrid grid;
 };
 
@@ -44,11 +45,16 @@ LACUNA_API std::optional<Area> read_area(const FileScan& scan, const FilesConfig
 //
 // A void counts unless all of its empty cells lie in exceptions. Where a file of the scan has return
 // numbers, only first returns are points. Points of the flag synthetic cover nothing, unless the scan has no
-// others. Points of the same x, y, z and time count once. (Data voids in the Lidar Base Specification of the
-// U.S. Geological Survey: its least void has four nominal pulse spacings.)
+// others. Points of about the same x, y, z and time count once. (Data voids in the Lidar Base Specification
+// of the U.S. Geological Survey: its least void has four nominal pulse spacings.)
 //
-// Reads the scan once or twice. Memory: 3 or 4 bits for each cell in the bounds of the area, and the
-// outlines. Cost: linear in points and in cells. Throws `Error` where outlines do not fit in memory.
+// Points whose heights lie apart cover nothing (io/area/height_groups.hpp), unless the config has bounds of
+// heights. The gap is 100 m, or ten void sizes if that is more. Structures leave no such gap between their
+// points and those of the ground, but for lone roofs.
+//
+// Reads the scan once or twice, and once or twice more where heights lie apart or points do not fit in
+// memory. Memory: 3 or 4 bits for each cell in the bounds of the area, and the outlines. Cost: linear in
+// points and in cells. Throws `Error` where outlines do not fit in memory.
 LACUNA_API AreaCheck check_area(Area area, FileScan& scan, const FilesConfig& config, Progress& progress);
 
 }  // namespace lacuna::io

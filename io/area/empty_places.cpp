@@ -2,7 +2,6 @@
 #include "io/area/empty_places.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/area/repeated_points.hpp"
 #include "io/rows/vectors.hpp"
 
 #include <algorithm>
@@ -36,11 +35,21 @@ struct MeasuredPoint {
   double swath = 0;  // NaN: not stated
 };
 
+// Which points of an area are counted, and how.
+struct Counting {
+  bool takes_synthetic = false;
+  bool once = true;                 // points that are there more than once
+  double height_gap = 0;            // 0: all heights are ground
+  std::vector<HeightGroup> ground;  // points of other heights cover nothing; empty: all count
+
+  bool takes(double height) const { return ground.empty() || is_of(ground, height, height_gap); }
+};
+
 // Passes on the first returns of a scan that were measured, in cells.
 class PlanObserver : public RowObserver {
  public:
-  PlanObserver(const PlanGrid& grid, bool takes_synthetic, Progress& progress)
-      : grid_(grid), takes_synthetic_(takes_synthetic), progress_(progress) {}
+  PlanObserver(const PlanGrid& grid, const Counting& counting, Progress& progress)
+      : grid_(grid), counting_(counting), progress_(progress) {}
 
   void take(std::size_t, const ScanReader& reader, const RowBatch& rows, std::span<const Eigen::Vector3d>,
             std::span<const Eigen::Vector3d> kept) final {
@@ -55,9 +64,9 @@ class PlanObserver : public RowObserver {
       has_measured_ = has_measured_ || !is_synthetic;
       if (!returns_.empty() && returns_[i] > 1) {
         leave_out(at, &PlanOfPoints::later_returns);
-      } else if (is_synthetic && !takes_synthetic_) {
+      } else if (is_synthetic && !counting_.takes_synthetic) {
         leave_out(at, &PlanOfPoints::synthetic);
-      } else {
+      } else if (counting_.takes(kept[i].z())) {
         add(at, {.place = kept[i],
                  .time = times_.empty() ? 0 : times_[i],
                  .swath = swaths_.empty() ? std::numeric_limits<double>::quiet_NaN() : swaths_[i]});
@@ -72,38 +81,35 @@ class PlanObserver : public RowObserver {
   virtual void add(const Eigen::Vector2d& at, const MeasuredPoint& point) = 0;
   virtual void leave_out(const Eigen::Vector2d&, std::uint64_t PlanOfPoints::*) {}
   const PlanGrid& grid() const { return grid_; }
+  const Counting& counting() const { return counting_; }
 
  private:
   const PlanGrid& grid_;
-  bool takes_synthetic_, has_measured_ = false;
+  const Counting& counting_;
+  bool has_measured_ = false;
   Progress& progress_;
   std::vector<double> returns_, synthetic_, times_, swaths_;
-};
-
-// How the points of an area are counted.
-struct Counting {
-  bool takes_synthetic = false;
-  bool once = true;  // points that are there more than once
 };
 
 // Finds the cells whose middles are empty, and those where no more than a corner may be.
 class MarkingObserver : public PlanObserver {
  public:
-  MarkingObserver(const PlanGrid& grid, const PlanRaster& inside, const AreaTiles& tiles, Counting counting,
-                  std::uint64_t memory, Progress& progress)
-      : PlanObserver(grid, counting.takes_synthetic, progress),
+  MarkingObserver(const PlanGrid& grid, const PlanRaster& inside, const AreaTiles& tiles,
+                  const Counting& counting, CopyDistance copies, std::uint64_t memory, Progress& progress)
+      : PlanObserver(grid, counting, progress),
         plan{.empty = inside, .density = PointDensity(grid)},
         maybe(inside),
         tiles(tiles),
-        repeated(std::pow(10, std::floor(std::log10(grid.size)) - 6), memory),
-        inside_(inside),
-        once_(counting.once) {}
+        repeated(copies, memory),
+        heights(counting.height_gap),
+        inside_(inside) {}
 
   PlanOfPoints plan;
   PlanRaster maybe;
   ConvexHull hull;
   AreaTiles tiles;
   RepeatedPoints repeated;
+  HeightGroups heights;
 
  private:
   bool is_inside(const Eigen::Vector2d& at) const {
@@ -116,7 +122,8 @@ class MarkingObserver : public PlanObserver {
     clear_disc(at, kEmptyRadius - kToCorner, maybe);
     if (!grid().contains(at)) return;
     hull.add(at);
-    if (!is_inside(at) || (repeated.add(point.place, point.time) && once_)) return;
+    if (counting().height_gap > 0) heights.add(point.place.z());
+    if (!is_inside(at) || (repeated.add(point.place, point.time) && counting().once)) return;
     if (!std::isnan(point.swath) && plan.swaths.size() < kMostSwaths) plan.swaths.insert(point.swath);
     const auto column = static_cast<std::size_t>(at.x()), row = static_cast<std::size_t>(at.y());
     ++plan.points;
@@ -129,17 +136,14 @@ class MarkingObserver : public PlanObserver {
   }
 
   const PlanRaster& inside_;
-  bool once_;
 };
 
 // Collects the points that are near a cell of a raster.
 class NearObserver : public PlanObserver {
  public:
-  NearObserver(const PlanGrid& grid, const PlanRaster& cells, bool takes_synthetic, std::uint64_t memory,
+  NearObserver(const PlanGrid& grid, const PlanRaster& cells, const Counting& counting, std::uint64_t memory,
                Progress& progress)
-      : PlanObserver(grid, takes_synthetic, progress),
-        cells_(cells),
-        most_(memory / sizeof(Eigen::Vector2d)) {}
+      : PlanObserver(grid, counting, progress), cells_(cells), most_(memory / sizeof(Eigen::Vector2d)) {}
 
   std::vector<Eigen::Vector2d> near;
 
@@ -200,34 +204,47 @@ class NearPoints {
 
 }  // namespace
 
-PlanOfPoints find_empty_places(const PlanGrid& grid, const PlanRaster& inside, std::uint64_t memory,
-                               FileScan& scan, AreaTiles& tiles, Progress& progress,
-                               const std::function<void(const PlanRaster& empty)>& check) {
-  // All is synthetic, or not all points can be held: that shows in the end alone.
-  Counting counting;
+PlanOfPoints find_empty_places(const PlanGrid& grid, const PlanRaster& inside, const PointRules& rules,
+                               std::uint64_t memory, FileScan& scan, AreaTiles& tiles, Progress& progress,
+                               const std::function<bool(const PlanRaster& empty)>& has_voids) {
+  // All is synthetic, not all points can be held, or heights lie apart: that shows in the end alone.
+  Counting counting{.height_gap = rules.height_gap};
+  std::vector<HeightGroup> apart;
+  bool has_voids_with_apart = false;
   std::optional<MarkingObserver> marking;
   for (bool is_again = true; is_again;) {
     marking.reset();
-    marking.emplace(grid, inside, tiles, counting, memory, progress);
+    marking.emplace(grid, inside, tiles, counting, rules.copies, memory, progress);
     progress.begin("area", scan.expected_points().value_or(0));
     scan.read_all(*marking);
-    const Counting next = {.takes_synthetic = !marking->has_measured(), .once = marking->repeated.is_exact()};
-    is_again = (next.takes_synthetic && !counting.takes_synthetic) || (!next.once && counting.once);
-    counting = next;
+    const bool takes_synthetic = !marking->has_measured(), once = marking->repeated.is_exact();
+    is_again = (takes_synthetic && !counting.takes_synthetic) || (!once && counting.once);
+    HeightGroups::Parts heights = marking->heights.parts();
+    if (!heights.apart.empty() && counting.ground.empty()) {
+      is_again = true;
+      has_voids_with_apart = has_voids(marking->plan.empty);
+      counting.ground = std::move(heights.ground);
+      apart = std::move(heights.apart);
+    }
+    counting.takes_synthetic = takes_synthetic;
+    counting.once = once;
   }
   PlanOfPoints plan = std::move(marking->plan);
   plan.hull = marking->hull.corners();
   plan.repeated = marking->repeated.count();
+  plan.near = marking->repeated.near();
   plan.counts_once = counting.once;
   plan.all_synthetic = counting.takes_synthetic;
+  plan.apart = std::move(apart);
+  plan.has_voids_with_apart = has_voids_with_apart;
   PlanRaster undecided = std::move(marking->maybe);
   tiles = std::move(marking->tiles);
   marking.reset();
-  check(plan.empty);
+  has_voids(plan.empty);
 
   undecided.subtract(plan.empty);
   if (undecided.count() > 0) {
-    NearObserver collecting(grid, undecided, plan.all_synthetic, memory, progress);
+    NearObserver collecting(grid, undecided, counting, memory, progress);
     progress.begin("voids", scan.expected_points().value_or(0));
     scan.read_all(collecting);
     const NearPoints near(std::move(collecting.near));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "io/area/plan_polygon.hpp"
+#include "io/crs/conversion_accuracy.hpp"
 
 #include <cstdint>
 #include <string>
@@ -16,6 +17,8 @@ struct HeldPolygons {
   std::vector<PlanPolygon> polygons;  // in coordinates of the scan
   std::string file_crs;               // name of the file's system; empty if it has none
   bool is_converted = false;          // from that system
+  ConversionAccuracy accuracy;        // of that conversion
+  double bend = 0;                    // how far converted edges may be off, in units of the scan
   // The corners of all files so far, those of the polygon that has most, and the bytes that they may take.
   std::uint64_t corners = 0, most_in_one = 0, memory = 0;
 };

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/crs/degrees.hpp"
 
+#include "io/crs/conversion_accuracy.hpp"
 #include "io/crs/crs_lookup.hpp"
 #include "io/crs/gis_module.hpp"
+
+#include <cmath>
+#include <sstream>
 
 #include <spdlog/spdlog.h>
 
@@ -13,13 +17,39 @@ std::optional<std::vector<Eigen::Vector3d>> to_degrees(const std::string& crs,
                                                        const std::filesystem::path& file) {
   if (crs.empty()) return std::nullopt;
   auto* const convert = reinterpret_cast<ConvertToDegrees*>(find_gis_function(kConvertToDegrees));
-  if (convert != nullptr && convert(crs, places)) return places;
+  const Eigen::Vector3d first = places.empty() ? Eigen::Vector3d(0, 0, 0) : places.front();
+  if (convert != nullptr && convert(crs, places)) {
+    if (!places.empty()) warn_of_accuracy(crs, first, file);
+    return places;
+  }
   spdlog::warn("{}: {}; GIS will read its coordinates, which are those of the scan, as degrees",
                file.string(),
                convert == nullptr ? "lacuna_gis.so is missing, which converts to longitude and latitude"
                                   : "GDAL cannot convert the coordinate reference system of the scan to "
                                     "longitude and latitude there");
   return std::nullopt;
+}
+
+std::string ConversionAccuracy::print() const {
+  std::ostringstream text;
+  if (std::isfinite(metres)) {
+    text << "to " << metres << " m only";
+  } else {
+    text << "with an error that is not known";
+  }
+  if (!missing_grid.empty())
+    text << "; PROJ does not find the grid " << missing_grid << ", which gives " << with_grid << " m";
+  return text.str();
+}
+
+void warn_of_accuracy(const std::string& crs, const Eigen::Vector3d& place,
+                      const std::filesystem::path& file) {
+  constexpr double kMetre = 1;
+  auto* const find = reinterpret_cast<FindDegreesAccuracy*>(find_gis_function(kFindDegreesAccuracy));
+  ConversionAccuracy accuracy;
+  if (find == nullptr || !find(crs, place, accuracy)) return;
+  if (accuracy.moves_datum && accuracy.metres > kMetre)
+    spdlog::warn("{}: longitude and latitude hold {}", file.string(), accuracy.print());
 }
 
 }  // namespace lacuna::io

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <iterator>
 #include <span>
+#include <utility>
 
 namespace lacuna::io {
 namespace {
@@ -65,34 +66,51 @@ struct VoidRule {
 };
 constexpr VoidRule kVoidRules[] = {{"anps:", 4}, {"spacing2:", 2}};
 constexpr const char* kAllowedRules =
-    "a length above 0, or the nominal spacing of points after anps: or spacing2:, such as anps:0.71";
+    "a length above 0, or the nominal spacing of points after anps: or spacing2:, such as 2.8, 2.8m, "
+    "anps:0.71m or anps:QL2";
 
-void check_area_config(const AreaConfig& area) {
-  if (area.area.empty()) return;
-  const double size = void_size_of(area);
-  if (area.area_tile > 0 && area.area_tile < size)
-    throw Error("area_tile is less than the void size, " + print_number(size) +
-                "; allowed: 0 (off), or a length of this or more");
+// Nominal spacings of the Lidar Base Specification, in metres.
+constexpr std::pair<std::string_view, double> kQualityLevels[] = {
+    {"QL0", 0.35}, {"QL1", 0.35}, {"QL2", 0.71}, {"QL3", 1.41}};
+
+// Reads a length and its unit, such as "0.71", "0.71m" or "0.71 m". False if it is none.
+bool read_length(std::string_view text, VoidSize& size) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), size.length);
+  if (error != std::errc()) return false;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  if (text.empty()) return true;
+  while (text.starts_with(' ')) text.remove_prefix(1);
+  const auto units = std::span(kUnitNames).subspan(1);
+  const auto unit = std::ranges::find(units, text);
+  if (unit != units.end()) size.unit = *unit;
+  return unit != units.end();
 }
 
 }  // namespace
 
-double void_size_of(const AreaConfig& area) {
+VoidSize void_size_of(const AreaConfig& area) {
   constexpr double kMost = 1e100;
   std::string_view length = area.void_rule;
+  VoidSize size;
   double spacings = 1;
   for (const VoidRule& rule : kVoidRules) {
     if (!length.starts_with(rule.name)) continue;
     length.remove_prefix(rule.name.size());
     spacings = rule.spacings;
+    size.is_standards = true;
     break;
   }
-  double value = 0;
-  const auto [end, error] = std::from_chars(length.data(), length.data() + length.size(), value);
-  if (error != std::errc() || end != length.data() + length.size() || !(value > 0 && value <= kMost))
+  const auto level = std::ranges::find(kQualityLevels, length, [](const auto& each) { return each.first; });
+  const bool is_level = area.void_rule.starts_with("anps:") && level != std::end(kQualityLevels);
+  if (is_level) {
+    size.length = level->second;
+    size.unit = kUnitNames[static_cast<std::size_t>(LengthUnit::kM)];
+  }
+  if ((!is_level && !read_length(length, size)) || !(size.length > 0 && size.length <= kMost))
     throw Error("void_rule = " + quote(area.void_rule) + (area.void_rule.empty() ? ": --area needs it" : "") +
                 "; allowed: " + kAllowedRules);
-  return spacings * value;
+  size.length *= spacings;
+  return size;
 }
 
 std::string_view name_of(LengthUnit unit) {
@@ -205,7 +223,7 @@ void check_config(const FilesConfig& config) {
   FilesConfig checked = config;
   check_ranges(file_parameters(checked));
   check_boxes(config.input);
-  check_area_config(config.area);
+  if (!config.area.area.empty()) void_size_of(config.area);
   check_memory_of_outputs(config.output, config.area, config.run.memory_limit);
 }
 

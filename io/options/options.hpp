@@ -68,10 +68,17 @@ struct AreaConfig {
   double area_tile = 0;      // edge of the squares of the table; 0: no table
 };
 
-// Returns the diameter of the least void, in units of the scan. A rule is this length, such as "2.8". Or it
-// is a name with the nominal spacing of points, such as "anps:0.7". Names and their sources are in
-// docs/area.md. Throws `Error`.
-LACUNA_API double void_size_of(const AreaConfig& area);
+// The diameter of the least void.
+struct VoidSize {
+  double length = 0;
+  std::string_view unit;      // as "m"; empty: that of the scan
+  bool is_standards = false;  // by a rule of a standard, which is in metres
+};
+
+// A rule is a length, such as "2.8" or "2.8m". Or it is a name with the nominal spacing of points, such as
+// "anps:0.7", or with a quality level, "anps:QL2". Names and their sources are in docs/area.md. Throws
+// `Error`.
+LACUNA_API VoidSize void_size_of(const AreaConfig& area);
 
 struct FilesConfig : Config {
   InputConfig input;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/results/gis_library.hpp"
 
+#include "io/crs/degrees.hpp"
 #include "io/crs/gis_module.hpp"
 #include "io/results/coverage_tif.hpp"
 #include "io/results/voids_gis.hpp"
@@ -55,6 +56,8 @@ void write_loops_gis(const ExplainedDetection& detection, const FileScan& scan, 
   if (is_geojson) task.take = [&](std::string_view text) { out.write(text); };
   switch (write(task)) {
     case GisCrs::kWritten:
+      if (is_geojson && !detection.loops.empty())
+        warn_of_accuracy(scan.common_crs(), detection.loops.front().centroid, out.path());
       return;
     case GisCrs::kNone:
       if (is_geojson) warn_of_degrees(out, "no coordinate reference system is known, and --crs can state it");

@@ -9,6 +9,7 @@ import os
 import queue
 import tempfile
 import threading
+import warnings
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -17,7 +18,7 @@ from typing import Any, Union
 import numpy as np
 
 from . import _core
-from .holes import CAUSES, NUMBERS, Holes
+from .holes import CAUSES, NUMBERS, Holes, LacunaWarning
 
 Result = Union[Holes, str, "os.PathLike[str]"]
 
@@ -66,7 +67,10 @@ def compare(before: Result, after: Result, *, tolerance: float = 0.0) -> dict[st
     """Says which holes of two results are closed, opened, changed or the same, as `lacuna compare` does. Returns
     its JSON. tolerance: how far apart curves of one hole may be; 0: twice the larger spacing."""
     with _folder_of(before) as first, _folder_of(after) as second:
-        return json.loads(_core.compare(first, second, tolerance))
+        compared, lines = _core.compare(first, second, tolerance)
+    for line in lines:
+        warnings.warn(line, LacunaWarning, stacklevel=2)
+    return json.loads(compared)
 
 
 def stream(files: Union[str, os.PathLike, Iterable[Union[str, os.PathLike]]], **params: Any) -> Iterator[dict[str, Any]]:

@@ -122,6 +122,53 @@ for rule in anps:1 spacing2:2; do
   grep -q "^  voids .* circles of 4 or more without points, by the rule $rule$" ruled.txt
 done
 
+for rule in 4m anps:1m 400cm; do
+  "$program" check holes.xyz --columns "x y z" --unit m --area holes.geojson --except holes.except.geojson --area-tile 20 \
+    --void-rule $rule --out ruled >ruled.txt 2>ruled.err || true
+  cmp holes/voids.csv ruled/voids.csv
+done
+"$program" check holes.xyz --columns "x y z" --unit ft --area holes.geojson --void-rule anps:1 --quiet >ruled.txt 2>ruled.err || true
+grep -q "warning: void_rule = anps:1: the spacing is taken in ft, so that voids have 1.22 m; standards are in metres" ruled.err
+
+# ---- edges that are straight in degrees
+python3 - <<'END'
+import json
+corners = [[9, 60], [9.4, 60], [9.2, 60.1]]
+json.dump({"type": "Polygon", "coordinates": [corners + corners[:1]]}, open("few.json", "w"))
+edge = lambda a, b: [[a[k] + (b[k] - a[k]) * i / 100 for k in (0, 1)] for i in range(100)]
+ring = [place for a, b in zip(corners, corners[1:] + corners[:1]) for place in edge(a, b)]
+json.dump({"type": "Polygon", "coordinates": [ring + ring[:1]]}, open("many.json", "w"))
+END
+echo "500000 6650000 0" >one.txt
+for name in few many; do
+  "$program" check one.txt --columns "x y z" --crs EPSG:25832 --area $name.json --void-rule 100 --out $name >few.txt 2>few.err || true
+done
+python3 - <<'END'
+import json
+few, many = (json.load(open(name + "/voids.json"))["area"] for name in ("few", "many"))
+assert abs(few / many - 1) < 2e-5, (few, many)
+END
+
+# ---- a conversion that is known to metres only
+if [[ ! -e /usr/share/proj/uk_os_OSTN15_NTv2_OSGBtoETRS.tif ]]; then
+  python3 - <<'END'
+import json
+corners = [[-1.2, 52.7], [-1.1996, 52.7], [-1.1996, 52.7003], [-1.2, 52.7003]]
+json.dump({"type": "Polygon", "coordinates": [corners + corners[:1]]}, open("britain.json", "w"))
+END
+  code=0
+  "$program" check one.txt --columns "x y z" --crs EPSG:27700 --area britain.json --void-rule 3 --quiet 2>britain.err || code=$?
+  [[ $code == 3 ]]
+  grep -q "britain.json: the conversion from WGS 84 holds to 2 m only; PROJ does not find the grid uk_os_OSTN15" britain.err
+  grep -q "its polygons may lie off by 2.00 m, more than half of the void size" britain.err
+  "$program" check one.txt --columns "x y z" --crs EPSG:27700 --area britain.json --void-rule 30 --quiet 2>britain.err || true
+  [[ $(grep -c "may lie off" britain.err) == 0 ]]
+fi
+# Datums that all programs take for one are no reason.
+"$program" check utm.xyz --columns "x y z" --crs EPSG:25832 --area degrees.geojson --void-rule 1.6 --quiet 2>null.err || true
+grep -q "the conversion from WGS 84 holds to 1 m only" null.err
+[[ $(grep -c "may lie off" null.err) == 0 ]]
+
 # ---- what lies in voids, by a map
 python3 - <<'END'
 import json
@@ -236,9 +283,53 @@ once, twice = ([tile["density"] for tile in json.load(open(name + "/voids.json")
 assert all(3.8 < density < 4.2 for density in once), once
 assert all(4.8 < density < 5.3 for density in twice), twice
 END
+# Tiles that were written anew, with other decimals and another offset.
+python3 - <<'END'
+rows = [line.split() for line in open("east.txt").read().splitlines()[1:]]
+with open("anew.txt", "w") as out:
+    print("x y z return_number synthetic gps_time", file=out)
+    for x, y, *more in rows:
+        print(*(f"{round((float(v) - .005) * 100) / 100 + .005:.3f}" for v in (x, y)), *more, file=out)
+END
+check 1 east.txt anew.txt
+grep -q "; 3,[0-9]* points that are there again count once" checked.txt
+for name in east anew; do cut -d " " -f 1-3 $name.txt >$name.places.txt; done
+check 1 {east,anew}.places.txt
+grep -q "warning: about 3,[0-9]* points without a time have another within a 25th of the spacing" checked.err
 # Too many to hold: a sample of them counts, and each as often as it is there.
 check 1 many.txt many.txt --memory-limit 112MiB
 grep -q "warning: about 4[789][0-9],... points in the area are there twice" checked.err
+
+# ---- points whose heights lie apart
+python3 - <<'END'
+import math
+rows = [line.split() for line in open("filled.txt").read().splitlines()[1:]]
+def write(name, height):
+    with open(name, "w") as out:
+        print("x y z", file=out)
+        for i, (x, y, _, _, synthetic, _) in enumerate(rows):
+            z = height(i) if synthetic == "1" else 300 + 2 * math.sin(float(x))
+            print(x, y, z, file=out)
+write("no_data.txt", lambda i: -9999)
+write("clouds.txt", lambda i: 1800 + i % 40)
+write("tower.txt", lambda i: 380)
+END
+for name in no_data clouds; do
+  check 3 $name.txt --quiet --out apart
+  grep -q "warning: 14[0-9] points in the bounds of the area at heights of .*, cover nothing" checked.err
+  grep -q "some.geojson: not decided: its voids are covered if 14[0-9] points count" checked.err
+  python3 -c 'import json; found = json.load(open("apart/voids.json"))
+assert found["undecided"] == ["heights apart"] and len(found["voids"]) == 1 and 36 < found["voids"][0]["area"] < 49, found'
+done
+check 1 no_data.txt --bounds 0,0,0,40,40,1000  # the user states heights
+grep -q "^voids: 1 of 2.40 or more (1 hole)" checked.txt
+check 0 no_data.txt --bounds 0,0,-10000,40,40,1000
+check 0 tower.txt
+[[ ! -s checked.err ]] || [[ $(grep -c "heights" checked.err) == 0 ]]
+# A void that is there in any case decides.
+awk 'NR == 1 || !($1 > 8 && $1 < 14 && $2 > 8 && $2 < 14)' no_data.txt >hollow.txt
+check 1 hollow.txt
+grep -q "^voids: 2 of 2.40 or more (2 holes)" checked.txt
 
 # ---- what is not decided
 python3 - <<'END'
@@ -301,9 +392,10 @@ for command in check detect; do
   refuse "holes.xyz: cannot be read as GeoPackage" "$command" "${some[@]}" --area holes.xyz --void-rule 4
   refuse "void_rule = 1e-6: the area has .* cells of an eighth of this size, more than .* allowed: a size of .* or more" "$command" "${some[@]}" \
     --area holes.geojson --void-rule 1e-6
-  for rule in 0 -1 nan 4m anps: anps spacing3:1; do
+  for rule in 0 -1 nan 4q anps:QL9 anps: anps spacing3:1; do
     refuse "void_rule = \"$rule\"; allowed: a length above 0, or" "$command" "${some[@]}" --area holes.geojson --void-rule=$rule
   done
+  refuse "void_rule = 4m is a length in m, and the scan states no unit" "$command" "${some[@]}" --area holes.geojson --void-rule 4m
   refuse "area_tile is less than the void size, 4.0" "$command" "${some[@]}" --area holes.geojson --void-rule 4 --area-tile 3
 done
 mkfifo pipe.geojson

@@ -51,7 +51,7 @@ void run_check(const CheckArguments& arguments) {
   const std::unique_ptr<Progress> progress = arguments.run.show_progress();
   const PlanGrid grid = area.grid;
   const AreaCheck check = check_area(std::move(area), *scan, config, *progress);
-  print_warnings(area_warnings(check));
+  print_warnings(area_warnings(check, scan->length_unit()));
   const Eigen::Vector2d size(static_cast<double>(grid.columns), static_cast<double>(grid.rows));
   const Eigen::Vector2d min = grid.from_cells({0, 0}), max = grid.from_cells(size);
   const Eigen::AlignedBox3d bounds(Eigen::Vector3d(min.x(), min.y(), 0),

@@ -2,12 +2,16 @@
 #include "tools/commands/compare_command.hpp"
 
 #include "engine/run/error.hpp"
+#include "io/crs/length_unit.hpp"
+#include "io/crs/stated_crs.hpp"
 #include "io/report/scene.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/measures_text.hpp"
+#include "tools/console/terminal.hpp"
 #include "tools/console/visible_text.hpp"
 #include "tools/matching/compare_loops.hpp"
+#include "tools/run/scan_warnings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +21,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -47,6 +52,7 @@ void run_compare(const CompareArguments& arguments) {
     throw WrongOption("--tolerance", "must be a length of 0 (automatic) or more");
   const Comparison comparison(read_result(arguments.before), read_result(arguments.after),
                               arguments.tolerance);
+  print_warnings(comparison.warnings);
   if (arguments.json) {
     std::cout << comparison.json().dump(2) << "\n";
   } else {
@@ -54,6 +60,59 @@ void run_compare(const CompareArguments& arguments) {
               << comparison.print_counts() << "\n"
               << comparison.print_table();
   }
+}
+
+// Brings a result into another unit of length.
+void scale(ComparedResult& result, double factor) {
+  for (Eigen::Vector3d& point : result.scan.sample) point *= factor;
+  for (double* const length : {&result.scan.spacing, &result.median_distance, &result.extent})
+    *length *= factor;
+  for (ComparedLoop& loop : result.scan.loops) {
+    for (Eigen::Vector3d& point : loop.points) point *= factor;
+    LoopMeasures& measures = loop.measures;
+    for (double* const length : {&measures.perimeter, &measures.diameter, &measures.track.evidence.spacing})
+      *length *= factor;
+    measures.area *= factor * factor;
+    measures.centroid *= factor;
+  }
+}
+
+// Whether two results are in one system. Two texts may name one, and a system may be there in other units:
+// then the same place has the same longitude and latitude. `factor` brings lengths of the first into the
+// second.
+bool is_in_one_system(const ComparedResult& a, const ComparedResult& b, double factor) {
+  constexpr double kMetre = 1e-5;  // in degrees
+  if (factor == 1 && io::is_same_crs(a.crs, b.crs)) return true;
+  const auto first = io::scale_at(a.crs, a.middle), second = io::scale_at(b.crs, a.middle * factor);
+  return first && second && std::abs(first->longitude - second->longitude) < kMetre &&
+         std::abs(first->latitude - second->latitude) < kMetre;
+}
+
+std::string name_of(const ComparedResult& result) {
+  return visible(result.folder.string());
+}
+
+// The way out of a side that does not state what the other one does.
+std::string missing_on(const ComparedResult& without, const std::string& what, const ComparedResult& with,
+                       const std::string& stated, const std::string& option) {
+  return name_of(without) + ": its " + what + " is not known, and that of " + name_of(with) + " is " +
+         stated + "; numbers are compared as they are, and `lacuna detect " + option + "` states it";
+}
+
+// Returns a line where the extents of two results are to each other as two units are; empty otherwise.
+std::string like_other_units(const ComparedResult& a, const ComparedResult& b) {
+  constexpr double kNear = 0.02;
+  constexpr std::pair<double, const char*> kRatios[] = {{1000, "m and mm"},       {100, "m and cm"},
+                                                        {1 / 0.3048, "m and ft"}, {1 / 0.0254, "m and in"},
+                                                        {25.4, "in and mm"},      {304.8, "ft and mm"}};
+  const double ratio = std::max(a.extent, b.extent) / std::min(a.extent, b.extent);
+  for (const auto& [of_units, names] : kRatios) {
+    if (!(std::abs(ratio / of_units - 1) <= kNear)) continue;
+    return name_of(a) + " and " + name_of(b) + ": one is " + print_length(ratio, "") +
+           " times as large as the other, as " + names +
+           "; with `lacuna detect --unit` for both, lengths are converted";
+  }
+  return "";
 }
 
 }  // namespace
@@ -64,11 +123,17 @@ ComparedResult read_result(const fs::path& folder) {
   const auto place_of = [&](const Eigen::Vector3f& p) -> Eigen::Vector3d {
     return scene.origin + p.cast<double>();
   };
-  ComparedResult result{
-      .scan = {.loops = {}, .sample = {}, .spacing = scene.points.spacing},
-      .median_distance = scene.holes.at("median_distance").get<double>(),
-      .extent = scene.bounds.isEmpty() ? 0 : scene.bounds.diagonal().norm(),
-      .unit = scene.holes.at("unit").is_string() ? scene.holes.at("unit").get<std::string>() : ""};
+  const auto text_of = [&](const char* key) {
+    const auto& text = scene.holes.at(key);
+    return text.is_string() ? text.get<std::string>() : "";
+  };
+  ComparedResult result{.folder = folder,
+                        .scan = {.loops = {}, .sample = {}, .spacing = scene.points.spacing},
+                        .median_distance = scene.holes.at("median_distance").get<double>(),
+                        .extent = scene.bounds.isEmpty() ? 0 : scene.bounds.diagonal().norm(),
+                        .unit = text_of("unit"),
+                        .crs = text_of("crs")};
+  if (!scene.bounds.isEmpty()) result.middle = scene.bounds.center();
   for (const Eigen::Vector3f& p : scene.points.positions) result.scan.sample.push_back(place_of(p));
   for (std::size_t i = 0; i < scene.loops.measures.size(); ++i) {
     ComparedLoop& loop = result.scan.loops.emplace_back();
@@ -81,6 +146,7 @@ ComparedResult read_result(const fs::path& folder) {
 
 Comparison::Comparison(ComparedResult first, ComparedResult second, double length)
     : before(std::move(first)), after(std::move(second)), tolerance(length) {
+  bring_together();
   constexpr double kDistances = 2;
   has_places = tolerance == 0;
   if (has_places) {
@@ -91,6 +157,31 @@ Comparison::Comparison(ComparedResult first, ComparedResult second, double lengt
     }
   }
   changes = compare_loops(before.scan, after.scan, tolerance);
+}
+
+void Comparison::bring_together() {
+  const auto metres = io::metres_of_unit(before.unit), metres_after = io::metres_of_unit(after.unit);
+  const bool has_units = metres && metres_after;
+  const double factor = has_units ? *metres / *metres_after : 1;
+  if (before.crs.empty() != after.crs.empty()) {
+    const auto& [without, with] = before.crs.empty() ? std::tie(before, after) : std::tie(after, before);
+    warnings.push_back(missing_on(without, "coordinate reference system", with, crs_name(with.crs), "--crs"));
+  } else if (!before.crs.empty() && !is_in_one_system(before, after, factor)) {
+    throw Error(name_of(after) + ": its coordinate reference system is " + crs_name(after.crs) +
+                ", and that of " + name_of(before) + " is " + crs_name(before.crs) +
+                "; only results of one system can be compared");
+  }
+  if (has_units) {
+    if (factor != 1) scale(before, factor);
+    before.unit = after.unit;
+    return;
+  }
+  if (const std::string line = like_other_units(before, after); !line.empty()) {
+    warnings.push_back(line);
+  } else if (before.unit != after.unit) {
+    const auto& [without, with] = before.unit.empty() ? std::tie(before, after) : std::tie(after, before);
+    warnings.push_back(missing_on(without, "unit", with, with.unit, "--unit"));
+  }
 }
 
 std::string Comparison::print_counts() const {

@@ -14,17 +14,20 @@ namespace lacuna::tools {
 
 // The parts of a result that are compared.
 struct ComparedResult {
+  std::filesystem::path folder;
   matching::ComparedScan scan;
   double median_distance = 0;  // of neighbours
   double extent = 0;
-  std::string unit;
+  Eigen::Vector3d middle{0, 0, 0};  // of its bounds
+  std::string unit, crs;            // empty: not stated
 };
 // Reads an output folder of lacuna detect. Throws `Error`.
 ComparedResult read_result(const std::filesystem::path& folder);
 
 struct Comparison {
-  // `tolerance` is how far apart the curves of one hole may be. 0 means twice the spacing along them, and at
-  // least twice the larger median distance of neighbours.
+  // The first result is brought into the unit of the second one, where both state one. `tolerance` is in that
+  // unit. It is how far apart the curves of one hole may be. 0 means twice the spacing along them, and at
+  // least twice the larger median distance of neighbours. Throws `Error` where the systems differ.
   Comparison(ComparedResult before, ComparedResult after, double tolerance = 0);
 
   // Returns "2 closed, 1 opened, 14 same; curves of one hole are at most 2 cm apart".
@@ -33,9 +36,13 @@ struct Comparison {
   nlohmann::ordered_json json() const;
 
   ComparedResult before, after;
-  double tolerance;  // the least
-  bool has_places;   // where points are farther apart, curves may be, too
+  std::vector<std::string> warnings;  // lines: what may be wrong, as a side states neither unit nor system
+  double tolerance;                   // the least
+  bool has_places;                    // where points are farther apart, curves may be, too
   std::vector<matching::LoopChange> changes;
+
+ private:
+  void bring_together();
 };
 
 }  // namespace lacuna::tools

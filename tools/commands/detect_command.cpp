@@ -144,7 +144,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   const std::vector<fs::path> written = write_results(detection, scan, with_min_hole(config), results);
   note_complete_results();
   progress->end();
-  if (detection.area) print_warnings(area_warnings(*detection.area));
+  if (detection.area) print_warnings(area_warnings(*detection.area, scan.length_unit()));
   print_warnings(station_warnings(detection.stations, detection.points_of_none));
   print_warnings(scan_warnings(scan, detection, config));
 

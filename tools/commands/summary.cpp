@@ -34,10 +34,6 @@ std::string print_share(double value) {
 
 constexpr std::size_t kMostRows = 10;
 
-std::string counted(std::size_t count, const char* one, const char* several) {
-  return print_count(count) + " " + (count == 1 ? one : several);
-}
-
 std::string print_input(const Counts& counts, const FileScan& scan) {
   std::string text = print_count(counts.points) + " points";
   text += scan.files().size() == 1 ? " in " + visible(scan.files().front().name.string())

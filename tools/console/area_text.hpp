@@ -10,8 +10,8 @@
 
 namespace lacuna::tools {
 
-// "covered", or "voids: 3 of 2.8 m or more (1 hole, 2 open), 1 more in exceptions", or "not decided" with its
-// reasons.
+// "covered", or "voids: 3 of 2.8 m or more (2 holes, 1 open), 1 more in exceptions", or "not decided" with
+// its reasons.
 std::string print_answer(const io::AreaCheck& check, std::string_view unit);
 
 // "12,300 m², 98.7 % of it covered; 45,600 points", without the share where the answer is not decided.
@@ -24,8 +24,9 @@ std::string print_classes(const io::AreaCheck& check, std::string_view unit);
 // Returns what the figures rest on, a line for each thing, and what the check does not show.
 std::string print_basis(const io::AreaCheck& check);
 
-// Returns a line if densities may be wrong.
-std::vector<std::string> area_warnings(const io::AreaCheck& check);
+// Returns lines for points that cover nothing as their heights lie apart, and for densities that may be
+// wrong.
+std::vector<std::string> area_warnings(const io::AreaCheck& check, std::string_view unit);
 
 // The ten largest voids as a table; empty without a void.
 std::string print_voids(const io::AreaCheck& check, std::string_view unit);

@@ -36,6 +36,10 @@ std::string with_unit(double value, std::string_view unit, const char* power) {
 
 }  // namespace
 
+std::string counted(std::uint64_t count, std::string_view one, std::string_view several) {
+  return print_count(count).append(" ").append(count == 1 ? one : several);
+}
+
 std::string print_length(double length, std::string_view unit) {
   return with_unit(length, unit, "");
 }

@@ -44,9 +44,13 @@ bool is_related(const LoopMatch& match) {
          (match.verdict != EdgeDecision::kFalse || match.on >= kHalf || match.covered >= kHalf);
 }
 
+// A loop runs through the points around its hole, so it may lie half of a spacing off all along.
 bool is_as_large(const LoopMeasures& a, const LoopMeasures& b) {
-  constexpr double kTenth = 0.1;
-  return std::abs(a.area - b.area) <= kTenth * std::max(a.area, b.area);
+  constexpr double kTenth = 0.1, kHalf = 0.5;
+  const double tenth = kTenth * std::max(a.area, b.area);
+  const double margin = kHalf * std::max(a.perimeter, b.perimeter) *
+                        std::max(a.track.evidence.spacing, b.track.evidence.spacing);
+  return std::abs(a.area - b.area) <= std::max(tenth, margin);
 }
 
 // The surface of the other scan where one result alone has a loop.

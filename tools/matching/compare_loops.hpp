@@ -27,7 +27,8 @@ struct ComparedScan {
 };
 
 enum class Change {
-  kSame,           // it matches, and its area has changed by a tenth or less
+  kSame,           // it matches, and its area has changed by a tenth, or by half of the larger spacing along
+                   // its perimeter, or by less
   kChanged,        // it matches with another area, was divided or joined, or runs along a part of another
   kClosed,         // of the first result alone: the second scan has surface there
   kNotFoundNow,    // of the first result alone: the second scan is empty there, too

@@ -284,6 +284,21 @@ TEST_CASE("values that contradict each other are refused") {
   }
 }
 
+TEST_CASE("the least void is a length, or so many spacings, with a unit or without one") {
+  const auto size = [](const std::string& rule) {
+    const VoidSize found = void_size_of({.void_rule = rule});
+    return std::pair(found.length, std::string(found.unit));
+  };
+  CHECK(size("2.5") == std::pair(2.5, std::string()));
+  CHECK(size("2.5 us-ft") == std::pair(2.5, std::string("us-ft")));
+  CHECK(size("anps:0.5m") == std::pair(2., std::string("m")));
+  CHECK(size("spacing2:3ft") == std::pair(6., std::string("ft")));
+  CHECK(size("anps:QL2") == size("anps:0.71m"));
+  for (const char* const rule :
+       {"", "0", "m", "2.5q", "2.5input", "QL2", "spacing2:QL2", "anps:QL9", "anps:1 m "})
+    CHECK_THROWS_AS(size(rule), Error);
+}
+
 TEST_CASE("a size has a unit or none, and a printed one reads back") {
   for (const auto& [text, bytes] : {std::pair{"0", std::uint64_t{0}},
                                     {"1500000", 1'500'000},

@@ -2,6 +2,9 @@
 // Holes of two results: closed, opened, changed or the same.
 #include "tools/matching/compare_loops.hpp"
 
+#include "engine/run/error.hpp"
+#include "tools/commands/compare_command.hpp"
+
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -104,10 +107,59 @@ TEST_CASE("a hole with another area has changed") {
   CHECK(compared({circle(0, 1)}, {circle(0, 1.15)}) == Changes{{Change::kChanged, {0}, {0}}});
 }
 
+TEST_CASE("another spacing of the points does not change a hole") {
+  const auto sampled = [](double radius, double spacing) {
+    ComparedLoop loop = circle(0, radius);
+    loop.measures.perimeter = 2 * std::numbers::pi * radius;
+    loop.measures.track.evidence.spacing = spacing;
+    return loop;
+  };
+  CHECK(compared({sampled(1, 0.05)}, {sampled(1.15, 0.05)}) == Changes{{Change::kChanged, {0}, {0}}});
+  CHECK(compared({sampled(1, 0.05)}, {sampled(1.15, 0.3)}) == Changes{{Change::kSame, {0}, {0}}});
+  CHECK(compared({sampled(1.15, 0.3)}, {sampled(1, 0.05)}) == Changes{{Change::kSame, {0}, {0}}});
+}
+
 TEST_CASE("a hole that was divided has one line with its parts, and so have parts that were joined") {
   const std::vector<ComparedLoop> whole = {circle(0, 3)}, halves = {half(0, 3, -1), half(0, 3, 1)};
   CHECK(compared(whole, halves) == Changes{{Change::kChanged, {0}, {0, 1}}});
   CHECK(compared(halves, whole) == Changes{{Change::kChanged, {0, 1}, {0}}});
+}
+
+// A result with one hole, in a unit of so many lengths of the first one.
+tools::ComparedResult result(double lengths, const std::string& unit, const std::string& crs = "") {
+  ComparedLoop hole = circle(0, lengths);
+  tools::ComparedResult result{.folder = unit + "_", .median_distance = 0.1 * lengths, .extent = 9 * lengths};
+  for (const Eigen::Vector3d& point : plane([](double x, double y) { return std::hypot(x, y) < 1; }))
+    result.scan.sample.push_back(lengths * point);
+  result.scan.spacing = 0.2 * lengths;
+  result.scan.loops = {hole};
+  result.unit = unit;
+  result.crs = crs;
+  return result;
+}
+
+TEST_CASE("results in two units are compared in the second one") {
+  const tools::Comparison comparison(result(1, "m"), result(1000, "mm"));
+  CHECK(comparison.changes == Changes{{Change::kSame, {0}, {0}}});
+  CHECK(comparison.warnings.empty());
+  CHECK(comparison.before.scan.loops[0].measures.area == Approx(1e6 * std::numbers::pi));
+  CHECK(comparison.before.unit == "mm");
+}
+
+TEST_CASE("units and systems that one side alone states are a warning, and two systems are refused") {
+  const auto warning = [](const tools::ComparedResult& before, const tools::ComparedResult& after) {
+    const tools::Comparison comparison(before, after);
+    return comparison.warnings.empty() ? "" : comparison.warnings.at(0);
+  };
+  using Catch::Matchers::Contains;
+  CHECK(warning(result(1, ""), result(1, "")).empty());
+  CHECK_THAT(warning(result(1, "m"), result(1, "")), Contains("its unit is not known, and that of m_ is m"));
+  for (const double lengths : {1000., 1 / 0.3048, 25.4})
+    CHECK_THAT(warning(result(lengths, ""), result(1, "")), Contains("times as large as the other, as"));
+  CHECK_THAT(warning(result(1, "m", "EPSG:25832"), result(1, "m")),
+             Contains("its coordinate reference system is not known"));
+  CHECK_THROWS_WITH(tools::Comparison(result(1, "m", "EPSG:25832"), result(1, "m", "EPSG:25833")),
+                    Contains("only results of one system can be compared"));
 }
 
 }  // namespace
