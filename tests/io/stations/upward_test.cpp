@@ -78,7 +78,7 @@ TEST_CASE("what is up is found in all three axes and both senses, and z upwards 
       REQUIRE(found);
       CHECK(found->axis == axis);
       CHECK(found->is_known);
-      CHECK(found->is_down == sense < 0);
+      CHECK(found->is_down == (sense < 0));
       CHECK(found->level[static_cast<std::size_t>(axis)] == 14'400);
     }
   }
