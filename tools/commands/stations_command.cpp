@@ -225,7 +225,8 @@ void warn_of_assumptions(const StationsArguments& arguments, const Scene& scene,
   if (is_range_assumed) assumed += std::string(assumed.empty() ? "" : " and ") + "the range of 30";
   if (scene.holes.at("unit").get<std::string>().empty() && !assumed.empty())
     spdlog::warn(
-        "no unit is known: {} count in lengths of the scan; --height and --range state them, or --unit of "
+        "no unit is known, so these are lengths of the scan: {}; --height and --range state others, or "
+        "--unit of "
         "detect the unit",
         assumed);
   if (!scan.has_causes && !scan.hidden.empty())
