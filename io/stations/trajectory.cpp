@@ -63,8 +63,8 @@ double speed_between(const Rows::value_type& a, const Rows::value_type& b) {
   return (b.second - a.second).norm() / std::abs(b.first - a.first);
 }
 
-// Returns the least speed that parts from all others, as of a way to a wrong place and back; infinity without
-// one.
+// Returns a speed between those of the path, and those of ways to a wrong place and back; infinity without
+// such ways.
 double speed_of_jumps(const Rows& rows) {
   constexpr double kOverMedian = 100, kOverOthers = 10;
   std::vector<double> speeds;
@@ -73,7 +73,7 @@ double speed_of_jumps(const Rows& rows) {
   std::ranges::sort(speeds);
   for (std::size_t i = speeds.size() / 2 + 1; i < speeds.size(); ++i)
     if (speeds[i] > kOverMedian * speeds[speeds.size() / 2] && speeds[i] > kOverOthers * speeds[i - 1])
-      return speeds[i];
+      return std::sqrt(speeds[i - 1]) * std::sqrt(speeds[i]);
   return std::numeric_limits<double>::infinity();
 }
 

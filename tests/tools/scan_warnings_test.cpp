@@ -156,7 +156,7 @@ TEST_CASE("a scan with neither a hole nor an outer curve is a warning that says 
              Contains("they have 1.4 neighbours on average") && Contains("--k"));
   summary.mean_neighbours = 15.5;
   summary.levels.push_back({.edge = 0.1, .points = 16'000});
-  summary.levels.push_back({.edge = 0.4, .points = 3'000});
+  summary.levels.push_back({.edge = 0.4, .points = 1'500});
   CHECK_THAT(nothing_warning(detection, {}), !Contains("lie on lines"));
   summary.levels.back().points = 4'000;
   CHECK_THAT(nothing_warning(detection, {}), Contains("they lie on lines, as of a wire"));

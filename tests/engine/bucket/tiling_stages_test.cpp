@@ -242,7 +242,7 @@ TEST_CASE("a survey of nothing, of nothing finite and of one place") {
   const Cloud unusable = Cloud{{Eigen::Vector3d::Constant(std::nan("")), {0, INFINITY, 0}}, {}};
   CHECK(survey(unusable).cells.empty());
   CHECK(survey(unusable).dropped == 2);
-  for (const double at : {0.0, -1e-200, 1e6, 1e150}) {
+  for (const double at : {0.0, -1e-200, 1e6, 1e30}) {
     const Cloud place = coincident(1000).translated({at, at, at});
     const SurveyedScan scan = survey(place);
     check_counts(place, scan);

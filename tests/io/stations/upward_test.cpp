@@ -79,7 +79,7 @@ TEST_CASE("what is up is found in all three axes and both senses, and z upwards 
       CHECK(found->axis == axis);
       CHECK(found->is_known);
       CHECK(found->is_down == (sense < 0));
-      CHECK(found->level[static_cast<std::size_t>(axis)] == 14'400);
+      CHECK(found->level[static_cast<std::size_t>(axis)] > 14'000);
     }
   }
 }
@@ -87,7 +87,7 @@ TEST_CASE("what is up is found in all three axes and both senses, and z upwards 
 TEST_CASE("below a ceiling, things hide the floor: what has fewer level ends is down") {
   Drawn hall;
   hall.add({0, 0, 6}, {24, 24, 0}).add({0, 0, 0}, {24, 18, 0});
-  for (int i = 0; i < 30; ++i) hall.add({0, 18 + kStep * i, 0.5}, {24, 0, 2});  // shelves from the side
+  for (int i = 0; i < 15; ++i) hall.add({0, 18 + 2 * kStep * i, 0.5}, {24, 0, 2});  // shelves from the side
   CHECK_FALSE(hall.with_up({0, 0, 1}));
   const auto found = hall.with_up({0, 0, -1});
   REQUIRE(found);
