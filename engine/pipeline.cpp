@@ -86,7 +86,7 @@ std::unique_ptr<Detection> detect_once(PointSource& scan, const Config& config, 
 
   // Brings the results into the order of the input.
   std::vector<std::size_t> selected = select_loops(loops.measures, config.selection);
-  summary.hole_area = hole_area(loops, selected, job);
+  summary.hole_area = measure_hole_area(loops, selected, job);
   LoopRows on_loops = find_loop_rows(loops.loops, selected, store, job);
   RowSet coherent = coherent_candidates(outputs, store.tiling(), job);
   RowSet boundary_candidates = consumers.method->boundary_candidates(outputs, coherent, on_loops.rows);

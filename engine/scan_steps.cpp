@@ -4,11 +4,13 @@
 #include "engine/bucket/bucket_scan.hpp"
 #include "engine/halo/eps_balls.hpp"
 #include "engine/parts/level_form.hpp"
+#include "engine/run/error.hpp"
 #include "engine/store/kept_scan.hpp"
 #include "engine/survey/survey_scan.hpp"
 #include "engine/thin/thin.hpp"
 
 #include <optional>
+#include <sstream>
 #include <utility>
 
 namespace lacuna {
@@ -93,6 +95,15 @@ std::string seals_of_surveys(const Run& run) {
   return seals;
 }
 
+void refuse_tiny(const Eigen::AlignedBox3d& bounds) {
+  const double extent = bounds.isEmpty() ? 0 : bounds.sizes().maxCoeff();
+  if (extent == 0 || extent >= kLeastExtent) return;
+  std::ostringstream message;
+  message << "all points lie within " << extent << "; allowed: an extent of " << kLeastExtent
+          << " or more; another unit makes coordinates larger";
+  throw Error(message.str());
+}
+
 // Surveys the whole scan, alone or from the surveys of all tasks.
 SurveyedScan survey_all(const Run& run, ScanTiles& tiles) {
   if (!run.parts.plan.reads) {
@@ -165,6 +176,7 @@ ScanTiles tiles_of_scan(const Run& run) {
   return shared_parts(run).get(key, TilesForm(), [&] {
     ScanTiles tiles;
     SurveyedScan survey = survey_all(run, tiles);
+    refuse_tiny(survey.bounds);
     tiles.plan = plan_tiles(survey, run.job);
     tiles.survey = survey;
     return tiles;

@@ -239,7 +239,8 @@ py::dict sample_of(const Detection& detection) {
   return all;
 }
 
-py::dict summary_of(const Summary& summary) {
+py::dict summary_of(const io::ExplainedDetection& detection) {
+  const Summary& summary = detection.summary;
   py::dict all;
   const Counts& c = summary.counts;
   for (const auto& [name, count] : std::initializer_list<std::pair<const char*, std::uint64_t>>{
@@ -261,6 +262,8 @@ py::dict summary_of(const Summary& summary) {
   all["mean_edge_length"] = summary.mean_edge_length;
   all["median_distance"] = summary.median_distance;
   all["surface_area"] = summary.surface_area;
+  all["hole_area"] = summary.hole_area;
+  all["opening_area"] = detection.opening_area();
   py::list levels;
   for (const LevelSummary& level : summary.levels) {
     py::dict one;

@@ -28,6 +28,6 @@ pybind11::dict block_of(PointId first, std::span<const PointResult> block);
 pybind11::dict sample_of(const Detection& detection);
 
 // Counts, bounds, levels, and the parameters in effect.
-pybind11::dict summary_of(const Summary& summary);
+pybind11::dict summary_of(const io::ExplainedDetection& detection);
 
 }  // namespace lacuna::python

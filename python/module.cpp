@@ -129,7 +129,7 @@ PYBIND11_MODULE(_core, module) {
       .def_property_readonly("warnings", [](const Found& f) { return f.warnings; })
       .def_property_readonly("unit", [](const Found& f) { return f.scan->length_unit(); })
       .def_property_readonly("crs", [](const Found& f) { return f.scan->common_crs(); })
-      .def("summary", [](const Found& f) { return summary_of(f.detection->summary); })
+      .def("summary", [](const Found& f) { return summary_of(*f.detection); })
       .def("loops", [](const Found& f) { return loops_of(*f.detection); })
       .def("points", [](const Found& f) { return points_of(*f.detection); })
       .def("sample", [](const Found& f) { return sample_of(*f.detection); })

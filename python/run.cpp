@@ -175,10 +175,11 @@ std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig c
             io::ExplainedDetection{*detect(*found->scan, config, found->scratch->path(), watched)});
         if (stations) io::find_causes(*stations, *found->scan, config.run, *found->detection);
         if (area) found->detection->area = io::check_area(std::move(*area), *found->scan, config, watched);
+        const io::ExplainedDetection& detection = *found->detection;
         std::ranges::copy(
-            tools::station_warnings(found->detection->stations, found->detection->points_of_none),
+            tools::station_warnings(detection.stations, detection.points_of_none, detection.upward),
             std::back_inserter(found->warnings));
-        std::ranges::copy(tools::scan_warnings(*found->scan, *found->detection, config),
+        std::ranges::copy(tools::scan_warnings(*found->scan, detection, config),
                           std::back_inserter(found->warnings));
       },
       watched, progress);

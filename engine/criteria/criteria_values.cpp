@@ -132,7 +132,8 @@ void fit_plane(const Slice& slice, double sigma_factor, Surface<V>& surface) {
 }
 
 // A given normal takes the place of the estimated one, unless it is off. Returns where it does.
-Mask use_given_normals(const Slice& slice, bool uses_normals_off, Surface<V>& surface, CriteriaValues& values) {
+Mask use_given_normals(const Slice& slice, bool uses_normals_off, Surface<V>& surface,
+                       CriteriaValues& values) {
   constexpr double kCosine45 = std::numbers::sqrt2 / 2;
   const Vector<V> given = slice.get(slice.batch.given_normals);
   const Mask is_off = hn::And(surface.has_normal, hn::Abs(dot(given, surface.normal)) < all<V>(kCosine45));

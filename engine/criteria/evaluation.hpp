@@ -17,7 +17,7 @@ struct Evaluation {
   Eigen::Vector3d mean_offset{0, 0, 0};  // mu_p - p
   LocalIndex gap_near = kNoIndex;        // gap neighbours, nearer first; kNoIndex: no gap
   LocalIndex gap_far = kNoIndex;
-  float surface_share = 0;  // how much the neighbourhood resembles a surface (paper, 4.4), [0, 1]
+  float surface_share = 0;     // how much the neighbourhood resembles a surface (paper, 4.4), [0, 1]
   bool is_normal_off = false;  // the given normal, by more than 45 degrees from the estimated one
 };
 

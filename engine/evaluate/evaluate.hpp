@@ -12,9 +12,9 @@
 namespace lacuna {
 
 // Returns one evaluation per owned point, from its neighbourhood. `given_normals`: one per owned point, or
-// empty; a zero or non-finite normal is estimated, and by default one that is off (NormalsUse). Degenerate points get the values of the method, section 3.
-// `values` takes the criteria of one owned point after the other, in the order of the table. It is empty
-// where they are not wanted.
+// empty; a zero or non-finite normal is estimated, and by default one that is off (NormalsUse). Degenerate
+// points get the values of the method, section 3. `values` takes the criteria of one owned point after the
+// other, in the order of the table. It is empty where they are not wanted.
 std::vector<Evaluation> evaluate(const TilePoints& points, const Neighbourhoods& neighbourhoods,
                                  std::span<const Eigen::Vector3d> given_normals, const NormalsConfig& normals,
                                  const CriteriaConfig& criteria, std::span<double> values = {});

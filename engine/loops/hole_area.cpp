@@ -61,7 +61,7 @@ Polygon polygon_of(std::span<const LoopPoint> loop, const LoopPlane& plane, Scra
 
 }  // namespace
 
-double hole_area(const MeasuredLoops& loops, std::span<const std::size_t> selected, Job& job) {
+double measure_hole_area(MeasuredLoops& loops, std::span<const std::size_t> selected, Job& job) {
   const Holes holes = holes_of(loops, selected);
   const std::vector<LoopMeasures>& measures = holes.measures;
   const MemoryLedger::Lease placing = job.ledger.take(job.memory.work / 4);
@@ -103,7 +103,9 @@ double hole_area(const MeasuredLoops& loops, std::span<const std::size_t> select
       within += place.is_within;
       shared += place.is_shared;
     }
-    area += within > 0 ? measures[i].area * (within - shared) / within : measures[i].area;
+    double& own = loops.measures[holes.chosen[i]].own_area;
+    own = within > 0 ? measures[i].area * (within - shared) / within : measures[i].area;
+    area += own;
   }
   return area;
 }

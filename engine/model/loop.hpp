@@ -68,6 +68,7 @@ struct LoopMeasures {
   std::uint64_t points = 0;
   double perimeter = 0;  // sum of its edges' lengths
   double area = 0;       // of the loop projected along its normal; of a hole: without its islands
+  double own_area = 0;   // of a reported hole: the part of its area that is in no larger one
   double diameter = 0;   // largest distance between two of its points
   Eigen::Vector3d centroid{0, 0, 0};  // of its points
   // Unit; right hand rule about the loop's direction; 0 where it encloses nothing.

@@ -16,8 +16,10 @@
 
 namespace lacuna {
 
-// A coordinate beyond this value is an `Error`: squared distances between points would overflow.
-inline constexpr double kFarthest = 1e153;
+// A coordinate beyond this value is an `Error`, and so is a scan of a smaller extent than this one.
+// Differences between points are of single precision in places, and would overflow or vanish.
+inline constexpr double kFarthest = 1e30;
+inline constexpr double kLeastExtent = 1e-30;
 inline bool is_too_far(const Eigen::Vector3d& point) {
   return point.allFinite() && point.cwiseAbs().maxCoeff() > kFarthest;
 }

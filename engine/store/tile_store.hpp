@@ -121,7 +121,7 @@ class TileStore {
   Tiling tiling_;
   std::vector<std::vector<Cell>> cells_;  // of each tile, until the store is finished
   bool has_normals_;
-  bool stores_normals_;  // also where they are left out
+  bool stores_normals_;           // also where they are left out
   std::vector<Columns> columns_;  // in ascending row
   AppendLists<Duplicate> duplicates_;
   std::vector<TileDigests> digests_;              // of a store that was finished before

@@ -88,7 +88,7 @@ void refuse_beyond(const PointBatch& batch) {
   if (found == batch.positions.end()) return;
   std::ostringstream message;
   message << "point " << value(batch.id(static_cast<std::size_t>(found - batch.positions.begin())))
-          << " lies at " << found->transpose() << "; coordinates must be within 1e153";
+          << " lies at " << found->transpose() << "; coordinates must be within 1e30";
   throw Error(message.str());
 }
 

@@ -25,9 +25,7 @@ struct NearLoops {
     return of_a >= kSame && of_b >= kSame;
   }
 
-  friend bool operator<(const NearLoops& x, const NearLoops& y) {
-    return x.a != y.a ? x.a < y.a : x.b < y.b;
-  }
+  friend bool operator<(const NearLoops& x, const NearLoops& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; }
 };
 
 // Returns pairs of loops of one level, or of two that are at most `kBridged` + 1 apart. One of the two has at

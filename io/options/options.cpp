@@ -127,10 +127,10 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
   return {
       {"input", "columns", Changes::kPoints, &input.columns, 0, 0, "column names, separated by spaces",
        "Names of a text file's columns, such as x y z nx ny nz; empty: from its header line."},
-      {"input", "bounds", Changes::kPoints, &input.bounds, -1e153, 1e153,
+      {"input", "bounds", Changes::kPoints, &input.bounds, -1e30, 1e30,
        "4 numbers, min x y and max x y, or 6, min x y z and max x y z; none: no bounds",
        "Points outside of this box do not take part."},
-      {"input", "leave_out", Changes::kPoints, &input.leave_out, -1e153, 1e153,
+      {"input", "leave_out", Changes::kPoints, &input.leave_out, -1e30, 1e30,
        "6 numbers, min x y z and max x y z, for each box; none: no box",
        "Points in these boxes do not take part."},
       {"input", "drop_origin", Changes::kPoints, &input.drop_origin, 0, 1, "true or false",

@@ -151,6 +151,7 @@ Json report_of(const Scene& scene) {
           {"median_distance", holes.at("median_distance")},
           {"surface_area", holes.value("surface_area", 0.0)},
           {"hole_area", holes.value("hole_area", 0.0)},
+          {"opening_area", holes.value("opening_area", Json())},
           {"stations", holes.value("stations", Json::array())},
           {"next_stations", scene.next_stations},
           {"area", scene.area},

@@ -102,6 +102,8 @@ Json head(const ExplainedDetection& detection, const FileScan& scan, const Files
   json["stations"] = stations_json(detection.stations);
   json["surface_area"] = summary.surface_area;
   json["hole_area"] = summary.hole_area;
+  const auto openings = detection.opening_area();
+  json["opening_area"] = openings ? Json(*openings) : Json();
   json["eps"] = summary.eps;
   json["e"] = summary.e;
   return json;

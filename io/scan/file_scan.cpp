@@ -196,7 +196,7 @@ void FileScan::refuse_too_far(const PointBatch& batch) const {
       files_[file_].rows_read + static_cast<std::uint64_t>(found - batch.positions.begin());
   std::ostringstream message;
   message << files_[file_].name.string() << ": point " << row << " lies at " << found->x() << " "
-          << found->y() << " " << found->z() << "; coordinates must be within 1e153";
+          << found->y() << " " << found->z() << "; coordinates must be within 1e30";
   throw Error(message.str());
 }
 

@@ -4,6 +4,8 @@
 
 #include "engine/model/detection.hpp"
 #include "io/area/area_check.hpp"
+#include "io/stations/trajectory.hpp"
+#include "io/stations/upward.hpp"
 
 #include <array>
 #include <cstddef>
@@ -62,7 +64,9 @@ struct StationSummary {
   std::string subject;             // whose points are of it, such as "number 1 of a.ply"; empty: all
   Eigen::Vector3d place{0, 0, 0};  // of a path: halfway
   double path = 0;                 // length of the path of a moving scanner; 0 for a fixed one
+  Trajectory::LeftOut left_out;    // rows of that path
   std::uint64_t points = 0;
+  std::uint64_t untimed = 0;       // further points, which have no time of the path
   double certainty = 0;            // share of points that fit it: seen from there, and at its times
   double spread = 0;               // RaySpread::angle
   double lowest = 0, highest = 0;  // sines of the elevations of its points
@@ -90,9 +94,19 @@ struct ExplainedLoop : LoopMeasures {
 struct ExplainedDetection : Detection {
   std::vector<StationSummary> stations = {};  // that are known
   PointsOfNone points_of_none = {};
+  std::optional<Upward> upward = {};   // where stations are known, and z does not seem to point upwards
   std::vector<LoopCause> causes = {};  // of each loop; empty where no station is known
   std::optional<AreaCheck> area = {};  // nothing where no area was given
 
+  // Returns the part of Summary::hole_area that is not missing surface: of holes whose main cause is an
+  // opening. Returns nothing where no cause is known.
+  std::optional<double> opening_area() const {
+    std::optional<double> area;
+    for (std::size_t i = 0; i < causes.size(); ++i)
+      if (const auto cause = causes[i].main())
+        area = area.value_or(0) + (cause == Cause::kOpening ? loops[i].own_area : 0);
+    return area;
+  }
   ExplainedLoop loop(std::size_t i) const { return {loops[i], causes.empty() ? LoopCause() : causes[i]}; }
 };
 

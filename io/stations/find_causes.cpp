@@ -211,6 +211,25 @@ double tolerance_of(const LoopMeasures& loop) {
   return 2 * loop.perimeter / static_cast<double>(loop.points);
 }
 
+namespace {
+
+// Takes at most so many points of the sample, evenly.
+std::optional<Upward> upward_in_sample(const Detection& detection) {
+  constexpr std::uint64_t kMost = 100'000;
+  const std::uint64_t step = detection.sampled_points / kMost + 1;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3f> normals;
+  std::uint64_t i = 0;
+  detection.for_each_sampled_point([&](const SampledPoint& point) {
+    if (i++ % step != 0 || std::isnan(point.normal[0])) return;
+    points.push_back(point.position());
+    normals.emplace_back(point.normal[0], point.normal[1], point.normal[2]);
+  });
+  return other_upward(points, normals, detection.summary.surface_area);
+}
+
+}  // namespace
+
 void find_causes(StationViews& stations, FileScan& scan, const RunConfig& run,
                  ExplainedDetection& detection) {
   const TaskArena arena(static_cast<std::size_t>(run.threads));
@@ -218,6 +237,7 @@ void find_causes(StationViews& stations, FileScan& scan, const RunConfig& run,
   const PathView* const path = stations.path();
   detection.stations = stations.summaries();
   detection.points_of_none = stations.points_of_none();
+  if (!detection.stations.empty()) detection.upward = upward_in_sample(detection);
   detection.causes.assign(detection.loops.size(), {});
   arena.for_each(detection.loops.size(), [&](std::size_t i) {
     const LoopMeasures& loop = detection.loops[i];

@@ -44,8 +44,8 @@ LoopCause cause_of(std::span<const InnerSample> places, std::span<const StationV
                    const PathView* path, double tolerance, const std::function<void()>& after_place = {});
 double tolerance_of(const LoopMeasures& loop);  // two mean edges of it
 
-// Sets the cause of each hole, and the stations. Throws `Error` where the scan is read, as
-// `StationViews::complete` does.
+// Sets the cause of each hole, the stations, and what is up by the sample, as floors are found by z. Throws
+// `Error` where the scan is read, as `StationViews::complete` does.
 void find_causes(StationViews& stations, FileScan& scan, const RunConfig& run, ExplainedDetection& detection);
 
 }  // namespace lacuna::io

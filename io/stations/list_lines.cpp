@@ -11,11 +11,14 @@
 namespace lacuna::io {
 namespace {
 
-void split(std::string_view line, std::vector<std::string_view>& fields) {
+// Commas divide fields, unless they are decimal commas, as in scans of text.
+void split_fields(std::string_view line, std::vector<std::string_view>& fields) {
+  constexpr std::string_view kWithoutCommas = " \t\r;";
+  const std::string_view divisors = find_separator(line) == ',' ? kFieldDivisors : kWithoutCommas;
   fields.clear();
-  for (std::size_t begin; (begin = line.find_first_not_of(kFieldDivisors)) != line.npos;) {
+  for (std::size_t begin; (begin = line.find_first_not_of(divisors)) != line.npos;) {
     line.remove_prefix(begin);
-    const std::size_t end = std::min(line.find_first_of(kFieldDivisors), line.size());
+    const std::size_t end = std::min(line.find_first_of(divisors), line.size());
     fields.push_back(line.substr(0, end));
     line.remove_prefix(end);
   }
@@ -39,7 +42,7 @@ std::string read_number(std::string_view field, double most, double& number) {
 
 std::optional<Fields> ListLines::next() {
   while (const auto line = in_.next_line()) {
-    split(*line, fields_);
+    split_fields(*line, fields_);
     if (fields_.empty() || fields_[0].starts_with('#')) continue;
     const bool is_skipped = std::exchange(is_first_, false) && is_header(fields_);
     if (!is_skipped) return fields_;

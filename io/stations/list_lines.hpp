@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lines of a list of stations or places. Blanks, commas or semicolons divide the
-// fields. Lines that begin with # are comments. A first line without numbers is a header.
+// fields; commas between digits are decimal ones where blanks or semicolons divide. Lines that begin with #
+// are comments. A first line without numbers is a header.
 #pragma once
 
 #include "io/files/input_file.hpp"

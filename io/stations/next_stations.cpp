@@ -68,7 +68,7 @@ std::vector<Eigen::Vector3d> eyes_over_floor(std::span<const Eigen::Vector3d> po
     for (const Eigen::Vector3d& place :
          floor_places(lowest_points(points, normals, grid), grid, limits.height)) {
       const Eigen::Vector3d side(limits.clearance, limits.clearance, 0);
-      const Eigen::Vector3d low(place.x(), place.y(), place.z() + 0.2 * limits.height),
+      const Eigen::Vector3d low(place.x(), place.y(), place.z() + kFreeFrom * limits.height),
           eye(place.x(), place.y(), place.z() + limits.height);
       if (!obstacles.touch({low - side, eye + side})) eyes.push_back(eye);
     }

@@ -44,6 +44,9 @@ std::vector<NextStation> choose_stations(std::span<const InnerSample> hidden,
 // Below this cosine between its normal and the vertical, a point is on no floor.
 inline constexpr float kLevelFloor = 0.95F;
 
+// Above this share of an eye's height, the space over a floor must be free.
+inline constexpr double kFreeFrom = 0.2;
+
 struct FloorLimits {
   double height = 1.6;   // of an eye over the floor
   double grid = 0;       // distance of places; 0: half the height, and so far that there are at most 500

@@ -41,7 +41,10 @@ const Property* source_column(const RowLayout& layout) {
   return scan != nullptr ? scan : layout.find("point_source_id");
 }
 
-Station parse_station(Fields fields, std::span<const fs::path> files, const ListLines& lines) {
+// `number`: of the station in the list, the name of one without.
+Station parse_station(Fields fields, std::size_t number, std::span<const fs::path> files,
+                      const ListLines& lines) {
+  if (fields.size() == 3) return {.name = std::to_string(number), .place = lines.parse_place(fields)};
   if (fields.size() < 4 || fields.size() > 6) lines.fail();
   Station station{.name = std::string(fields[0]), .place = lines.parse_place(fields.subspan(1, 3))};
   fields = fields.subspan(4);
@@ -64,7 +67,7 @@ std::vector<Station> read_stations(const fs::path& list, std::span<const fs::pat
                   "first line that names its columns, such as time x y z");
   std::vector<Station> stations;
   while (const auto fields = lines.next()) {
-    stations.push_back(parse_station(*fields, files, lines));
+    stations.push_back(parse_station(*fields, stations.size() + 1, files, lines));
     const Station& added = stations.back();
     const bool is_known = std::any_of(stations.begin(), stations.end() - 1, [&](const Station& other) {
       return other.file == added.file && other.source == added.source;

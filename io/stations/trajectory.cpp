@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -56,10 +57,50 @@ std::vector<std::string> names_with_time(const TextStart& start, const TextPlace
   return {};
 }
 
+using Rows = std::vector<std::pair<double, Eigen::Vector3d>>;  // in ascending time, each time once
+
+double speed_between(const Rows::value_type& a, const Rows::value_type& b) {
+  return (b.second - a.second).norm() / std::abs(b.first - a.first);
+}
+
+// Returns a speed between those of the path, and those of ways to a wrong place and back; infinity without
+// such ways.
+double speed_of_jumps(const Rows& rows) {
+  constexpr double kOverMedian = 100, kOverOthers = 10;
+  std::vector<double> speeds;
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    if (const double speed = speed_between(rows[i - 1], rows[i]); speed > 0) speeds.push_back(speed);
+  std::ranges::sort(speeds);
+  for (std::size_t i = speeds.size() / 2 + 1; i < speeds.size(); ++i)
+    if (speeds[i] > kOverMedian * speeds[speeds.size() / 2] && speeds[i] > kOverOthers * speeds[i - 1])
+      return std::sqrt(speeds[i - 1]) * std::sqrt(speeds[i]);
+  return std::numeric_limits<double>::infinity();
+}
+
+// Returns the rows that are on the path: from the longest run without a jump on, those to which no jump
+// leads. Returns all rows if too many are off it.
+Rows rows_on_path(const Rows& rows) {
+  constexpr std::size_t kMostOff = 5;  // one of so many
+  const double jump = speed_of_jumps(rows);
+  std::size_t first = 0, last = 0;
+  for (std::size_t begin = 0, i = 1; i <= rows.size(); ++i) {
+    if (i < rows.size() && speed_between(rows[i - 1], rows[i]) < jump) continue;
+    if (i - begin > last - first) first = begin, last = i;
+    begin = i;
+  }
+  Rows kept;
+  for (std::size_t i = first + 1; i-- > 0;)
+    if (kept.empty() || speed_between(kept.back(), rows[i]) < jump) kept.push_back(rows[i]);
+  std::ranges::reverse(kept);
+  for (std::size_t i = first + 1; i < rows.size(); ++i)
+    if (speed_between(kept.back(), rows[i]) < jump) kept.push_back(rows[i]);
+  return kMostOff * (rows.size() - kept.size()) <= rows.size() ? kept : rows;
+}
+
 }  // namespace
 
-Trajectory::Trajectory(std::vector<double> times, std::vector<Eigen::Vector3d> places)
-    : times_(std::move(times)), lengths_(times_.size()), places_(std::move(places)) {
+Trajectory::Trajectory(std::vector<double> times, std::vector<Eigen::Vector3d> places, LeftOut left_out)
+    : times_(std::move(times)), lengths_(times_.size()), places_(std::move(places)), left_out_(left_out) {
   for (std::size_t i = 1; i < places_.size(); ++i)
     lengths_[i] = lengths_[i - 1] + (places_[i] - places_[i - 1]).norm();
   std::vector<double> intervals;
@@ -89,7 +130,13 @@ Eigen::Vector3d Trajectory::place_at(double length) const {
 }
 
 std::optional<Trajectory> read_trajectory(const std::filesystem::path& file, std::uint64_t memory) {
+  constexpr std::size_t kHead = 4096;
   InputFile head(file), in(file);
+  if (head.peek(kHead).find('\0') != std::string_view::npos)
+    head.fail(
+        "is binary, as SBET files are; a list of stations or a trajectory is text, with the columns time, x, "
+        "y and z "
+        "in the coordinates of the scan; programs for trajectories export it");
   const TextStart start = read_start(head);
   const TextPlaces places = find_places(start.lines);
   std::vector<std::string> names = names_with_time(start, places);
@@ -103,7 +150,7 @@ std::optional<Trajectory> read_trajectory(const std::filesystem::path& file, std
   for (std::size_t axis = 0; axis < 3; ++axis)
     columns[axis + 1] =
         static_cast<std::size_t>(std::ranges::find(names, std::string(1, "xyz"[axis])) - names.begin());
-  std::vector<std::pair<double, Eigen::Vector3d>> records;
+  Rows records;
   char separator = 0;
   while (const auto line = in.next_line()) {
     const std::string_view row = without_end(without_blanks(*line));
@@ -128,15 +175,19 @@ std::optional<Trajectory> read_trajectory(const std::filesystem::path& file, std
   }
   const auto is_earlier = [](const auto& a, const auto& b) { return a.first < b.first; };
   std::stable_sort(records.begin(), records.end(), is_earlier);
+  const auto is_same_time = [](const auto& a, const auto& b) { return a.first == b.first; };
+  records.erase(std::unique(records.begin(), records.end(), is_same_time), records.end());
+  if (records.size() < 2) in.fail("has fewer than two times; a trajectory has two or more");
+  const Rows kept = rows_on_path(records);
   std::vector<double> times;
   std::vector<Eigen::Vector3d> path;
-  for (const auto& [at, place] : records) {
-    if (!times.empty() && at == times.back()) continue;
+  for (const auto& [at, place] : kept) {
     times.push_back(at);
     path.push_back(place);
   }
-  if (times.size() < 2) in.fail("has fewer than two times; a trajectory has two or more");
-  return Trajectory(std::move(times), std::move(path));
+  const auto off = std::ranges::mismatch(records, kept).in1;  // the first that is not kept
+  return Trajectory(std::move(times), std::move(path),
+                    {records.size() - kept.size(), off == records.end() ? 0 : off->first});
 }
 
 Eigen::Matrix3d Trajectory::axes_at(double length, double reach) const {

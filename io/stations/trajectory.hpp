@@ -15,8 +15,15 @@ namespace lacuna::io {
 // interval of its times.
 class Trajectory {
  public:
+  // Rows of a file that are not of the path.
+  struct LeftOut {
+    std::uint64_t rows = 0;
+    double time = 0;  // of the first
+  };
   // `times` ascend, with a place each; at least two.
-  Trajectory(std::vector<double> times, std::vector<Eigen::Vector3d> places);
+  Trajectory(std::vector<double> times, std::vector<Eigen::Vector3d> places, LeftOut left_out = {0, 0});
+
+  const LeftOut& left_out() const { return left_out_; }
 
   double first_time() const { return times_.front(); }
   double last_time() const { return times_.back(); }
@@ -33,12 +40,15 @@ class Trajectory {
   std::vector<Eigen::Vector3d> places_;
   double longest_interval_ = 0;              // within a part
   std::vector<std::size_t> first_of_parts_;  // and the number of places
+  LeftOut left_out_;
 };
 
 // Reads a file whose columns have names: a time (find_time in io/rows/column_rules.hpp), x, y and z, and any
 // others. Headers, comments and names are as in scans of text; tx, ty and tz are names of the position, too.
-// Rows are in any order. Returns nothing if the file names no time: then it lists stations. Throws `Error`,
-// also for more lines than `memory` has space for.
+// Rows are in any order. Rows off the path are left out, such as 0 0 0 where a receiver had no position. A
+// way there takes a hundred times the median speed, and ten times the speeds below. At most a fifth of the
+// rows is left out, or none. Returns nothing if the file names no time: then it lists stations. Throws
+// `Error`, also for binary files, and for more lines than `memory` has space for.
 std::optional<Trajectory> read_trajectory(const std::filesystem::path& file, std::uint64_t memory);
 
 // The directions from a moving scanner in which it measures, in the axes of its path. A scanner with a

@@ -171,7 +171,7 @@ def _causes_of(causes: list[Any]) -> dict[str, np.ndarray]:
     return {"cause_shares": shares, "hidden_by": hidden_by}
 
 
-_SUMMARY = ("bounds", "levels", "mean_neighbours", "mean_edge_length", "median_distance", "surface_area")
+_SUMMARY = ("bounds", "levels", "mean_neighbours", "mean_edge_length", "median_distance", "surface_area", "hole_area", "opening_area")
 
 _PLY_TYPES = {"float": "<f4", "double": "<f8", "uint": "<u4", "int": "<i4", "uchar": "u1", "ushort": "<u2"}
 

@@ -138,7 +138,7 @@ class Holes:
     """The result of a run.
 
     loops: a sequence of `Loop`.
-    summary: counts, bounds, spacing, levels and times, as a dict.
+    summary: counts, bounds, spacing, areas, levels, times; a dict.
     unit, crs: of the scan; empty where it states none.
     """
 

@@ -57,6 +57,12 @@ def check_without(driver):
     require(not value(driver, "document.querySelectorAll('#stations-over path.station').length"), "no station is drawn")
 
 
+def check_head(driver):
+    """Openings are no missing surface: the head of the page says both, with their unit."""
+    words = driver.find_element(By.ID, "summary").text
+    require(" missing, " in words and " openings" in words, f"the head says openings apart: {words}")
+
+
 def check_column(driver):
     shown = value(driver, ROWS)
     require(all(words == TITLES[value(driver, "lacuna.cause(arguments[0])", loop)] for loop, words in shown), "the table has causes in words")
@@ -236,6 +242,7 @@ def check(driver, count):
         check_without(driver)
         return
     check_width(driver)
+    check_head(driver)
     check_column(driver)
     check_filter(driver, count)
     check_saved(driver)

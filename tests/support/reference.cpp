@@ -277,7 +277,8 @@ void evaluate(const Positions& positions, const std::vector<Vector3d>& given, co
 
   point.normal = estimated_normal(eigen);
   const std::optional<Vector3d> as_given = given_normal(given, id);
-  const bool is_off = as_given && point.normal && std::abs(as_given->dot(*point.normal)) < std::numbers::sqrt2 / 2;
+  const bool is_off =
+      as_given && point.normal && std::abs(as_given->dot(*point.normal)) < std::numbers::sqrt2 / 2;
   const bool estimated = !as_given || (is_off && config.normals.use == NormalsUse::kFitting);
   if (!estimated) point.normal = as_given;
   if (point.normal) {

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/run/scan_warnings.hpp"
 
+#include "io/stations/own_frames.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/io/las/las_file.hpp"
+#include "tests/io/results/fake_detection.hpp"
 #include "tests/support/drawn_files.hpp"
 #include "tests/support/e57_encoder.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tools/run/coordinate_steps.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -19,6 +25,7 @@ using namespace tools;
 namespace {
 
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 using Strings = std::vector<std::string>;
 
 const std::string kUtm = "PROJCS[\"UTM 32N\",GEOGCS[\"ETRS89\",UNIT[\"degree\",0.01745]],UNIT[\"metre\",1]]";
@@ -145,6 +152,16 @@ TEST_CASE("a scan with neither a hole nor an outer curve is a warning that says 
              Contains("neither a hole nor an outer curve among 20,000 points") && Contains("as a sphere is"));
   summary.surface_area = 0.8 * area;
   CHECK_THAT(nothing_warning(detection, {}), Contains("do not lie on one thin surface"));
+  summary.mean_neighbours = 1.4;
+  CHECK_THAT(nothing_warning(detection, {}),
+             Contains("they have 1.4 neighbours on average") && Contains("--k"));
+  summary.mean_neighbours = 15.5;
+  summary.levels.push_back({.edge = 0.1, .points = 16'000});
+  summary.levels.push_back({.edge = 0.4, .points = 1'500});
+  CHECK_THAT(nothing_warning(detection, {}), !Contains("lie on lines"));
+  summary.levels.back().points = 4'000;
+  CHECK_THAT(nothing_warning(detection, {}), Contains("they lie on lines, as of a wire"));
+  summary.levels.resize(1);
   summary.counts.raw_loops = 3;
   CHECK_FALSE(nothing_warning(detection, {}).empty());  // none was certain enough
   CHECK(nothing_warning(detection, {.holes_only = true}).empty());
@@ -166,6 +183,13 @@ TEST_CASE("stations and paths that do not count are warnings that say why and wh
   CHECK_THAT(warning(), Contains("most of its points lie within 1.1 degrees of one direction"));
   station.certainty = 0.99;
   CHECK(station_warnings({station}).empty());
+  station.left_out = {1, 5008.5};
+  CHECK_THAT(warning(), Contains("trajectory one: 1 row is left out, at time 5008.5: "));
+  station.left_out = {};
+  station.certainty = 0.46;
+  station.untimed = 11;
+  CHECK_THAT(warning(), Contains("55 % of the points have no time of the path"));
+  station.untimed = 0;
   station.certainty = std::numeric_limits<double>::quiet_NaN();  // not known
   CHECK(station_warnings({station}).empty());
   station.path = 0;
@@ -180,6 +204,101 @@ TEST_CASE("stations and paths that do not count are warnings that say why and wh
   const Strings warned = station_warnings({}, {.points = 1234, .subject = "number 0 of a.ply"});
   REQUIRE(warned.size() == 1);
   CHECK_THAT(warned[0], Contains("1,234 points have no station, such as those of number 0 of a.ply"));
+}
+
+TEST_CASE("what seems to be up, where it is not z, is a warning with the pose that turns the scan") {
+  const auto warning = [](const Upward& upward) { return station_warnings({}, {}, upward).at(0); };
+  CHECK_THAT(
+      warning({.axis = 1, .is_known = true, .level = {1, 2345, 6}}),
+      StartsWith("y seems to be up, not z, by the level surfaces (points level along x, y, z: 1, 2,345, 6)"));
+  CHECK_THAT(warning({.axis = 2, .is_down = true, .is_known = true}), StartsWith("-z seems to be up, not z"));
+  CHECK_THAT(warning({.axis = 0}), StartsWith("x or -x seems to be up"));
+  for (const int axis : {0, 1, 2}) {
+    for (const bool is_down : {false, true}) {
+      if (axis == 2 && !is_down) continue;
+      const std::string text = warning({.axis = axis, .is_down = is_down, .is_known = true});
+      const std::size_t begin = text.find("pose=") + 5;
+      const Pose pose = parse_pose(text.substr(begin, text.find('`', begin) - begin));
+      CHECK((pose * (Eigen::Vector3d::Unit(axis) * (is_down ? -1 : 1))).z() == Approx(1));
+    }
+  }
+}
+
+namespace {
+
+// 100 x 100 points of a plane, 0.05 apart on average, whose coordinates are rounded to these steps (0: not).
+FakeDetection rounded_plane(const Eigen::Vector3d& steps, const Eigen::Vector3d& slope,
+                            double distance = 0.08) {
+  FakeDetection found;
+  const Eigen::Vector3d normal = Eigen::Vector3d(-slope.x(), -slope.y(), 1).normalized();
+  for (std::uint64_t i = 0; i < 10'000; ++i) {
+    const auto n = static_cast<double>(i);
+    Eigen::Vector3d at(5 * std::fmod(n * 0.7548776662466927, 1), 5 * std::fmod(n * 0.5698402909980532, 1), 0);
+    at.z() = slope.dot(at);
+    for (int axis = 0; axis < 3; ++axis)
+      if (steps[axis] > 0) at[axis] = steps[axis] * std::round(at[axis] / steps[axis]);
+    found.sample.push_back(
+        {ScanPoint::at(at, PointId{i}), 0, {float(normal.x()), float(normal.y()), float(normal.z())}});
+    found.numbers.strays.rest.extend(at);
+  }
+  found.numbers.counts.points = found.sample.size();
+  found.numbers.median_distance = distance;
+  return found;
+}
+
+std::string steps_of(const FakeDetection& found, bool is_single = false) {
+  const ExplainedDetection detection = found;
+  return steps_warning(detection, is_single);
+}
+
+}  // namespace
+
+TEST_CASE("coordinates in steps wider than the spacing are a warning, whatever the axis and the format") {
+  const Eigen::Vector3d slope(0.3, 0.1, 0);
+  CHECK(steps_of(rounded_plane({0, 0, 0}, slope)).empty());
+  CHECK(steps_of(rounded_plane({0.001, 0.001, 0.001}, slope)).empty());
+  CHECK_THAT(steps_of(rounded_plane({0, 0, 0.2}, slope)),
+             Contains("in steps of 0.2, and neighbours are 0.08 apart"));
+  CHECK_THAT(steps_of(rounded_plane({0.25, 0, 0}, {3, 0, 0})), Contains("in steps of 0.25"));
+  FakeDetection shared = rounded_plane({0.2, 0.2, 0.2}, {0, 0, 0}, 0.35);
+  CHECK(steps_of(shared).empty());  // a grid in x and y
+  shared.numbers.counts.duplicates = 9'300;
+  CHECK_THAT(steps_of(shared),
+             Contains("in steps of 0.2") && Contains("93 % of the points are at places of others"));
+  FakeDetection far = rounded_plane({0, 0, 0}, slope);
+  far.numbers.strays.rest.extend(Eigen::Vector3d(0, 5.4e6, 0));
+  CHECK_THAT(steps_of(far, true), Contains("in steps of 0.5"));
+  CHECK(steps_of(far).empty());
+}
+
+TEST_CASE("files that lie in the axes of their own scanners are a warning, and registered ones are none") {
+  // A scanner in a corridor of 4 x 12, 1 from a wall, and another one at the other wall.
+  const auto room = [](const Eigen::Vector3d& eye, const Eigen::Vector3d& shift, std::uint64_t first,
+                       FakeDetection& found) {
+    for (std::uint64_t i = 0; i < 40'000; ++i) {
+      const auto n = static_cast<double>(i);
+      const double turn = 2 * std::numbers::pi * std::fmod(n * 0.7548776662466927, 1);
+      const double rise = 2 * std::fmod(n * 0.5698402909980532, 1) - 1;
+      const Eigen::Vector3d ray(std::sqrt(1 - rise * rise) * std::cos(turn),
+                                std::sqrt(1 - rise * rise) * std::sin(turn), rise);
+      double range = 1e9;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double wall = ray[axis] > 0 ? std::array{4.0, 12.0, 3.0}[static_cast<std::size_t>(axis)] : 0;
+        range = std::min(range, (wall - eye[axis]) / ray[axis]);
+      }
+      found.sample.push_back({ScanPoint::at(eye + range * ray + shift, PointId{first + i}), 0, {0, 0, 1}});
+    }
+  };
+  const Eigen::Vector3d a(1, 2, 1.5), b(3, 9, 1.5);
+  FakeDetection own, registered;
+  room(a, -a, 0, own);
+  room(b, -b, 40'000, own);
+  room(a, -a, 0, registered);
+  room(b, -a, 40'000, registered);
+  const std::vector<std::uint64_t> ends = {40'000, 80'000};
+  CHECK(own_frames(ExplainedDetection(own), ends) == std::pair<std::size_t, std::size_t>(0, 1));
+  CHECK_FALSE(own_frames(ExplainedDetection(registered), ends));
+  CHECK_FALSE(own_frames(ExplainedDetection(own), std::vector<std::uint64_t>{80'000}));
 }
 
 namespace {

@@ -145,7 +145,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   note_complete_results();
   progress->end();
   if (detection.area) print_warnings(area_warnings(*detection.area, scan.length_unit()));
-  print_warnings(station_warnings(detection.stations, detection.points_of_none));
+  print_warnings(station_warnings(detection.stations, detection.points_of_none, detection.upward));
   print_warnings(scan_warnings(scan, detection, config));
 
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();

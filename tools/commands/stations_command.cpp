@@ -14,6 +14,7 @@
 #include "tools/console/measures_text.hpp"
 #include "tools/console/visible_text.hpp"
 #include "tools/run/folders.hpp"
+#include "tools/run/scan_warnings.hpp"
 
 #include <algorithm>
 #include <array>
@@ -50,6 +51,7 @@ struct HiddenScan {
   std::vector<Eigen::Vector3f> normals;
   std::vector<InnerSample> hidden;
   double area = 0;
+  bool has_causes = false;  // else all holes count
 };
 
 // Returns the share that another station can measure: what is hidden or out of view. Without causes, it is
@@ -69,6 +71,7 @@ HiddenScan hidden_in(const Scene& scene) {
   for (std::size_t i = 0; i < scene.loops.ids.size(); ++i) {
     const ExplainedLoop& measures = scene.loops.measures[i];
     const double share = share_to_see(measures.cause);
+    found.has_causes |= measures.cause.main().has_value();
     if (measures.kind != LoopKind::kHole || !(share > 0)) continue;
     loop.clear();
     for (std::size_t v = scene.loops.first[i]; v < scene.loops.first[i + 1]; ++v)
@@ -81,6 +84,9 @@ HiddenScan hidden_in(const Scene& scene) {
   }
   return found;
 }
+
+constexpr double kHeight = 1.6, kRange = 30;  // metres
+constexpr double kVoxel = 3;                  // of obstacles, in spacings of the sample
 
 // One of so many places represents the others, so that rays take seconds.
 void thin(std::vector<InnerSample>& places) {
@@ -166,7 +172,9 @@ std::string why_no_hidden(const Scene& scene) {
          ", are other ones than hidden and out of view, such as openings; holes.json has them";
 }
 
-std::string why_no_floor(const HiddenScan& scan, const FloorLimits& floor, const std::string& unit) {
+// `spacing`: of the sample.
+std::string why_no_floor(const HiddenScan& scan, const FloorLimits& floor, double spacing,
+                         const std::string& unit) {
   std::array<std::size_t, 3> level{};  // points whose normals are along x, y and z
   for (const Eigen::Vector3f& normal : scan.normals)
     for (Eigen::Index axis = 0; axis < 3; ++axis)
@@ -178,6 +186,10 @@ std::string why_no_floor(const HiddenScan& scan, const FloorLimits& floor, const
     return counted + ", and " + print_count(level[up]) + " would be if " + "xy"[up] +
            " were up; z must be up: turn the scan, or state places of the scanner by --places";
   if (level[2] == 0) return "no points of the sample are level, so it has no floor" + std::string(kWayOut);
+  if (kVoxel * spacing > kFreeFrom * floor.height)
+    return counted + ", but points are " + print_length(spacing, unit) +
+           " apart, too sparse to show free space below " + print_length(floor.height, unit) +
+           "; a denser scan or sample (--sample-points of detect) shows it" + kWayOut;
   return counted + ", but none of the lowest has free space up to " + print_length(floor.height, unit) +
          " above it; --height states a lower scanner" + kWayOut;
 }
@@ -201,6 +213,29 @@ std::string why_none_sees(std::span<const InnerSample> hidden, std::span<const E
   return none + "points of the scan stand in the way; --places or --height states other places";
 }
 
+// Warns where z is not up, where lengths have no unit, and where no cause says what is hidden.
+void warn_of_assumptions(const StationsArguments& arguments, const Scene& scene, const HiddenScan& scan,
+                         const SightLimits& limits) {
+  const double area = scene.holes.at("surface_area").get<double>();
+  const auto upward = arguments.places ? std::nullopt : other_upward(scan.points, scan.normals, area);
+  if (upward) spdlog::warn(upward_warning(*upward));
+  const bool is_height_assumed = arguments.height == 0 && !arguments.places;
+  const bool is_range_assumed = arguments.range == 0 && limits.range == kRange;
+  std::string assumed = is_height_assumed ? "the height of 1.6" : "";
+  if (is_range_assumed) assumed += std::string(assumed.empty() ? "" : " and ") + "the range of 30";
+  if (scene.holes.at("unit").get<std::string>().empty() && !assumed.empty())
+    spdlog::warn(
+        "no unit is known, so these are lengths of the scan: {}; --height and --range state others, or "
+        "--unit of "
+        "detect the unit",
+        assumed);
+  if (!scan.has_causes && !scan.hidden.empty())
+    spdlog::warn(
+        "no cause of a hole is known, as without stations of the scan: all holes count, also openings such "
+        "as "
+        "the sky; --stations of detect states them");
+}
+
 void run_stations(const StationsArguments& arguments) {
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
   const fs::path file = arguments.folder / kNextStationsFile;
@@ -219,16 +254,17 @@ void run_stations(const StationsArguments& arguments) {
   const double least_length = 1e-4 * scene.edge;              // of voxels and grids: finer ones take too long
   if (arguments.grid != 0 && !(arguments.grid >= least_length))
     throw UsageError("--grid: must be 0, or " + print_length(least_length, unit) + " or more");
-  const Obstacles obstacles(scan.points,
-                            std::max(3.0 * static_cast<double>(scene.points.spacing), least_length));
-  const FloorLimits floor{.height = arguments.height > 0 ? arguments.height : 1.6 * metre,
+  const auto spacing = static_cast<double>(scene.points.spacing);
+  const Obstacles obstacles(scan.points, std::max(kVoxel * spacing, least_length));
+  const FloorLimits floor{.height = arguments.height > 0 ? arguments.height : kHeight * metre,
                           .grid = arguments.grid,
                           .clearance = 0.3 * metre};
   const double farthest = farthest_of(scene.holes.value("stations", Json::array()));
   const SightLimits limits{.range = arguments.range > 0 ? arguments.range
                                     : farthest > 0      ? farthest
-                                                        : 30 * metre,
+                                                        : kRange * metre,
                            .least_cosine = std::sin(arguments.incidence * std::numbers::pi / 180)};
+  warn_of_assumptions(arguments, scene, scan, limits);
   std::vector<Eigen::Vector3d> eyes;
   if (!arguments.places) {
     eyes = eyes_over_floor(scan.points, scan.normals, obstacles, floor);
@@ -240,12 +276,13 @@ void run_stations(const StationsArguments& arguments) {
       choose_stations(scan.hidden, eyes, obstacles, limits, arguments.count);
   write_places(file, overwrite, scene, chosen, places, scan.area);
 
-  std::cout << "hidden: " << print_area(scan.area, unit) << "; " << print_count(eyes.size()) << " places "
+  std::cout << (scan.has_causes ? "hidden: " : "within holes: ") << print_area(scan.area, unit) << "; "
+            << print_count(eyes.size()) << " places "
             << (arguments.places ? "of " + visible(arguments.places->string()) : "on the floor")
             << " were tried\n";
   if (chosen.empty())
     spdlog::warn("no next station: {}", scan.hidden.empty() ? why_no_hidden(scene)
-                                        : eyes.empty()      ? why_no_floor(scan, floor, unit)
+                                        : eyes.empty()      ? why_no_floor(scan, floor, spacing, unit)
                                                             : why_none_sees(scan.hidden, eyes, limits, unit));
   else
     print_places(scene, chosen, places, scan.area, unit);

@@ -92,28 +92,32 @@ std::string print_facts(const std::vector<std::pair<std::string, std::string>>& 
 }
 
 // Returns an empty text if no station is known.
-std::string print_causes(const std::vector<LoopCause>& causes) {
-  std::array<std::size_t, kCauses> counts{};
-  for (const LoopCause& each : causes)
-    if (const auto cause = each.main()) ++counts[static_cast<std::size_t>(*cause)];
+std::string print_causes(const ExplainedDetection& detection) {
+  std::array<std::size_t, kCauses + 1> counts{};  // the last one: without a cause
+  for (std::size_t i = 0; i < detection.causes.size(); ++i) {
+    if (detection.loops[i].kind != LoopKind::kHole) continue;
+    const auto cause = detection.causes[i].main();
+    ++counts[cause ? static_cast<std::size_t>(*cause) : kCauses];
+  }
   std::string text;
-  for (std::size_t i = 0; i < kCauses; ++i) {
+  for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] == 0) continue;
-    if (!text.empty()) text += ", ";
-    std::string name(kCauseNames[i]);
+    std::string name(i < kCauses ? kCauseNames[i] : "not known");
     std::replace(name.begin(), name.end(), '_', ' ');
-    text += print_count(counts[i]) + " " + name;
+    text += (text.empty() ? "" : ", ") + print_count(counts[i]) + " " + name;
   }
   return text;
 }
 
-std::string print_surface(double area, double missing, std::string_view unit) {
+// Openings are no missing surface. They are 0 where causes are not known.
+std::string print_surface(const Summary& summary, double openings, std::string_view unit) {
+  const double area = summary.surface_area, missing = summary.hole_area - openings;
   std::string text = "about " + print_area(area, unit) + " sampled";
-  if (missing > 0) {
-    text += ", " + print_area(missing, unit) +
-            " within holes: " + print_number(100 * missing / (area + missing)) + " % of both";
-  }
-  return text;
+  if (summary.hole_area > 0)
+    text += ", " + print_area(missing, unit) + " missing: " + print_number(100 * missing / (area + missing)) +
+            " % of both";
+  if (openings > 0) text += "; " + print_area(openings, unit) + " openings";
+  return text + (unit.empty() ? " (areas; unit not stated)" : "");
 }
 
 std::vector<std::pair<std::string, std::string>> findings(const Summary& summary, const FileScan& scan,
@@ -165,7 +169,7 @@ std::string print_summary(const ExplainedDetection& detection, const FileScan& s
   const double extent = extent_of(summary);
   const std::vector<std::size_t> holes = loops_of(loops, LoopKind::kHole);
   const std::size_t outer = loops.size() - holes.size();
-  const std::string causes = print_causes(detection.causes);
+  const std::string causes = print_causes(detection);
 
   std::string text = counted(holes.size(), "hole", "holes") + ", " +
                      counted(outer, "outer curve", "outer curves") + "\n" +
@@ -177,7 +181,7 @@ std::string print_summary(const ExplainedDetection& detection, const FileScan& s
   }
   if (!causes.empty()) facts.emplace_back("causes", causes);
   if (summary.surface_area > 0)
-    facts.emplace_back("surface", print_surface(summary.surface_area, summary.hole_area, unit));
+    facts.emplace_back("surface", print_surface(summary, detection.opening_area().value_or(0), unit));
   facts.emplace_back("peak memory", print_size(peak_memory()) + " of " + print_size(summary.memory_limit));
   facts.emplace_back("time", print_duration(seconds) + " with " +
                                  counted(summary.threads, "thread", "threads") + ", " +

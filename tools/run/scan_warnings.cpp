@@ -8,15 +8,18 @@
 #include "io/crs/stated_crs.hpp"
 #include "io/results/points.hpp"
 #include "io/scan/plan_system.hpp"
+#include "io/stations/own_frames.hpp"
 #include "io/stations/station_views.hpp"
 #include "tools/console/measures_text.hpp"
 #include "tools/console/visible_text.hpp"
+#include "tools/run/coordinate_steps.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <iomanip>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -32,13 +35,6 @@ namespace {
 
 const Eigen::IOFormat kOnePlace(10, Eigen::DontAlignCols);  // a row vector
 constexpr const char* kDegrees = " is in longitude and latitude, and holes need lengths";
-
-// Returns the distance from the farthest coordinate of single precision to the next one.
-double coarsest_step(const Eigen::AlignedBox3d& bounds) {
-  const double farthest = std::max(bounds.min().cwiseAbs().maxCoeff(), bounds.max().cwiseAbs().maxCoeff());
-  const auto single = static_cast<float>(farthest);
-  return static_cast<double>(std::nextafter(single, std::numeric_limits<float>::infinity()) - single);
-}
 
 // Prints a coordinate in whole steps, a power of ten.
 std::string print_in_steps(double value, double step) {
@@ -348,7 +344,8 @@ std::string normals_warning(const Counts& counts, NormalsUse use) {
   constexpr std::uint64_t kFew = 100;
   if (kFew * counts.normals_off < counts.points) return "";
   std::ostringstream text;
-  text << print_count(counts.normals_off) << " normals of the scan are off by more than 45 degrees from the surface"
+  text << print_count(counts.normals_off)
+       << " normals of the scan are off by more than 45 degrees from the surface"
        << (use == NormalsUse::kGiven
                ? ", so that holes can be missed; --normals estimated leaves them out"
                : "; these are estimated from the points instead; --normals given uses those of the scan");
@@ -380,19 +377,55 @@ std::vector<std::string> filter_warnings(const FileScan& scan, const InputConfig
   return warnings;
 }
 
+namespace {
+
+// Along a line, half as many cells have points where their edge doubles; on a surface, a quarter.
+bool are_lines(std::span<const LevelSummary> levels) {
+  constexpr double kMostDimension = 1.4;
+  const auto first = std::ranges::find_if(levels, [](const LevelSummary& level) { return level.edge > 0; });
+  if (levels.end() - first < 2) return false;
+  const LevelSummary& last = levels.back();
+  return std::log(static_cast<double>(first->points) / static_cast<double>(last.points)) <
+         kMostDimension * std::log(last.edge / first->edge);
+}
+
+void warn_of_own_frames(const FileScan& scan, const Detection& detection,
+                        std::vector<std::string>& warnings) {
+  const auto has_pose = [](const ScanFile& file) { return file.pose.has_value(); };
+  if (scan.has_scanners() || std::ranges::any_of(scan.files(), has_pose)) return;
+  std::vector<std::uint64_t> ends;
+  for (const ScanFile& file : scan.files()) ends.push_back((ends.empty() ? 0 : ends.back()) + file.rows());
+  if (const auto own = own_frames(detection, ends))
+    warnings.push_back(
+        file_name(scan, own->first) + " and " + file_name(scan, own->second) +
+        " do not fit: each seems to be in the axes of its own scanner, at 0 0 0; a list of files "
+        "states poses, as `scan.ply pose=scan.xf`");
+}
+
+}  // namespace
+
 std::string nothing_warning(const Detection& detection, const SelectionConfig& selection) {
   constexpr std::uint64_t kMany = 1000;
-  constexpr double kSurface = 0.9;
+  constexpr double kSurface = 0.9, kLeastNeighbours = 4;
   const Summary& summary = detection.summary;
   const std::uint64_t points = summary.levels.empty() ? 0 : summary.levels.front().points;
   const bool is_left_out = summary.counts.raw_loops > 0 && !(selection == SelectionConfig());
   if (!detection.loops.empty() || points < kMany || is_left_out) return "";
+  const std::string found = "neither a hole nor an outer curve among " + print_count(points) + " points; ";
+  if (summary.mean_neighbours < kLeastNeighbours) {
+    std::ostringstream few;
+    few.precision(2);
+    few << found << "they have " << summary.mean_neighbours
+        << " neighbours on average, which are too few to show a surface; --k states more";
+    return few.str();
+  }
+  if (are_lines(summary.levels))
+    return found + "they lie on lines, as of a wire or a single profile, and holes need a surface";
   // On a thin surface, all levels have the area that follows from the distances of the first one. Points that
   // fill a volume, or lie in layers, have less of it at coarse levels.
   const double distance = summary.median_distance;
   const double area = 2.25 * std::numbers::pi * static_cast<double>(points) * distance * distance /
                       (summary.mean_neighbours + 2.5);
-  const std::string found = "neither a hole nor an outer curve among " + print_count(points) + " points; ";
   if (summary.surface_area > kSurface * area)
     return found +
            "they lie on a thin surface, so it is probably closed, as a sphere is; if it is open, a filter "
@@ -421,7 +454,8 @@ std::vector<std::string> scan_warnings(const FileScan& scan, const Detection& de
     warnings.push_back(print_count(points) + " distinct " + (points == 1 ? "point" : "points") +
                        "; each needs k = " + std::to_string(config.neighbourhood.k) + " neighbours");
   }
-  if (config.scale.min_hole > 0 && summary.resolution > 0 && counts.thinned_out == 0 && points > 0) {
+  const bool thins = counts.thinned_out > counts.points / 100;
+  if (config.scale.min_hole > 0 && summary.resolution > 0 && !thins && points > 0) {
     std::ostringstream warning;
     warning << "--min-hole " << config.scale.min_hole << " thins nothing: neighbours are "
             << summary.median_distance << " apart"
@@ -429,60 +463,101 @@ std::vector<std::string> scan_warnings(const FileScan& scan, const Detection& de
             << "; it is a length in the unit of the scan";
     warnings.push_back(warning.str());
   }
-  const Eigen::AlignedBox3d& bounds = summary.strays.rest;
-  if (has_single_precision(scan) && !bounds.isEmpty()) {
-    const double step = coarsest_step(bounds);
-    if (step > summary.median_distance / 4) {
-      std::ostringstream warning;
-      warning << "coordinates of single precision are steps of up to " << step << " here, and neighbours are "
-              << summary.median_distance << " apart; the scan needs double precision, or smaller coordinates";
-      warnings.push_back(warning.str());
-    }
-  }
+  if (std::string steps = steps_warning(detection, has_single_precision(scan)); !steps.empty())
+    warnings.push_back(std::move(steps));
+  warn_of_own_frames(scan, detection, warnings);
   return warnings;
 }
 
-std::vector<std::string> station_warnings(const std::vector<StationSummary>& stations,
-                                          const PointsOfNone& of_none) {
+namespace {
+
+// Returns the width of a station's view.
+double degrees_of(const StationSummary& station) {
+  return std::max(2 * 180 / std::numbers::pi * station.spread, 0.01);
+}
+
+// A path whose rows are not all of it, and a station that is far off, though the scan itself states it.
+void warn_of_path(const StationSummary& station, std::vector<std::string>& warnings) {
   constexpr std::uint64_t kFewRays = 100;
-  constexpr double kFarOff = 0.01;  // the spread of rays to a square from 40 times its edge
+  constexpr double kFarOff = 0.01;  // radians; no scanner has so narrow a view
+  const std::uint64_t rows = station.left_out.rows;
+  if (rows > 0) {
+    std::ostringstream message;
+    message.precision(12);
+    message << "trajectory " << visible(station.name) << ": " << print_count(rows)
+            << (rows == 1 ? " row is" : " rows are") << " left out, at time " << station.left_out.time
+            << (rows == 1 ? "" : " and later") << ": a hundred times the speed of the others leads there";
+    warnings.push_back(message.str());
+  }
+  const bool is_refused = station.certainty < StationView::kLeastCertain;
+  if (station.path > 0 || station.points < kFewRays || is_refused || !(station.spread < kFarOff)) return;
+  std::ostringstream message;
+  message.precision(2);
+  message << "station " << visible(station.name) << ", at " << station.place.transpose().format(kOnePlace)
+          << ", has most of its points within " << degrees_of(station)
+          << " degrees of one direction, as from a place far off; causes of holes depend on it; points may "
+             "have been at their place before a pose moved them, or --stations states the true place";
+  warnings.push_back(message.str());
+}
+
+}  // namespace
+
+std::string upward_warning(const Upward& upward) {
+  // Quaternions that turn the axis, or its opposite, to z.
+  constexpr std::array<std::array<const char*, 2>, 3> kTurns = {{{"0 -0.7071 0 0.7071", "0 0.7071 0 0.7071"},
+                                                                 {"0.7071 0 0 0.7071", "-0.7071 0 0 0.7071"},
+                                                                 {"", "1 0 0 0"}}};
+  const auto axis = static_cast<std::size_t>(upward.axis);
+  const std::string name(1, "xyz"[axis]), opposite = "-" + name;
+  std::string counts;
+  for (const std::uint64_t points : upward.level)
+    counts += (counts.empty() ? "" : ", ") + print_count(points);
+  return (upward.is_down    ? opposite
+          : upward.is_known ? name
+                            : name + " or " + opposite) +
+         " seems to be up, not z, by the level surfaces (points level along x, y, z: " + counts +
+         "); floors are found by z, and so are causes and places of scanners; `SCAN pose=0 0 0 " +
+         kTurns[axis][upward.is_down ? 1 : 0] +
+         "` in a list of files turns the scan, and its stations need the same";
+}
+
+std::vector<std::string> station_warnings(const std::vector<StationSummary>& stations,
+                                          const PointsOfNone& of_none, const std::optional<Upward>& upward) {
   std::vector<std::string> warnings;
   for (const StationSummary& station : stations) {
+    warn_of_path(station, warnings);
     if (station.points == 0)
       warnings.push_back("station " + visible(station.name) + " does not count: the scan has no points of " +
                          visible(station.subject));
-    const double degrees = std::max(2 * 180 / std::numbers::pi * station.spread, 0.01);
-    if (station.points >= kFewRays && station.path == 0 && station.spread < kFarOff &&
-        !(station.certainty < StationView::kLeastCertain)) {
-      std::ostringstream far;
-      far.precision(2);
-      far << "station " << visible(station.name) << ", at " << station.place.transpose().format(kOnePlace)
-          << ", has most of its points within " << degrees
-          << " degrees of one direction, as from a place far off; causes of holes depend on it; points may "
-             "have been at their place before a pose moved them, or --stations states the true place";
-      warnings.push_back(far.str());
-    }
     if (station.points == 0 || !(station.certainty < StationView::kLeastCertain)) continue;
     const bool moved = station.path > 0;
     std::ostringstream message;
-    message.precision(2);
     message << (moved ? "trajectory " : "station ") << visible(station.name) << " does not count: ";
-    if (station.certainty > 0) {
-      message.precision(3);
-      message << "at most " << 100 * station.certainty << " % of its points can have been seen from there"
-              << (moved ? " at their times" : "") << ", as rays end at the first surface";
+    const double timed =
+        static_cast<double>(station.points) / static_cast<double>(station.points + station.untimed);
+    message.precision(3);
+    if (station.certainty > 0 && timed < StationView::kLeastCertain) {
+      message
+          << 100 * (1 - timed)
+          << " % of the points have no time of the path; it must cover their times without gaps, in their "
+             "clock";
     } else {
-      message << "most of its points lie within " << degrees
-              << " degrees of one direction, as from a place far off the scan";
+      if (station.certainty > 0)
+        message << "at most " << 100 * station.certainty << " % of its points can have been seen from there"
+                << (moved ? " at their times" : "") << ", as rays end at the first surface";
+      else
+        message << "most of its points lie within " << std::setprecision(2) << degrees_of(station)
+                << " degrees of one direction, as from a place far off the scan";
+      message << "; its coordinates must have the unit and the system of the scan"
+              << (moved ? ", and its times their clock" : "");
     }
-    message << "; its coordinates must have the unit and the system of the scan"
-            << (moved ? ", and its times their clock" : "");
     warnings.push_back(message.str());
   }
   if (of_none.points > 0)
     warnings.push_back(print_count(of_none.points) + (of_none.points == 1 ? " point has" : " points have") +
                        " no station, such as those of " + visible(of_none.subject) +
                        "; causes of holes leave out what their scanner saw");
+  if (upward) warnings.push_back(upward_warning(*upward));
   return warnings;
 }
 

@@ -6,6 +6,7 @@
 #include "io/scan/file_scan.hpp"
 #include "io/stations/cause.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,18 +51,23 @@ std::vector<std::string> filter_warnings(const io::FileScan& scan, const io::Inp
                                          const Eigen::AlignedBox3d& bounds);
 
 // Names stations and trajectories that do not count, because they cannot have measured all of their points,
-// or have none. Names stations that are far off, too. One line counts the points that are of no station.
+// or have none. Other lines are of rows of trajectories that are left out, and of stations that are far off.
+// The last ones are of points of no station, and of what seems to be up, where it is not z.
 std::vector<std::string> station_warnings(const std::vector<io::StationSummary>& stations,
-                                          const io::PointsOfNone& of_none = {});
+                                          const io::PointsOfNone& of_none = {},
+                                          const std::optional<io::Upward>& upward = {});
+
+// Returns what seems to be up, and how the scan is turned.
+std::string upward_warning(const io::Upward& upward);
 
 // Returns a line where a scan of a thousand points or more has neither a hole nor an outer curve. The line
-// says what is likelier: the surface is closed, or the points are not on it. Empty where options leave curves
-// out.
+// says what is likelier. Neighbours are too few, the points lie on lines, the surface is closed, or the
+// points are not on it. Empty where options leave curves out.
 std::string nothing_warning(const Detection& detection, const SelectionConfig& selection);
 
 // Returns the warnings of filter_warnings and nothing_warning after a run. Others are of strays, given
-// normals that do not fit, too few points for their neighbourhoods, and coordinates too coarse for their
-// spacing.
+// normals that do not fit, and too few points for their neighbourhoods. The last ones are of coordinates in
+// steps too wide for their spacing, and of files that do not fit, as without their poses.
 std::vector<std::string> scan_warnings(const io::FileScan& scan, const Detection& detection,
                                        const io::FilesConfig& config);
 

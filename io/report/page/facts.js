@@ -79,13 +79,14 @@ function result_facts(data, units) {
   // "Candidates" and "Coherent" are words of the paper: holes.json has them.
   const names = {holes: "Holes", outer: "Outer curves", loops: "Loops", boundary_points: "Boundary points"};
   const rows = Object.keys(names).filter((key) => is_number(counts[key])).map((key) => [names[key], format_count(counts[key])]);
-  const area = report.hole_area || 0;
-  if (area > 0) rows.splice(1, 0, ["Area of all holes", units.area(area, 4)]);
+  const {missing, openings} = hole_areas(report);
+  const areas = [["Missing area", missing], ["Area of openings", openings]].filter(([, area]) => area > 0)
+      .map(([name, area]) => [name, units.area(area, 4)]);
   if (report.surface_area > 0) {
-    const share = 100 * area / (area + report.surface_area);
-    rows.splice(area > 0 ? 2 : 1, 0, ["Sampled surface, about", units.area(report.surface_area, 3)],
-                ["Share within holes", `${share.toPrecision(2)} %`]);
+    const share = 100 * missing / (missing + report.surface_area);
+    areas.push(["Sampled surface, about", units.area(report.surface_area, 3)], ["Share that is missing", `${share.toPrecision(2)} %`]);
   }
+  rows.splice(1, 0, ...areas);
   const made = facts_part("Result", description(rows));
   if (loops.count < loops.all) {
     made.append(element("p", {class: "quiet"},

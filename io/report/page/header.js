@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bar at the top: name and counts of the scan, help, theme.
 
-// The area of all holes in words; nothing where there are none.
-function missing_area({hole_area, unit}, units) {
-  if (!(hole_area > 0)) return "";
-  return `${units.area(hole_area, 3)} missing${unit ? "" : " (unit not stated: --unit)"}`;
+// Areas of holes: openings are no missing surface. They are 0 where causes are not known.
+function hole_areas({hole_area, opening_area}) {
+  const openings = opening_area || 0;
+  return {missing: (hole_area || 0) - openings, openings};
+}
+
+// These areas in words; nothing where there are none.
+function missing_area(report, units) {
+  const {missing, openings} = hole_areas(report);
+  if (!(missing + openings > 0)) return "";
+  const apart = openings > 0 ? `, ${units.area(openings, 3)} openings` : "";
+  return `${units.area(missing, 3)} missing${apart}${report.unit ? "" : " (area; unit not stated)"}`;
 }
 
 function write_header({report}, units) {

@@ -126,7 +126,7 @@ class PrintPages {
     const words = filter.words(units);
     const rows = [["Points", format_count(counts.points)], ["Holes", format_count(counts.holes)],
                   ["Outer curves", format_count(counts.outer)],
-                  ["Area of all holes", report.hole_area > 0 ? units.area(report.hole_area, 4) : kMissing]];
+                  ["Area of holes", missing_area(report, units) || kMissing]];
     if (report.bounds) {
       const {min, max} = report.bounds;
       rows.push(["Extent", [0, 1, 2].map((k) => units.length(max[k] - min[k])).join(" × ")]);

@@ -242,7 +242,7 @@ TEST_CASE("a survey of nothing, of nothing finite and of one place") {
   const Cloud unusable = Cloud{{Eigen::Vector3d::Constant(std::nan("")), {0, INFINITY, 0}}, {}};
   CHECK(survey(unusable).cells.empty());
   CHECK(survey(unusable).dropped == 2);
-  for (const double at : {0.0, -1e-200, 1e6, 1e150}) {
+  for (const double at : {0.0, -1e-200, 1e6, 1e30}) {
     const Cloud place = coincident(1000).translated({at, at, at});
     const SurveyedScan scan = survey(place);
     check_counts(place, scan);
@@ -424,8 +424,8 @@ TEST_CASE("cells near a box are those of a search through all") {
 
 TEST_CASE("points beyond the end of the grid have a finite reach") {
   Cloud cloud = scattered(300, 4);
-  cloud.positions.push_back({1e40, 0, 0});
-  cloud.positions.push_back({1e39, 0, 0});
+  cloud.positions.push_back({1e30, 0, 0});
+  cloud.positions.push_back({1e29, 0, 0});
   const Tiling tiling = tiling_of(cloud, 50);
   for (std::uint32_t c = 0; c < tiling.cells.size(); ++c) {
     const double reach = squared_distance_bound(tiling, c, 5);

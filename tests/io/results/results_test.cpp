@@ -55,6 +55,29 @@ TEST_CASE("a run without holes leaves an empty loops.ply and a report without lo
   CHECK(json.at("inputs")[0].at("properties").at("z") == "float");
 }
 
+TEST_CASE("openings are apart from missing surface, where the cause of a hole is known", "[io]") {
+  const ScratchFolder folder;
+  FileScan scan({folder.write("a.xyz", "1 2 3\n")}, {});
+  FakeDetection found;
+  for (int i = 0; i < 3; ++i) found.with_loop({1, 5, 3}, LoopKind::kHole);
+  for (std::size_t i = 0; i < 3; ++i) found.measures[i].own_area = std::pow(10, i);
+  found.numbers.hole_area = 111;
+  ExplainedDetection detection = found;
+  const auto areas = [&] {
+    write_results(detection, scan, FilesConfig{}, folder / "out");
+    const auto json = report(folder / "out");
+    CHECK(json.at("hole_area") == 111);
+    return json.at("opening_area");
+  };
+  CHECK(areas().is_null());
+  detection.causes.resize(3);
+  CHECK(areas().is_null());
+  detection.causes[0].shares = {1, 0, 0, 0, 0};
+  CHECK(areas() == 0);
+  detection.causes[1].shares = {0.4, 0.6, 0, 0, 0};
+  CHECK(areas() == 10);
+}
+
 TEST_CASE("the report has every parameter, every count and one line per loop", "[io]") {
   const ScratchFolder folder;
   FileScan scan({folder.write("a.xyz", "1 2 3\n")}, {});

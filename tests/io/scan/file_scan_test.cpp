@@ -155,7 +155,7 @@ TEST_CASE("a point too far away is an error that names its file and its place in
   const ScratchFolder folder;
   FileScan scan({folder.write("a.xyz", "1 2 3\n"), folder.write("b.xyz", "1 2 3\n1 -1e200 3\n")}, {});
   CHECK_THAT(error_of([&] { read_all(scan); }),
-             Catch::Contains("b.xyz: point 1 lies at 1 -1e+200 3; coordinates must be within 1e153"));
+             Catch::Contains("b.xyz: point 1 lies at 1 -1e+200 3; coordinates must be within 1e30"));
   FileScan bounded({folder.write("b.xyz", "1 2 3\n1 -1e200 3\n")}, {.bounds = {0, 0, 9, 9}});
   CHECK(error_of([&] { read_all(bounded); }).empty());
 }

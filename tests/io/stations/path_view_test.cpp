@@ -101,6 +101,7 @@ TEST_CASE("points without a time of the path make a moving scanner uncertain, an
   for (int i = 0; i < 20'000; ++i) drive.view.add(99, {1, 2, 3}, true);
   measure(drive.view);
   CHECK(drive.view.certainty() < StationView::kLeastCertain);
+  CHECK(drive.view.summary().untimed == 20'000);
   CHECK_FALSE(drive.cause_at({5, 5, 2}, 1).main());
 }
 

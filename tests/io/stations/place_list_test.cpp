@@ -15,14 +15,19 @@ TEST_CASE("a list of places has x y z on each line, and maybe a name before them
                                                "\n"
                                                "door; 1; -2.5; 3e2\n"
                                                "4 5\t6\r\n"
-                                               "17,7,8,9"));
-  REQUIRE(places.size() == 3);
+                                               "17,7,8,9\n"
+                                               "gate;1,5;-2,25;3\n"
+                                               "1,5 2,5 3,5\n"));
+  REQUIRE(places.size() == 5);
   CHECK(places[0].name == "door");
   CHECK(places[0].position == Eigen::Vector3d(1, -2.5, 300));
   CHECK(places[1].name.empty());
   CHECK(places[1].position == Eigen::Vector3d(4, 5, 6));
   CHECK(places[2].name == "17");
   CHECK(places[2].position == Eigen::Vector3d(7, 8, 9));
+  CHECK(places[3].name == "gate");
+  CHECK(places[3].position == Eigen::Vector3d(1.5, -2.25, 3));  // decimal commas
+  CHECK(places[4].position == Eigen::Vector3d(1.5, 2.5, 3.5));
 }
 
 TEST_CASE("an error in a list of places names the file, the line and what is needed") {

@@ -42,6 +42,11 @@ TEST_CASE("a file of stations has names, places and what each has measured") {
   CHECK_FALSE(stations[2].file);
   CHECK(stations[2].source == std::optional<std::uint32_t>(12));
   CHECK(read(folder, "only 1 2 3\n").size() == 1);
+  const auto unnamed = read(folder, "1,5;2;3\n");
+  REQUIRE(unnamed.size() == 1);
+  CHECK(unnamed[0].name == "1");
+  CHECK(unnamed[0].place == Eigen::Vector3d(1.5, 2, 3));
+  CHECK(read(folder, "Name;X;Y;Z\nS1;1,5;2,5;-3,5\n")[0].place == Eigen::Vector3d(1.5, 2.5, -3.5));
   // A whole name, though another file's ends in it.
   const std::vector<std::filesystem::path> files = {"old/a.laz", "a.laz"};
   const auto whole = read_stations(folder.write("stations.txt", "south 4 5 6 a.laz\n"), files, layouts());

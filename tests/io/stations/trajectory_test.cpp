@@ -3,7 +3,9 @@
 
 #include "tests/io/io_support.hpp"
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -85,6 +87,49 @@ TEST_CASE("an error in a trajectory names the line or the column") {
     cases.push_back(
         {"time x y z\n1 2 3 4\n2 2 " + far + " 4\n", "line 3: '" + far + "' is not from -1e+12 to 1e+12"});
   test::check_reasons(cases, [](const std::string& text) { return test::error_of([&] { read(text); }); });
+}
+
+namespace {
+
+// A drive along x at speed 10, with a row each tenth of a second. Rows of `off` lie at `place` instead.
+std::string drive(const std::vector<int>& off, const std::string& place, int standing = 0) {
+  std::string text = "time x y z\n";
+  for (int i = 0; i < 100; ++i) {
+    const bool is_off = std::ranges::find(off, i) != off.end();
+    text += std::to_string(1000 + 0.1 * i) + " " +
+            (is_off ? place : std::to_string(5e5 + std::max(0, i - standing)) + " 5400000 20") + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("rows far off a path are left out and counted, wherever they are") {
+  std::vector<int> tenth;
+  for (int i = 5; i < 100; i += 10) tenth.push_back(i);
+  for (const std::vector<int>& off : {std::vector<int>{50}, {0}, {99}, {0, 1, 2}, {40, 41, 42, 43}, tenth}) {
+    for (const std::string place : {"0 0 0", "500040 5405000 20", "500040 5400000 0.5e6"}) {
+      INFO(off.size() << " from " << off.front() << " at " << place);
+      const auto path = read(drive(off, place));
+      REQUIRE(path);
+      CHECK(path->left_out().rows == off.size());
+      CHECK(path->left_out().time == Approx(1000 + 0.1 * off.front()));
+      CHECK(path->length() < 99.1);
+    }
+  }
+}
+
+TEST_CASE("a drive after a long stop, and a jump within a path, leave out no row") {
+  CHECK(read(drive({}, ""))->left_out().rows == 0);
+  CHECK(read(drive({}, "", 90))->length() == Approx(9));
+  CHECK(read(drive({}, "", 90))->left_out().rows == 0);
+  std::vector<int> half;
+  for (int i = 0; i < 50; ++i) half.push_back(i);
+  CHECK(read(drive(half, "0 0 0"))->left_out().rows == 0);  // which half is off?
+}
+
+TEST_CASE("a binary file of stations or of a path, such as SBET, is an error that says so") {
+  CHECK_THROWS_WITH(read(std::string(136, '\0')), Contains("path.txt: is binary, as SBET files are"));
 }
 
 TEST_CASE("a trajectory of more lines than memory has space for is refused") {
