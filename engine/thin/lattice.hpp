@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lattice of a level consists of cubes of one edge, counted from the origin of the coordinates. So the
-// cell of a point depends on that point alone. Cells at 0 reach a quarter of an edge below it: walls and
+// cell of a point depends on that point alone. Cells at 0 reach a quarter of an edge below it. Walls and
 // floors are often at 0, and noise would share their points out among the cells of both sides.
 #pragma once
 
