@@ -134,9 +134,10 @@ def share_near(cells, others):
 def shares_of(loops, cell_edges):
     """By pair of loops: the share of the first one's cells near the second one."""
     near = {}
+    has_chance = [loop.odds + 2 * (0.7 if shape_of(loop)[3] else 1.1) > -4 for loop in loops]
     for a, x in enumerate(loops):
         for b, y in enumerate(loops):
-            if a != b and abs(x.level - y.level) <= APART:
+            if a != b and abs(x.level - y.level) <= APART and has_chance[a] and has_chance[b]:
                 edge = cell_edges[max(x.level, y.level)]
                 near[a, b] = share_near(drawn(x, edge), drawn(y, edge))
     return near

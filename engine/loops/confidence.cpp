@@ -61,6 +61,12 @@ bool could_be_probable(LoopEvidence evidence) {
   return log_odds(evidence) > 0;
 }
 
+bool could_be_tracked(LoopEvidence evidence) {
+  constexpr double kNoChance = -4;
+  evidence.persistence = kMostOctaves;
+  return log_odds(evidence) > kNoChance;
+}
+
 double probability_of(double log_odds) {
   const double tail = exponential(-std::abs(log_odds));
   return (log_odds < 0 ? tail : 1) / (1 + tail);

@@ -16,6 +16,9 @@ double log_odds(const LoopEvidence& evidence);
 // Returns whether some prominence and persistence would make the loop more likely true than false.
 bool could_be_probable(LoopEvidence evidence);
 
+// Whether the loop has a chance, however long its track is. Other loops are compared with none.
+bool could_be_tracked(LoopEvidence evidence);
+
 double probability_of(double log_odds);
 
 }  // namespace lacuna

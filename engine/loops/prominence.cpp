@@ -64,37 +64,41 @@ class Raster {
 // 1966). Cost: pixels times distances.
 std::span<std::uint32_t> nearest_marked(const Raster& raster, std::span<const std::uint8_t> is_marked,
                                         Scratch& scratch) {
-  const std::span<std::uint32_t> in_column = scratch.array<std::uint32_t>(raster.size()),
-                                 nearest = scratch.array<std::uint32_t>(raster.size());
+  const std::span<std::uint32_t> in_column = scratch.array<std::uint32_t>(raster.size()),  // its row
+      nearest = scratch.array<std::uint32_t>(raster.size());
   for (std::uint32_t column = 0; column < raster.columns; ++column) {
     std::uint32_t last = kNowhere;
     for (std::uint32_t row = 0; row < raster.rows; ++row) {
       const std::uint32_t at = raster.pixel(column, row);
-      if (is_marked[at] != 0) last = at;
+      if (is_marked[at] != 0) last = row;
       in_column[at] = last;
     }
     last = kNowhere;
     for (std::uint32_t row = raster.rows; row-- > 0;) {
       const std::uint32_t at = raster.pixel(column, row);
-      if (is_marked[at] != 0) last = at;
-      if (last != kNowhere && (in_column[at] == kNowhere || last - at < at - in_column[at]))
+      if (is_marked[at] != 0) last = row;
+      if (last != kNowhere && (in_column[at] == kNowhere || last - row < row - in_column[at]))
         in_column[at] = last;
     }
   }
-  for (std::uint32_t at = 0; at < raster.size(); ++at) {
-    const std::uint32_t column = at % raster.columns;
-    std::uint32_t best = UINT32_MAX;
-    nearest[at] = kNowhere;
-    const auto take = [&](std::uint32_t other) {
-      if (in_column[other] == kNowhere) return;
-      const std::uint32_t distance = raster.squared_distance(at, in_column[other]);
-      if (distance > best || (distance == best && in_column[other] > nearest[at])) return;
-      best = distance;
-      nearest[at] = in_column[other];
-    };
-    for (std::uint32_t d = 0; d < raster.columns && d * d <= best; ++d) {
-      if (d <= column) take(at - d);
-      if (column + d < raster.columns) take(at + d);
+  for (std::uint32_t row = 0; row < raster.rows; ++row) {
+    const std::uint32_t* const along = &in_column[raster.pixel(0, row)];
+    for (std::uint32_t column = 0; column < raster.columns; ++column) {
+      std::uint32_t best = UINT32_MAX, nearest_here = kNowhere, d = 0;
+      const auto take = [&](std::uint32_t other) {
+        if (along[other] == kNowhere) return;
+        const std::uint32_t rows_off = along[other] > row ? along[other] - row : row - along[other],
+                            distance = d * d + rows_off * rows_off;
+        if (distance > best) return;
+        const std::uint32_t pixel = raster.pixel(other, along[other]);
+        nearest_here = distance < best ? pixel : std::min(pixel, nearest_here);
+        best = distance;
+      };
+      for (; d < raster.columns && d * d <= best; ++d) {
+        if (d <= column) take(column - d);
+        if (column + d < raster.columns) take(column + d);
+      }
+      nearest[raster.pixel(column, row)] = nearest_here;
     }
   }
   return nearest;

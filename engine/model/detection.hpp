@@ -28,8 +28,7 @@ struct Counts {
   std::uint64_t components = 0;       // of the boundary graph
   std::uint64_t raw_loops = 0;        // before selection
   std::uint64_t undefined_normals = 0;
-  std::uint64_t normals_off =
-      0;  // given ones of distinct points, by more than 45 degrees from the estimated ones
+  std::uint64_t normals_off = 0;      // given ones, by more than 45 degrees from the estimated ones
 };
 
 struct PhaseTime {

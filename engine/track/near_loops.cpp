@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/track/near_loops.hpp"
 
+#include "engine/loops/confidence.hpp"
 #include "engine/store/column_writer.hpp"
 #include "engine/store/sorted_runs.hpp"
 
@@ -70,8 +71,10 @@ void draw(const Loops& loops, std::size_t loop, double edge, Visit&& visit) {
 }
 
 void add_cells(const LevelLoops& level, std::uint32_t first, double edge, CellSort& cells) {
-  for (std::size_t i = 0; i < level.loops.size(); ++i)
+  for (std::size_t i = 0; i < level.loops.size(); ++i) {
+    if (!could_be_tracked(level.loops.evidence(i))) continue;
     draw(level.loops, i, edge, [&](const CellOfLattice& cell) { cells.add({cell, first + i}); });
+  }
 }
 
 // Returns all cells of all loops, each once, in order.

@@ -1142,8 +1142,12 @@ Tracked track(const Loops& loops, const std::vector<double>& edges, const std::v
   const std::size_t count = loops.size();
   std::vector<std::vector<float>> near(count,
                                        std::vector<float>(count, 0));  // share of the first, near the second
+  std::vector<bool> has_chance;
+  for (const FoundLoop& loop : loops)
+    has_chance.push_back(loop.log_odds + 2 * (shape_of(loop).is_hole ? 0.7 : 1.1) > -4);
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = a + 1; b < count; ++b) {
+      if (!has_chance[a] || !has_chance[b]) continue;
       const std::size_t coarse = std::max(loops[a].level, loops[b].level);
       if (coarse - std::min(loops[a].level, loops[b].level) > 2) continue;
       const std::set<LatticeCell> of_a = drawn(loops[a], cells[coarse]),
