@@ -96,13 +96,15 @@ TEST_CASE("files in different units are a warning, and the scan has no unit") {
   CHECK(FileScan({a, code}, {}).length_unit().empty());
 }
 
-TEST_CASE("normals that do not fit the surface are a warning from a tenth on") {
-  CHECK(normals_warning({.checked = 0, .off = 0}, NormalsUse::kFitting).empty());
-  CHECK(normals_warning({.checked = 1000, .off = 99}, NormalsUse::kGiven).empty());
-  CHECK_THAT(normals_warning({.checked = 1000, .off = 970}, NormalsUse::kFitting),
-             Contains("at 97 % of a sample") && Contains("--normals given uses those"));
-  CHECK_THAT(normals_warning({.checked = 1000, .off = 100}, NormalsUse::kGiven),
-             Contains("at 10 % of a sample") && Contains("--normals estimated leaves them out"));
+TEST_CASE("given normals that are off at one point in a hundred are a warning") {
+  const auto warning = [](std::uint64_t off, NormalsUse use) {
+    return normals_warning({.points = 1000, .normals_off = off}, use);
+  };
+  CHECK(warning(9, NormalsUse::kFitting).empty());
+  CHECK_THAT(warning(23, NormalsUse::kFitting),
+             StartsWith("23 normals of the scan are off by more than 45 degrees") &&
+                 Contains("these are estimated from the points instead"));
+  CHECK_THAT(warning(23, NormalsUse::kGiven), Contains("--normals estimated leaves them out"));
 }
 
 TEST_CASE("z in another unit is brought into the unit of x and y, but for the annotated scan") {
