@@ -74,7 +74,7 @@ build_tbb() {
 
 # ---- as released
 
-tools/install.sh --tests
+tools/install.sh "$( ((all)) && echo --all || echo --tests)"
 build build all -DLACUNA_WERROR=ON
 run_tests build --label-regex "$( ((all)) && echo '^(fast|slow)$' || echo '^fast$')"
 

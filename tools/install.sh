@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs what the build needs from Debian 12; with --tests, what the tests need, too.
+# Installs what the build needs from Debian 12; with --tests, what the fast tests need, too; with --all, what all do.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/packages.sh"
 
@@ -13,9 +13,10 @@ packages=(
   libboost-iostreams-dev libblosc-dev zlib1g-dev libimath-dev
   python3-dev python3-numpy pybind11-dev  # the Python package
 )
-[[ ${1-} != --tests ]] || packages+=(
+[[ ${1-} != --tests && ${1-} != --all ]] || packages+=(
   python3 python3-jsonschema gdal-bin  # scripts of tests and benchmarks
-  python3-pandas python3-matplotlib python3-selenium chromium chromium-driver  # tests of the Python package and the report
+  python3-pandas python3-matplotlib  # tests of the Python package
 )
+[[ ${1-} != --all ]] || packages+=(python3-selenium chromium chromium-driver)  # tests of the report
 
 install_packages "${packages[@]}"
