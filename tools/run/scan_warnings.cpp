@@ -342,7 +342,7 @@ std::string stray_warning(const Strays& strays, double resolution) {
 
 std::string normals_warning(const Counts& counts, NormalsUse use) {
   constexpr std::uint64_t kFew = 100;
-  if (kFew * counts.normals_off < counts.points) return "";
+  if (counts.normals_off == 0 || kFew * counts.normals_off < counts.points) return "";
   std::ostringstream text;
   text << print_count(counts.normals_off)
        << " normals of the scan are off by more than 45 degrees from the surface"
