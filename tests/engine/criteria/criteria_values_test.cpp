@@ -73,8 +73,11 @@ FilledBatch batch_of(const std::vector<Neighbourhood>& points, bool given) {
   return filled;
 }
 
-const CriteriaParameters kParameters{
-    .sigma = 1, .cos_cone = 0.96, .crease_threshold = 0.5, .shares = {0.5, 0.25, 0.25}};
+const CriteriaParameters kParameters{.sigma = 1,
+                                     .cos_cone = 0.96,
+                                     .crease_threshold = 0.5,
+                                     .shares = {0.5, 0.25, 0.25},
+                                     .uses_normals_off = true};
 
 CriteriaValues evaluated(const std::vector<Neighbourhood>& points, bool given = false) {
   const FilledBatch filled = batch_of(points, given);
