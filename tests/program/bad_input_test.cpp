@@ -77,7 +77,7 @@ TEST_CASE("what is odd about a scan is a warning that names it, and the run goes
   CHECK_THAT(warnings({even, (scratch.path() / "." / "even.ply").string()}),
              Contains("even.ply: given more than once"));
   CHECK_THAT(warnings({scratch.write("few.txt", "0 0 0\n1 0 0\n0 1 0\n")}), Contains("3 distinct points"));
-  CHECK_THAT(warnings({utm}), Contains("steps of up to 0.5 here"));
+  CHECK_THAT(warnings({utm}), Contains("coordinates are in steps of 0.5"));
 }
 
 TEST_CASE("few points, equal points and collinear ones have results") {

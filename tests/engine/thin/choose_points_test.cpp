@@ -83,7 +83,7 @@ TEST_CASE(
   CHECK(chosen_of({{1, 5, 5}, {4, 5, 5}, {9, 5, 5}}) == 1);
   CHECK(chosen_of({{6, 5, 5}, {4, 5, 5}}) == 1);  // a tie
   CHECK(chosen_of({{4, 5, 5}, {4, 5, 5}}) == 0);  // copies
-  CHECK(chosen_of({{-1, -5, -5}, {-4, -5, -5}, {-9, -5, -5}}) == 1);
+  CHECK(chosen_of({{-11, -15, -15}, {-14, -15, -15}, {-19, -15, -15}}) == 1);
 }
 
 TEST_CASE("whatever the tiles, the threads and the order, the same points represent cells of any size") {
