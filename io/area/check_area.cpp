@@ -594,11 +594,14 @@ AreaCheck check_area(Area area, FileScan& scan, const FilesConfig& config, Progr
                           return has_voids(empty, excepted);
                         });
   if (is_outline) {
-    area.polygons = outline_of_points(points.empty, grid, area.bay);
+    // The outline of points one by one would take minutes, and says nothing.
+    const double spacing = points.density.spacing(inside) * grid.edge();
+    if (spacing <= AreaCheck::most_spacing(grid.size))
+      area.polygons = outline_of_points(points.empty, grid, area.bay);
     if (area.polygons.empty())
       throw Error(
-          "the points are too sparse for this void size, so that the scan has no outline; allowed: a "
-          "larger size, or --area");
+          "void_rule = " + config.area.void_rule +
+          ": the points are too sparse for an outline of the scan; allowed: a larger size, or --area");
     inside = rasterise(area.polygons, grid);
     points.empty.intersect(inside);
   }

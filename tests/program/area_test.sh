@@ -521,6 +521,7 @@ refuse "points are so far apart that outlines of voids have .* edges" check wide
 refuse "area_tile = 0.5: the area has 360000 squares with this edge, more than .* allowed: an edge of 1.3.* or more" check wide.xyz \
   --columns "x y z" --area wide.geojson --void-rule 0.5 --area-tile 0.5 --memory-limit 112MiB
 refuse "a check of an area needs it" check "${some[@]}"
+refuse "void_rule = 0.3: the points are too sparse for an outline of the scan; allowed: a larger size" check whole.txt --void-rule 0.3
 refuse "earth.txt: its places are geocentric, as of EPSG:4978, and --area needs a plan; .*EPSG:32632" check earth.txt \
   --columns "x y z" "${on[@]}"
 for system in EPSG:4978 EPSG:4936; do
