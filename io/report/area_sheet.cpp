@@ -17,7 +17,7 @@
 namespace lacuna::io {
 namespace {
 
-constexpr std::size_t kMostRows = 12, kMostOnMap = 500;
+constexpr std::size_t kMostRows = 8, kMostOnMap = 500;
 
 // The page of a run has more rules for paper than for the screen. The sheet looks alike on both.
 constexpr std::string_view kStyle = R"(
@@ -29,13 +29,21 @@ main { max-width: 182mm; margin: 0 auto; }
 .fields input { flex: 1; min-width: 0; border: 0; border-bottom: .4pt solid var(--line); color: var(--ink); background: none; }
 .answer { font-size: 12pt; font-weight: 600; border-left: 2mm solid var(--done); padding-left: 3mm; }
 .answer.no { border-color: var(--hole); }
-.area-map { max-height: 92mm; margin: 3mm 0 1mm; }
+.area-map { max-height: 80mm; margin: 3mm 0 1mm; }
+.figures .pairs { columns: 2; column-gap: 8mm; margin-top: 3mm; }
+.figures .pairs div { break-inside: avoid; }
 .area-map .tile { fill: var(--outer); stroke: none; }
 .area-map text { font-size: 9px; paint-order: stroke; stroke: #fff; stroke-width: 2px; }
 .print-columns { gap: 0 8mm; }
 .print-columns ul { padding-left: 4mm; font-size: 8.5pt; }
 .pairs dd { max-width: 72%; }
-@media print { body { padding: 0; } }
+@page { size: A4; margin: 10mm; }
+@media print {
+  :root { font-size: 7.5pt; }
+  body { padding: 0; }
+  .area-map { max-height: 72mm; }
+  .print .pairs div { padding: .4mm 0; }
+}
 )";
 
 std::string escaped(std::string_view text) {
@@ -296,7 +304,8 @@ void write_area_sheet(const AreaCheck& check, const AreaSheet& sheet, const Area
   out.write("</div>\n<p class=\"answer" + std::string(check.answer() == AreaAnswer::kCovered ? "" : " no") +
             "\">" + escaped(answer_of(check, sheet.unit)) + "</p>\n");
   out.write(SheetMap(check, sheet.unit).print());
-  out.write(description(figures_of(check, sheet, config)) + table_of(check, sheet.unit));
+  out.write("<div class=\"figures\">" + description(figures_of(check, sheet, config)) + "</div>\n" +
+            table_of(check, sheet.unit));
   out.write("<div class=\"print-columns\">" + basis_of(check) + "</div>\n</main></body></html>\n");
 }
 
