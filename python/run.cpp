@@ -186,22 +186,23 @@ std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig c
   return found;
 }
 
-std::vector<std::string> check(std::vector<io::ScanInput> inputs, const io::FilesConfig& config,
+std::vector<std::string> check(std::vector<io::ScanInput> inputs, const io::FilesConfig& given,
                                const std::filesystem::path& folder, const py::object& progress) {
   std::vector<std::string> warnings;
   WatchedProgress watched;
   run_watched(
       [&] {
+        io::FilesConfig config = given;
+        config.area.is_check = true;
         check_config(config);
         io::FileScan scan(std::move(inputs), config.input, Memory::share(config.run.memory_limit).reading);
         tools::require_lengths(scan);
         warnings = tools::input_warnings(scan);
-        auto area = io::read_area(scan, config);
-        if (!area) throw Error("area: is empty; allowed: a file of polygons");
-        const io::AreaCheck checked = io::check_area(std::move(*area), scan, config, watched);
+        io::Area area = io::area_or_outline(scan, config, watched);
+        const io::AreaCheck checked = io::check_area(std::move(area), scan, config, watched);
         std::ranges::copy(tools::area_warnings(checked, scan.length_unit()), std::back_inserter(warnings));
         io::ResultFolder results(folder);
-        io::write_voids(checked, scan, config.area, results);
+        io::write_voids(checked, scan, config, results);
       },
       watched, progress);
   return warnings;

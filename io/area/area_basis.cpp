@@ -51,7 +51,10 @@ std::string swaths_of(const PlanOfPoints& points, const FileScan& scan) {
 std::vector<BasisLine> basis_of(const AreaCheck& check, const Area& area, const PlanOfPoints& points,
                                 const FileScan& scan, const FilesConfig& config) {
   const std::string& unit = scan.length_unit();
-  std::string polygons = config.area.area + ", " + counted(area.polygons.size(), "polygon");
+  std::string polygons =
+      (area.bay > 0 ? "the scan's own outline, with bays up to " + print(area.bay, unit) + " wide"
+                    : config.area.area) +
+      ", " + counted(area.polygons.size(), "polygon");
   if (!config.area.except.empty()) polygons += "; voids in " + config.area.except + " do not count";
   const std::string least = print(check.void_size, unit);
   const std::string& rule = config.area.void_rule;

@@ -9,6 +9,7 @@
 #include "io/area/area_tiles.hpp"
 #include "io/area/empty_places.hpp"
 #include "io/area/geojson_polygons.hpp"
+#include "io/area/plan_outline.hpp"
 #include "io/area/plan_raster.hpp"
 #include "io/area/trace_voids.hpp"
 #include "io/crs/gis_module.hpp"
@@ -152,13 +153,17 @@ double bytes_of(const Eigen::Array2d& cells, std::size_t rasters) {
          cells.x() * kOfColumn;
 }
 
-// The cells over all polygons, in `memory` bytes.
-PlanGrid grid_over(std::span<const PlanPolygon> polygons, double void_size, std::size_t rasters,
-                   double memory, const AreaConfig& config) {
+Eigen::AlignedBox2d bounds_of(std::span<const PlanPolygon> polygons) {
   Eigen::AlignedBox2d bounds;
   for (const PlanPolygon& polygon : polygons)
     for (const Ring2& ring : polygon)
       for (const Eigen::Vector2d& corner : ring) bounds.extend(corner);
+  return bounds;
+}
+
+// The cells over a box, in `memory` bytes.
+PlanGrid grid_over(const Eigen::AlignedBox2d& bounds, double void_size, std::size_t rasters, double memory,
+                   const AreaConfig& config) {
   PlanGrid grid{.size = void_size};
   const auto fits = [&](const Eigen::Array2d& cells) {
     return bytes_of(cells, rasters) <= memory && cells.maxCoeff() < std::numeric_limits<int>::max();
@@ -175,10 +180,7 @@ PlanGrid grid_over(std::span<const PlanPolygon> polygons, double void_size, std:
             << " or more, or a part of the area";
     throw Error(message.str());
   }
-  grid.first = grid.to_cells(bounds.min()).array().floor();
-  grid.columns = static_cast<std::size_t>(cells.x());
-  grid.rows = static_cast<std::size_t>(cells.y());
-  return grid;
+  return PlanGrid::over(bounds, void_size);
 }
 
 // Throws `Error` where the squares of the table do not fit in `memory` bytes.
@@ -198,6 +200,19 @@ void check_tiles(const PlanGrid& grid, double memory, const AreaConfig& config) 
           << " MiB that the memory limit leaves for them; allowed: an edge of "
           << config.area_tile * std::sqrt(tiles * kBytesOfTile / memory) * 1.1 << " or more";
   throw Error(message.str());
+}
+
+// The sheet of a check shows the density in squares, a round number of units wide.
+double tile_edge_of(const FilesConfig& config, const PlanGrid& grid) {
+  constexpr double kAlongMap = 50;
+  if (config.area.area_tile > 0 || !config.area.is_check || !config.output.report)
+    return config.area.area_tile;
+  const double cells = static_cast<double>(std::max(grid.columns, grid.rows));
+  const double least = std::max(grid.size, cells * grid.edge() / kAlongMap);
+  const double power = std::pow(10, std::floor(std::log10(least)));
+  for (const double edge : {power, 2 * power, 5 * power})
+    if (edge >= least) return edge;
+  return 10 * power;
 }
 
 // ---- the voids
@@ -384,10 +399,11 @@ double area_of(const PlanPolygon& polygon) {
 // in the area, of each other void.
 std::vector<TracedVoid> trace(const Plan& plan, const PlanGrid& grid) {
   static auto* const trace = reinterpret_cast<TraceVoids*>(load_gis_function(kTraceVoids, kUser));
-  TraceTask task{
-      .columns = grid.columns,
-      .rows = grid.rows,
-      .row = [&](std::size_t row, std::span<std::uint8_t> values) { plan.write_row(row, values); }};
+  TraceTask task{.raster = {.columns = grid.columns,
+                            .rows = grid.rows,
+                            .row = [&](std::size_t row, std::span<std::uint8_t> values) {
+                              plan.write_row(row, values);
+                            }}};
   trace(task);
   constexpr double kLeastArea = std::numbers::pi * kEmptyRadius * kEmptyRadius / 4;
   std::erase_if(task.voids, [](const TracedVoid& each) { return area_of(each.outline) < kLeastArea; });
@@ -500,39 +516,96 @@ CopyDistance copy_distance_of(const FileScan& scan, double void_size, double are
 
 }  // namespace
 
-std::optional<Area> read_area(const FileScan& scan, const FilesConfig& config) {
-  if (config.area.area.empty()) return std::nullopt;
-  require_plan(scan, "--area");
+namespace {
+
+// The box around all points, seen from above.
+class BoundsObserver : public RowObserver {
+ public:
+  explicit BoundsObserver(Progress& progress) : progress_(progress) {}
+  Eigen::AlignedBox2d bounds;
+
+ private:
+  void take(std::size_t, const ScanReader&, const RowBatch&, std::span<const Eigen::Vector3d>,
+            std::span<const Eigen::Vector3d> kept) final {
+    for (const Eigen::Vector3d& point : kept)
+      if (point.allFinite()) bounds.extend(point.head<2>());
+    progress_.advance(kept.size());
+  }
+
+  Progress& progress_;
+};
+
+// `points`: the box around them; without one, the area has a file.
+Area make_area(const FileScan& scan, const FilesConfig& config,
+               const std::optional<Eigen::AlignedBox2d>& points) {
+  require_plan(scan, points ? "check" : "--area");
   Area area;
   const double void_size = void_size_in(scan, config.area);
   PolygonFiles files(scan, config, void_size);
-  area.polygons = files.read(config.area.area);
+  if (!points) area.polygons = files.read(config.area.area);
   if (!config.area.except.empty()) area.exceptions = files.read(config.area.except);
   area.off = files.off();
   area.classes = read_classes(config.area.classes, files);
   const auto limit = static_cast<double>(Memory::share(config.run.memory_limit).limit);
-  area.grid = grid_over(area.polygons, void_size, area.exceptions.empty() ? 3 : 4,
+  Eigen::AlignedBox2d bounds = points ? *points : bounds_of(area.polygons);
+  if (points) {
+    area.bay = bay_of(bounds);
+    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(void_size);
+    bounds = {bounds.min() - margin, bounds.max() + margin};
+  }
+  area.grid = grid_over(bounds, void_size, area.exceptions.empty() ? 3 : 4,
                         limit / 2 - static_cast<double>(files.bytes()), config.area);
   check_tiles(area.grid, limit / 8, config.area);
   return area;
 }
 
+}  // namespace
+
+std::optional<Area> read_area(const FileScan& scan, const FilesConfig& config) {
+  if (config.area.area.empty()) return std::nullopt;
+  return make_area(scan, config, std::nullopt);
+}
+
+Area area_or_outline(FileScan& scan, const FilesConfig& config, Progress& progress) {
+  if (!config.area.area.empty()) return make_area(scan, config, std::nullopt);
+  BoundsObserver points(progress);
+  progress.begin("bounds", scan.expected_points().value_or(0));
+  scan.read_all(points);
+  if (points.bounds.isEmpty()) throw Error("no point takes part, so that the scan has no outline");
+  return make_area(scan, config, points.bounds);
+}
+
 AreaCheck check_area(Area area, FileScan& scan, const FilesConfig& config, Progress& progress) {
   // What is empty: the cells of the area without a point near them.
   const PlanGrid& grid = area.grid;
-  const PlanRaster inside = rasterise(area.polygons, grid);
+  const bool is_outline = area.polygons.empty();
+  PlanRaster inside = rasterise(area.polygons, grid);
+  if (is_outline) inside.fill();
   std::optional<PlanRaster> excepted;
   if (!area.exceptions.empty()) excepted = rasterise(area.exceptions, grid);
-  AreaTiles tiles(config.area.area_tile, grid);
-  tiles.add_area(inside);
+  const double tile_edge = tile_edge_of(config, grid);
+  AreaTiles tiles(tile_edge, grid);
   const PointRules rules{.height_gap = height_gap_of(scan, config, grid.size),
                          .copies = copy_distance_of(scan, grid.size, grid.area(inside.count()))};
-  const PlanOfPoints points =
+  PlanOfPoints points =
       find_empty_places(grid, inside, rules, Memory::share(config.run.memory_limit).limit / 8, scan, tiles,
                         progress, [&](const PlanRaster& empty) {
                           refuse_far_too_long_outlines(empty, inside, grid, config);
                           return has_voids(empty, excepted);
                         });
+  if (is_outline) {
+    // The outline of points one by one would take minutes, and says nothing.
+    const double spacing = points.density.spacing(inside) * grid.edge();
+    if (spacing <= AreaCheck::most_spacing(grid.size))
+      area.polygons = outline_of_points(points.empty, grid, area.bay);
+    if (area.polygons.empty())
+      throw Error(
+          "void_rule = " + config.area.void_rule +
+          ": the points are too sparse for an outline of the scan; allowed: a larger size, or --area");
+    inside = rasterise(area.polygons, grid);
+    points.empty.intersect(inside);
+  }
+  tiles.add_area(inside);
 
   // The voids: the circles around what is empty.
   const Plan plan(grid, inside, excepted, points);
@@ -566,7 +639,7 @@ AreaCheck check_area(Area area, FileScan& scan, const FilesConfig& config, Progr
   }
   for (const ClassPolygons& polygons : area.classes) add_class(polygons, grid, check);
   progress.end();
-  check.tile_edge = config.area.area_tile;
+  check.tile_edge = tile_edge;
   check.tiles = tiles.with_area();
   return check;
 }

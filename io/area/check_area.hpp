@@ -25,12 +25,19 @@ struct Area {
   std::vector<PlanPolygon> polygons, exceptions;  // in coordinates of the scan
   std::vector<ClassPolygons> classes;             // likewise
   double off = 0;  // how far polygons and exceptions may lie off, as their conversion says
+  double bay =
+      0;  // without polygons: how wide bays are that belong to the outline of the scan, as in OutlineTask
   PlanGrid grid;
 };
 
 // Returns nothing where the config has no area. Throws `Error`: a file that cannot be used, or too many
 // corners or cells for the memory limit.
 LACUNA_API std::optional<Area> read_area(const FileScan& scan, const FilesConfig& config);
+
+// Returns the area of a check: that of `read_area`, or one without polygons over all points, whose polygons
+// `check_area` finds. They are the scan's own outline (io/area/scan_outline.hpp), with bays up to a third as
+// wide as the shorter side of the scan. Reads the scan once, then. Throws `Error`.
+LACUNA_API Area area_or_outline(FileScan& scan, const FilesConfig& config, Progress& progress);
 
 // A place is empty if no point lies nearer to it than half of the void size, seen from above. Voids are what
 // the circles around empty places cover within the area.

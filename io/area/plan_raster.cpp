@@ -93,6 +93,16 @@ void visit_runs(const PlanPolygon& polygon, Frame frame, const PlanGrid& grid, s
 
 }  // namespace
 
+PlanGrid PlanGrid::over(const Eigen::AlignedBox2d& box, double size) {
+  PlanGrid grid{.size = size};
+  const Eigen::Array2d end = grid.to_cells(box.max()).array().ceil();
+  const Eigen::Array2d first = grid.to_cells(box.min()).array().floor();
+  grid.first = first;
+  grid.columns = static_cast<std::size_t>(end.x() - first.x());
+  grid.rows = static_cast<std::size_t>(end.y() - first.y());
+  return grid;
+}
+
 void PlanRaster::set(std::size_t row, std::size_t from, std::size_t to) {
   std::uint64_t* const words = words_.data() + row * words_of_row_;
   for_each_word(from, to, [&](std::size_t word, std::uint64_t mask) { words[word] |= mask; });
@@ -127,6 +137,14 @@ PlanRaster rasterise(std::span<const PlanPolygon> polygons, const PlanGrid& grid
                  [&](std::size_t row, std::size_t from, std::size_t to) { raster.set(row, from, to); });
   }
   return raster;
+}
+
+void PlanRaster::fill() {
+  for (std::size_t row = 0; row < rows(); ++row) set(row, 0, columns_);
+}
+
+void PlanRaster::intersect(const PlanRaster& other) {
+  for (std::size_t i = 0; i < words_.size(); ++i) words_[i] &= other.words_[i];
 }
 
 void PlanRaster::subtract(const PlanRaster& other) {

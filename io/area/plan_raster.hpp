@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace lacuna::io {
 
@@ -23,6 +24,9 @@ struct PlanGrid {
   double size = 0;             // of so many cells in a row, in units of the scan
   Eigen::Array2d first{0, 0};  // the cell in the south-west, in cells from 0 0; whole numbers
   std::size_t columns = 0, rows = 0;
+
+  // Returns the cells over a box, whose numbers fit into integers.
+  static PlanGrid over(const Eigen::AlignedBox2d& box, double size);
 
   double edge() const { return size / kCells; }  // of a cell
   double area(std::uint64_t cells) const {
@@ -60,7 +64,9 @@ class PlanRaster {
   void set(std::size_t row, std::size_t from, std::size_t to);
   void clear(std::size_t row, std::size_t from, std::size_t to);
   std::uint64_t count() const;
-  void subtract(const PlanRaster& other);  // of the same grid
+  void fill();                              // sets all cells
+  void subtract(const PlanRaster& other);   // of the same grid
+  void intersect(const PlanRaster& other);  // likewise
   // Calls visit(column) for the set cells of a row, from west to east.
   template <class Visit>
   void for_each_in(std::size_t row, const Visit& visit) const {

@@ -4,11 +4,9 @@
 
 #include "engine/export.hpp"
 #include "io/area/plan_polygon.hpp"
+#include "io/area/polygonise.hpp"
 
-#include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -24,9 +22,7 @@ struct TracedVoid {
 };
 
 struct TraceTask {
-  std::size_t columns, rows;
-  // Writes the values of the cells of a row; 0: no void. It is called for each row several times.
-  std::function<void(std::size_t row, std::span<std::uint8_t> values)> row;
+  RasterRows raster;
   std::vector<TracedVoid> voids;
 };
 

@@ -49,7 +49,7 @@ void check_boxes(const InputConfig& input) {
 // MiB.
 void check_memory_of_outputs(const OutputConfig& output, const AreaConfig& area, std::uint64_t memory_limit) {
   constexpr std::uint64_t kMiB = 1 << 20, kLeast = 64, kReport = 32, kGis = 48;
-  const bool has_gis = has_loops_for_gis(output) || !area.area.empty();
+  const bool has_gis = has_loops_for_gis(output) || area.is_wanted();
   const std::uint64_t least = kLeast + (output.report ? kReport : 0) + (has_gis ? kGis : 0);
   if (memory_limit == 0 || memory_limit >= least * kMiB) return;
   const std::string outputs = output.report && has_gis ? "a report and files for GIS"
@@ -107,7 +107,8 @@ VoidSize void_size_of(const AreaConfig& area) {
     size.unit = kUnitNames[static_cast<std::size_t>(LengthUnit::kM)];
   }
   if ((!is_level && !read_length(length, size)) || !(size.length > 0 && size.length <= kMost))
-    throw Error("void_rule = " + quote(area.void_rule) + (area.void_rule.empty() ? ": --area needs it" : "") +
+    throw Error("void_rule = " + quote(area.void_rule) +
+                (area.void_rule.empty() ? ": a check of an area needs it" : "") +
                 "; allowed: " + kAllowedRules);
   size.length *= spacings;
   return size;
@@ -121,7 +122,7 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
   InputConfig& input = config.input;
   AreaConfig& area = config.area;
   OutputConfig& output = config.output;
-  const std::string_view no_area = area.area.empty() ? "--area" : "";
+  const std::string_view no_area = area.is_wanted() ? "" : "--area";
   const std::string_view no_points = config.results.points ? "" : "--points";
   const std::string_view no_gis = has_loops_for_gis(output) ? "" : "--gpkg or --geojson";
   return {
@@ -202,7 +203,9 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
       {"output", "local_coordinates", Changes::kNothingKept, &output.local_coordinates, 0, 1, "true or false",
        "Coordinates of PLY files are 32-bit floats relative to an offset, which their headers state."},
       {"output", "report", Changes::kNothingKept, &output.report, 0, 1, "true or false",
-       "Write report.html too: the scan and its holes in 3D, for a browser."},
+       "Write report.html too: the scan and its holes in 3D, for a browser; of a check, one sheet with its "
+       "answer "
+       "and a map."},
   };
 }
 
@@ -223,7 +226,7 @@ void check_config(const FilesConfig& config) {
   FilesConfig checked = config;
   check_ranges(file_parameters(checked));
   check_boxes(config.input);
-  if (!config.area.area.empty()) void_size_of(config.area);
+  if (config.area.is_wanted()) void_size_of(config.area);
   check_memory_of_outputs(config.output, config.area, config.run.memory_limit);
 }
 

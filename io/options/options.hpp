@@ -66,6 +66,9 @@ struct AreaConfig {
   std::string classes;       // files of polygons, divided by commas
   std::string void_rule;     // as in void_size_of
   double area_tile = 0;      // edge of the squares of the table; 0: no table
+  bool is_check = false;  // of `lacuna check`: without a file, the scan's outline is the area; no parameter
+
+  bool is_wanted() const { return !area.empty() || is_check; }
 };
 
 // The diameter of the least void.

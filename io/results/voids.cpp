@@ -3,6 +3,7 @@
 
 #include "io/files/number.hpp"
 #include "io/loops/json.hpp"
+#include "io/report/area_sheet.hpp"
 #include "io/results/gis_library.hpp"
 #include "io/results/results.hpp"
 
@@ -81,7 +82,7 @@ void write_list(std::string_view key, const List& elements, const Write& write, 
 void write_json(const AreaCheck& check, const FileScan& scan, const AreaConfig& config, OutputFile& out) {
   Json head = begin_json(kVoidsSchema);
   put_crs(scan, head);
-  head["file"] = config.area;
+  head["file"] = config.area.empty() ? Json() : Json(config.area);
   head["except"] = config.except.empty() ? Json() : Json(config.except);
   head["basis"] = Json::array();
   for (const auto& [thing, what] : check.basis) head["basis"].push_back({thing, what});
@@ -148,8 +149,16 @@ void add_voids(const AreaCheck& check, const FileScan& scan, const AreaConfig& c
 }
 
 std::vector<std::filesystem::path> write_voids(const AreaCheck& check, const FileScan& scan,
-                                               const AreaConfig& config, ResultFolder& folder) {
-  add_voids(check, scan, config, folder);
+                                               const FilesConfig& config, ResultFolder& folder) {
+  add_voids(check, scan, config.area, folder);
+  if (config.output.report) {
+    const auto& files = scan.files();
+    const AreaSheet sheet{.title = files.size() == 1 ? files.front().name.filename().string()
+                                                     : std::to_string(files.size()) + " files",
+                          .unit = scan.length_unit(),
+                          .crs = scan.common_crs()};
+    folder.add("report.html", [&](OutputFile& out) { write_area_sheet(check, sheet, config.area, out); });
+  }
   scan.check_unchanged();
   return folder.commit();
 }

@@ -45,6 +45,7 @@ class VoidsWriter {
                                              {"points", OFTInteger64},
                                              {"density", OFTReal},
                                              {"spacing", OFTReal}}));
+    write_styles();
     dataset_.reset();
     require(true);
     return is_understood;
@@ -65,6 +66,49 @@ class VoidsWriter {
       require(layer->CreateField(&field) == OGRERR_NONE);
     }
     return *layer;
+  }
+
+  // QGIS draws a layer by its row in this table. GDAL does not list the table as a layer of data.
+  void write_styles() const {
+    struct Style {
+      const char *layer, *fill, *line;  // red, green, blue, opacity
+    };
+    CPLStringList options;
+    options.AddString("ASPATIAL_VARIANT=NOT_REGISTERED");
+    options.AddString("FID=id");
+    OGRLayer* const table = dataset_->CreateLayer("layer_styles", nullptr, wkbNone, options.List());
+    require(table != nullptr);
+    for (const char* const name : {"f_table_catalog", "f_table_schema", "f_table_name", "f_geometry_column",
+                                   "styleName", "styleQML", "styleSLD", "description", "owner"}) {
+      OGRFieldDefn field(name, OFTString);
+      require(table->CreateField(&field) == OGRERR_NONE);
+    }
+    OGRFieldDefn is_default("useAsDefault", OFTInteger), time("update_time", OFTDateTime);
+    is_default.SetSubType(OFSTBoolean);
+    require(table->CreateField(&is_default) == OGRERR_NONE && table->CreateField(&time) == OGRERR_NONE);
+    for (const auto& [layer, fill, line] : {Style{kVoidsLayer, "210,68,15,140", "210,68,15,255"},
+                                            Style{kAreaLayer, "255,255,255,0", "26,30,33,255"},
+                                            Style{kTilesLayer, "27,95,180,40", "89,98,105,120"}}) {
+      if (dataset_->GetLayerByName(layer) == nullptr) continue;
+      OGRFeature feature(table->GetLayerDefn());
+      for (const char* const empty : {"f_table_catalog", "f_table_schema", "styleSLD", "owner"})
+        feature.SetField(empty, "");
+      feature.SetField("f_table_name", layer);
+      feature.SetField("f_geometry_column", "geom");
+      feature.SetField("styleName", "lacuna");
+      feature.SetField("description", "colours of lacuna");
+      feature.SetField("useAsDefault", 1);
+      feature.SetField("update_time", kSameTime);
+      feature.SetField(
+          "styleQML",
+          ("<!DOCTYPE qgis><qgis version=\"3.22\" styleCategories=\"Symbology\"><renderer-v2 "
+           "type=\"singleSymbol\"><symbols><symbol type=\"fill\" name=\"0\" alpha=\"1\"><layer "
+           "class=\"SimpleFill\" enabled=\"1\"><prop k=\"style\" v=\"solid\"/><prop k=\"color\" v=\"" +
+           std::string(fill) + "\"/><prop k=\"outline_color\" v=\"" + line +
+           "\"/><prop k=\"outline_width\" v=\"0.3\"/></layer></symbol></symbols></renderer-v2></qgis>")
+              .c_str());
+      require(table->CreateFeature(&feature) == OGRERR_NONE);
+    }
   }
 
   static void set(OGRFeature& feature, int field, double value) {

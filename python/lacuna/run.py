@@ -80,7 +80,7 @@ def detect(
 
 def check(
     files: Union[Path, Iterable[Path]],
-    area: Path,
+    area: Optional[Path] = None,
     *,
     out: Optional[Path] = None,
     progress: Optional[Progress] = None,
@@ -88,12 +88,17 @@ def check(
 ) -> dict[str, Any]:
     """Checks whether scan files cover the polygons of `area`, as `lacuna check` does. Returns what voids.json has.
 
+    area: file of polygons; None: the scan's own outline, seen from above.
     out: folder for voids.json, voids.csv and voids.gpkg; by default they are not kept.
     Other arguments are parameters of the input and of the area, memory_limit and threads; others are refused.
     """
     with tempfile.TemporaryDirectory(prefix="lacuna-") as kept:
         folder = os.path.join(kept, "voids") if out is None else os.fspath(out)
-        checked = _checked({**params, "area": area}, of_check=True)
+        if area is not None:
+            if not os.fspath(area):
+                raise _core.Error("area: is empty; allowed: a file of polygons, or None for the scan's own outline")
+            params["area"] = area
+        checked = _checked(params, of_check=True)
         for warning in _core.check_files(_names(files), checked, folder, progress):
             warnings.warn(warning, LacunaWarning, stacklevel=2)
         with open(os.path.join(folder, "voids.json"), encoding="utf-8") as file:

@@ -307,6 +307,9 @@ class Files(Folder):
         self.assertEqual(lacuna.check(self.folder / "s.xyz", area, void_rule=9), checked)
         with self.assertRaisesRegex(lacuna.Error, "area"):
             lacuna.check(self.folder / "s.xyz", "")
+        outline = lacuna.check(self.folder / "s.xyz", void_rule=9)
+        self.assertIsNone(outline["file"])
+        self.assertIn("the scan's own outline", dict(outline["basis"])["area"])
         with self.assertRaisesRegex(TypeError, "min_confidence is no parameter of a check"):
             lacuna.check(self.folder / "s.xyz", area, void_rule=9, min_confidence=0.9)
 

@@ -6,6 +6,7 @@
 #include "tools/commands/commands.hpp"
 #include "tools/commands/detect_command.hpp"
 #include "tools/console/area_text.hpp"
+#include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
 #include "tools/console/visible_text.hpp"
 #include "tools/run/folders.hpp"
@@ -37,20 +38,27 @@ struct CheckArguments {
 
 // Throws `AnswerIsNo` unless the scan covers the area, so that scripts see it.
 void run_check(const CheckArguments& arguments) {
-  const FilesConfig config = arguments.run.start();
-  if (config.area.area.empty()) throw WrongOption("--area is required");
+  FilesConfig base;
+  base.area.is_check = true;
+  const FilesConfig config = arguments.run.start(std::move(base));
   if (config.area.area_tile > 0 && arguments.run.out.empty())
     spdlog::warn("--area-tile changes nothing without --out");
+  if (config.output.report && arguments.run.out.empty())
+    spdlog::warn("--report changes nothing without --out");
   const std::unique_ptr<FileScan> scan = open_inputs(expand_inputs(arguments.scans, config), config);
-  Area area = *read_area(*scan, config);
   std::optional<OutFolder> out;
   if (!arguments.run.out.empty()) {
     out.emplace(arguments.run.out, kVoidsFile);
     check_not_input(out->results(), *scan);
   }
   const std::unique_ptr<Progress> progress = arguments.run.show_progress();
+  Area area = area_or_outline(*scan, config, *progress);
+  const double bay = area.bay;
   const PlanGrid grid = area.grid;
   const AreaCheck check = check_area(std::move(area), *scan, config, *progress);
+  if (bay > 0)
+    spdlog::info("without --area, the area is the scan's own outline in plan, with bays up to {} wide",
+                 print_length(bay, scan->length_unit()));
   print_warnings(area_warnings(check, scan->length_unit()));
   const Eigen::Vector2d size(static_cast<double>(grid.columns), static_cast<double>(grid.rows));
   const Eigen::Vector2d min = grid.from_cells({0, 0}), max = grid.from_cells(size);
@@ -64,13 +72,14 @@ void run_check(const CheckArguments& arguments) {
   text += "  area  " + print_covered(check, unit) + "\n" + print_classes(check, unit) + "\n" +
           print_basis(check) + "\n";
   if (out) {
-    for (const auto& file : write_voids(check, *scan, config.area, out->results()))
+    for (const auto& file : write_voids(check, *scan, config, out->results()))
       text += "written: " + visible(file.string()) + "\n";
     note_complete_results();
   }
   if (!arguments.run.quiet) std::cout << text;
   if (check.answer() != AreaAnswer::kCovered)
-    throw AnswerIsNo{config.area.area + ": " + answer, check.answer() == AreaAnswer::kVoids};
+    throw AnswerIsNo{(bay > 0 ? "outline of the scan" : config.area.area) + ": " + answer,
+                     check.answer() == AreaAnswer::kVoids};
 }
 
 }  // namespace

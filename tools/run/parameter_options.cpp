@@ -64,7 +64,7 @@ ReadParameters parameters_of_run() {
 }
 
 ReadParameters parameters_of_check() {
-  return {.common = {"area", "bounds", "where", "memory_limit"}, .rare = {"input", "threads"}};
+  return {.common = {"area", "report", "bounds", "where", "memory_limit"}, .rare = {"input", "threads"}};
 }
 
 ReadParameters parameters_of_process() {
