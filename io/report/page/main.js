@@ -54,7 +54,7 @@ class Page {
           draw_triad(view.navigation.camera);
           if (this.data.report.crs && this.data.frame.up === 2) draw_north(view.navigation.camera);
           if (this.sight) { this.sight.draw(); this.station_marks.draw(); }
-          if (this.names) this.names.draw(this.table.shown);
+          if (this.names) this.names.draw(this.table.shown, this.selected);
           if (this.measure) this.measure.draw();
         },
         on_pick: (x, y) => {
