@@ -16,9 +16,16 @@ namespace {
 
 constexpr int kFiner = 2;  // pixels are drawn in so many by so many parts
 constexpr float kMargin = 1.05f;
-constexpr const char* kUndrawn = "the loop runs through points far from all others, and is not drawn";
-constexpr float kLineWidth = 2.5f;  // pixels
+constexpr const char* kUndrawn =
+    "the loop is not drawn: it runs through points far from all others, or lies above --hide-above";
+constexpr float kNearer = 3;  // spacings
+constexpr float kLineWidth = 2.5f, kThin = 1.5f,
+                kThick = 4.5f;  // pixels; the last two where a loop is chosen
 const Eigen::Vector3f kPaper(255, 255, 255), kSurface(206, 210, 216), kBoundary(0, 84, 74);
+
+Eigen::Vector3f pale(const Eigen::Vector3f& colour) {
+  return kPaper - 0.25f * (kPaper - colour);
+}
 
 // Colours and depths of the parts of a picture's rows from `first_row` on. A larger depth is nearer.
 class Canvas {
@@ -39,19 +46,45 @@ class Canvas {
 
   // Draws at (x, y) in parts from the top left corner. A nearer part stays.
   void disc(float x, float y, float radius, float depth, const Eigen::Vector3f& colour) {
-    if (!reaches(y - radius, y + radius)) return;
-    const int top = std::max(first_, static_cast<int>(std::ceil(y - radius)));
-    const int bottom = std::min(end_ - 1, static_cast<int>(std::floor(y + radius)));
-    for (int row = top; row <= bottom; ++row) {
-      const float half = std::sqrt(std::max(0.0f, radius * radius - (float(row) - y) * (float(row) - y)));
-      const int left = std::max(0, static_cast<int>(std::ceil(x - half)));
-      const int right = std::min(width_ - 1, static_cast<int>(std::floor(x + half)));
-      for (int column = left; column <= right; ++column) {
-        const std::size_t at = std::size_t(row - first_) * std::size_t(width_) + std::size_t(column);
-        if (depth < depths_[at]) continue;
-        depths_[at] = depth;
-        colours_[at] = colour;
+    for_each_in_disc(x, y, radius, [&](std::size_t at) {
+      if (depth < depths_[at]) return;
+      depths_[at] = depth;
+      colours_[at] = colour;
+    });
+  }
+
+  // Whether nothing nearer is at a place; never outside of the canvas.
+  bool shows(float x, float y, float depth) const {
+    bool is_shown = false;
+    for_each_in_disc(std::round(x), std::round(y), 0,
+                     [&](std::size_t at) { is_shown = depth >= depths_[at]; });
+    return is_shown;
+  }
+
+  // Draws over all that is there. What comes later is before or behind as if it were not there.
+  void overlay(float x, float y, float radius, const Eigen::Vector3f& colour) {
+    for_each_in_disc(x, y, radius, [&](std::size_t at) { colours_[at] = colour; });
+  }
+
+  // Makes pale what lies within a closed outline, by the even-odd rule, and beyond a plane. Its depth at (x,
+  // y) is the scalar product of `plane` and (x, y, 1).
+  void veil(const std::vector<Eigen::Vector3f>& outline, const Eigen::Vector3f& plane) {
+    std::vector<float> crossings;
+    for (int row = first_; row < end_; ++row) {
+      const auto y = static_cast<float>(row);
+      crossings.clear();
+      for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Eigen::Vector3f &a = outline[i], &b = outline[(i + 1) % outline.size()];
+        if ((a.y() > y) != (b.y() > y))
+          crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
       }
+      std::sort(crossings.begin(), crossings.end());
+      for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
+        for_each_between(row, crossings[i], crossings[i + 1], [&](std::size_t at) {
+          const std::size_t column = at % static_cast<std::size_t>(width_);
+          if (depths_[at] < plane.dot(Eigen::Vector3f(static_cast<float>(column), y, 1)))
+            colours_[at] = pale(colours_[at]);
+        });
     }
   }
 
@@ -72,6 +105,26 @@ class Canvas {
   }
 
  private:
+  template <class Visit>
+  void for_each_between(int row, float left, float right, const Visit& visit) const {
+    const auto limit = [&](float x) { return std::clamp(x, -1.0f, static_cast<float>(width_)); };
+    const int first = std::max(0, static_cast<int>(std::ceil(limit(left))));
+    const int last = std::min(width_ - 1, static_cast<int>(std::floor(limit(right))));
+    for (int column = first; column <= last; ++column)
+      visit(std::size_t(row - first_) * std::size_t(width_) + std::size_t(column));
+  }
+
+  template <class Visit>
+  void for_each_in_disc(float x, float y, float radius, const Visit& visit) const {
+    if (!reaches(y - radius, y + radius)) return;
+    const int top = std::max(first_, static_cast<int>(std::ceil(y - radius)));
+    const int bottom = std::min(end_ - 1, static_cast<int>(std::floor(y + radius)));
+    for (int row = top; row <= bottom; ++row) {
+      const float half = std::sqrt(std::max(0.0f, radius * radius - (float(row) - y) * (float(row) - y)));
+      for_each_between(row, x - half, x + half, visit);
+    }
+  }
+
   int width_, height_, first_, end_;  // parts
   std::vector<Eigen::Vector3f> colours_;
   std::vector<float> depths_;
@@ -91,7 +144,7 @@ class Projection {
     return {corner_.x() + scale_ * from.dot(view_.right), corner_.y() - scale_ * from.dot(view_.up),
             from.dot(view_.towards)};
   }
-  bool is_drawn(float depth) const { return view_.half_depth == 0 || std::abs(depth) <= view_.half_depth; }
+  bool is_drawn(float depth) const { return depth <= view_.before; }
 
  private:
   View view_;
@@ -120,28 +173,68 @@ void draw_points(const Scene::Points& points, const View& view, const Projection
   }
 }
 
-// Curves lie on points: they are drawn a little nearer, so that these do not hide them.
-void draw_loops(const Scene& scene, const Projection& project, Canvas& canvas) {
-  const float nearer = 3 * scene.points.spacing;
-  const Scene::Loops& loops = scene.loops;
-  for (std::size_t loop = 0; loop < loops.ids.size(); ++loop) {
-    const auto [red, green, blue] = io::colour_of(loops.measures[loop].kind);
-    const Eigen::Vector3f colour(red, green, blue);
-    const std::size_t first = loops.first[loop], end = loops.first[loop + 1];
-    for (std::size_t i = first; i < end; ++i) {
-      const Eigen::Vector3f a = project(loops.vertices[i]);
-      const Eigen::Vector3f b = project(loops.vertices[i + 1 < end ? i + 1 : first]);
-      const float length = std::max((b - a).head<2>().norm(), 1.0f);
-      if (length > 4 * float(canvas.height())) continue;  // far beyond the picture
-      const float reach = kLineWidth * kFiner;
-      if (!canvas.reaches(std::min(a.y(), b.y()) - reach, std::max(a.y(), b.y()) + reach)) continue;
-      for (float along = 0; along <= length; along += 1) {
-        const Eigen::Vector3f at = a + along / length * (b - a);
-        if (project.is_drawn(at.z()))
-          canvas.disc(at.x(), at.y(), kLineWidth * kFiner / 2, at.z() + nearer, colour);
-      }
+// Calls `draw(x, y, depth)` for each part of a loop, as far as the canvas has it.
+template <class Draw>
+void trace(const Scene::Loops& loops, std::size_t loop, const Projection& project, const Canvas& canvas,
+           const Draw& draw) {
+  const std::size_t first = loops.first[loop], end = loops.first[loop + 1];
+  for (std::size_t i = first; i < end; ++i) {
+    const Eigen::Vector3f a = project(loops.vertices[i]);
+    const Eigen::Vector3f b = project(loops.vertices[i + 1 < end ? i + 1 : first]);
+    const float length = std::max((b - a).head<2>().norm(), 1.0f);
+    if (length > 4 * float(canvas.height())) continue;  // far beyond the picture
+    const float reach = kThick * kFiner;
+    if (!canvas.reaches(std::min(a.y(), b.y()) - reach, std::max(a.y(), b.y()) + reach)) continue;
+    for (float along = 0; along <= length; along += 1) {
+      const Eigen::Vector3f at = a + along / length * (b - a);
+      if (project.is_drawn(at.z())) draw(at.x(), at.y(), at.z());
     }
   }
+}
+
+// Makes what lies behind a hole pale, so that the hole does not look like a closed surface.
+void veil_behind(const Scene& scene, std::size_t hole, const View& view, const Projection& project,
+                 Canvas& canvas) {
+  const Scene::Loops& loops = scene.loops;
+  std::vector<Eigen::Vector3f> outline;
+  for (std::size_t i = loops.first[hole]; i < loops.first[hole + 1]; ++i)
+    outline.push_back(project(loops.vertices[i]));
+  const LoopMeasures& measures = loops.measures[hole];
+  const Eigen::Vector3f normal = measures.normal.cast<float>();
+  const float ahead = normal.dot(view.towards);
+  if (!(std::abs(ahead) > 0.1f)) return;
+  const Eigen::Vector3f middle = project((measures.centroid - scene.origin).cast<float>());
+  const float right = -normal.dot(view.right) / ahead / project.scale();
+  const float down = normal.dot(view.up) / ahead / project.scale();
+  canvas.veil(
+      outline,
+      {right, down, middle.z() - right * middle.x() - down * middle.y() - kNearer * scene.points.spacing});
+}
+
+// Curves lie on points: they are drawn a little nearer, so that these do not hide them.
+void draw_loops(const Scene& scene, const View& view, const Projection& project, Canvas& canvas) {
+  const float nearer = kNearer * scene.points.spacing;
+  const Scene::Loops& loops = scene.loops;
+  const auto colour_at = [&](std::size_t loop) {
+    const auto [red, green, blue] = io::colour_of(loops.measures[loop].kind);
+    return Eigen::Vector3f(red, green, blue);
+  };
+  if (view.loop && loops.measures[*view.loop].kind == LoopKind::kHole)
+    veil_behind(scene, *view.loop, view, project, canvas);
+  const float radius = (view.loop ? kThin : kLineWidth) * kFiner / 2;
+  for (std::size_t loop = 0; loop < loops.ids.size(); ++loop) {
+    if (loop == view.loop) continue;
+    const Eigen::Vector3f colour = view.loop ? pale(colour_at(loop)) : colour_at(loop);
+    trace(loops, loop, project, canvas,
+          [&](float x, float y, float depth) { canvas.disc(x, y, radius, depth + nearer, colour); });
+  }
+  if (!view.loop) return;
+  const Eigen::Vector3f colour = colour_at(*view.loop);
+  constexpr float kRadius = kThick * kFiner / 2;
+  trace(loops, *view.loop, project, canvas,
+        [&](float x, float y, float) { canvas.overlay(x, y, kRadius, pale(colour)); });
+  trace(loops, *view.loop, project, canvas,
+        [&](float x, float y, float depth) { canvas.disc(x, y, kRadius, depth + nearer, colour); });
 }
 
 View looking_from(const Eigen::Vector3f& towards, const Eigen::Vector3f& above) {
@@ -170,6 +263,41 @@ void fit(const std::vector<Eigen::Vector3f>& positions, float aspect, View& view
   view.half_height = std::max({half_height, half_width / aspect, 1e-6f * half_depth, 1e-30f}) * kMargin;
 }
 
+// The view of a loop along its normal, from the side that this points to.
+View view_along(const Scene& scene, std::size_t loop, const Eigen::Vector3f& normal, float aspect) {
+  View view =
+      looking_from(normal, std::abs(normal.z()) > 0.9f ? Eigen::Vector3f(0, 1, 0) : Eigen::Vector3f(0, 0, 1));
+  const auto first = scene.loops.vertices.begin() + static_cast<std::ptrdiff_t>(scene.loops.first[loop]);
+  const auto end = scene.loops.vertices.begin() + static_cast<std::ptrdiff_t>(scene.loops.first[loop + 1]);
+  fit({first, end}, aspect, view);
+  Eigen::AlignedBox3f box;
+  float foremost = 0;
+  for (auto vertex = first; vertex != end; ++vertex) {
+    box.extend(*vertex);
+    foremost = std::max(foremost, (*vertex - view.middle).dot(view.towards));
+  }
+  const float radius = std::max(box.diagonal().norm() / 2, 3 * scene.points.spacing);
+  view.half_height = std::max(2 * view.half_height, 10 * scene.points.spacing);
+  view.before = std::max(0.9f * radius, 1.2f * foremost);
+  view.loop = loop;
+  return view;
+}
+
+// The share of the vertices of a view's loop that the surface does not hide.
+float share_seen(const Scene& scene, const View& view, float aspect) {
+  const PictureSize size{static_cast<std::size_t>(std::clamp(300 * aspect, 1.0f, 3000.0f)), 300};
+  const Projection project(view, size);
+  Canvas canvas(size, 0, size.height);
+  draw_points(scene.points, view, project, false, canvas);
+  const auto& [ids, measures, first, vertices, all] = scene.loops;
+  std::size_t seen = 0;
+  for (std::size_t i = first[*view.loop]; i < first[*view.loop + 1]; ++i) {
+    const Eigen::Vector3f at = project(vertices[i]);
+    seen += canvas.shows(at.x(), at.y(), at.z() + kNearer * scene.points.spacing);
+  }
+  return static_cast<float>(seen) / static_cast<float>(first[*view.loop + 1] - first[*view.loop]);
+}
+
 View view_of_loop(const Scene& scene, std::string_view name, float aspect) {
   std::uint64_t id = 0;
   const auto& ids = scene.loops.ids;
@@ -181,21 +309,28 @@ View view_of_loop(const Scene& scene, std::string_view name, float aspect) {
                      (ids.empty() ? "; there are no loops" : ", such as " + std::to_string(ids.front())));
   }
   const auto loop = static_cast<std::size_t>(found - ids.begin());
-  const LoopMeasures& measures = scene.loops.measures[loop];
-  Eigen::Vector3f normal = measures.normal.cast<float>();
+  if (scene.loops.first[loop] == scene.loops.first[loop + 1])
+    throw Error("view '" + std::string(name) + "': " + kUndrawn);
+  Eigen::Vector3f normal = scene.loops.measures[loop].normal.cast<float>();
   if (!(normal.norm() > 0.5f)) normal = {0, 0, 1};
-  // The view is mostly from above; a loop in a wall is drawn upright.
+  // Mostly from above, and a loop in a wall is drawn upright. The other side and views aslant are for what
+  // hides it.
   if (normal.z() < -0.01f) normal = -normal;
-  View view =
-      looking_from(normal, std::abs(normal.z()) > 0.9f ? Eigen::Vector3f(0, 1, 0) : Eigen::Vector3f(0, 0, 1));
-  const auto first = scene.loops.vertices.begin() + static_cast<std::ptrdiff_t>(scene.loops.first[loop]);
-  const auto end = scene.loops.vertices.begin() + static_cast<std::ptrdiff_t>(scene.loops.first[loop + 1]);
-  if (first == end) throw Error("view '" + std::string(name) + "': " + kUndrawn);
-  fit({first, end}, aspect, view);
-  const auto diameter = static_cast<float>(measures.diameter);
-  view.half_height = std::max(2 * view.half_height, 10 * scene.points.spacing);
-  view.half_depth = std::max(2 * diameter, 10 * scene.points.spacing);
-  return view;
+  const Eigen::Vector3f aslant = 0.7f * normal.unitOrthogonal(), across = normal.cross(aslant);
+  View best;
+  float most = -1;
+  for (const Eigen::Vector3f& side :
+       {Eigen::Vector3f(0, 0, 0), aslant, Eigen::Vector3f(-aslant), across, Eigen::Vector3f(-across)}) {
+    for (const float sign : {1.0f, -1.0f}) {
+      if (most > 0.9f) return best;
+      const View view = view_along(scene, loop, (sign * normal + side).normalized(), aspect);
+      const float seen = share_seen(scene, view, aspect);
+      if (seen <= most + 0.1f) continue;
+      most = seen;
+      best = view;
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -225,7 +360,7 @@ void render(const Scene& scene, const View& view, PictureSize size, bool as_it_c
   for (std::size_t row = 0; row < size.height; row += band) {
     Canvas canvas(size, row, std::min(band, size.height - row));
     draw_points(scene.points, view, project, as_it_came, canvas);
-    draw_loops(scene, project, canvas);
+    draw_loops(scene, view, project, canvas);
     canvas.take_rows(take_row);
   }
 }

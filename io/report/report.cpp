@@ -7,12 +7,14 @@
 #include "io/loops/loop_measures.hpp"
 #include "io/report/base64.hpp"
 #include "io/report/page.hpp"
+#include "io/report/roof.hpp"
 #include "io/report/scene.hpp"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -139,6 +141,7 @@ Json loops_of(const Scene::Loops& loops, int decimals) {
 Json report_of(const Scene& scene) {
   const Json& holes = scene.holes;
   const Scene::Points& points = scene.points;
+  const std::optional<double> roof = roof_height(scene);
   return {{"lacuna", holes.at("lacuna")},
           {"title", title_of(holes.at("inputs"))},
           {"crs", holes.at("crs")},
@@ -147,6 +150,7 @@ Json report_of(const Scene& scene) {
           {"counts", holes.at("counts")},
           {"bounds", corners(scene.bounds)},
           {"strays", scene.strays},
+          {"roof", roof ? Json(*roof) : Json()},
           {"resolution", holes.at("resolution")},
           {"median_distance", holes.at("median_distance")},
           {"surface_area", holes.value("surface_area", 0.0)},

@@ -29,19 +29,15 @@ void hide_points_above(float height, Scene::Points& points) {
 }
 
 void hide_loops_above(float height, Scene::Loops& loops) {
-  std::vector<std::size_t> shown;
   std::vector<Eigen::Vector3f> vertices;
   std::vector<std::size_t> first = {0};
   for (std::size_t loop = 0; loop < loops.ids.size(); ++loop) {
     const auto begin = loops.vertices.begin() + static_cast<std::ptrdiff_t>(loops.first[loop]);
     const auto end = loops.vertices.begin() + static_cast<std::ptrdiff_t>(loops.first[loop + 1]);
-    if (std::all_of(begin, end, [&](const Eigen::Vector3f& v) { return v.z() > height; })) continue;
-    shown.push_back(loop);
-    std::copy(begin, end, std::back_inserter(vertices));
+    if (std::any_of(begin, end, [&](const Eigen::Vector3f& v) { return v.z() <= height; }))
+      std::copy(begin, end, std::back_inserter(vertices));
     first.push_back(vertices.size());
   }
-  keep(loops.ids, shown);
-  keep(loops.measures, shown);
   loops.vertices = std::move(vertices);
   loops.first = std::move(first);
 }

@@ -6,8 +6,8 @@
 
 namespace lacuna::io {
 
-// Leaves out the points above `height`, in coordinates of the scan, and the loops that lie above it with all
-// of their vertices. Cost: linear.
+// Leaves out the points above `height`, in coordinates of the scan. Loops that lie above it with all of their
+// vertices have none afterwards, as loops through strays. Cost: linear.
 void hide_above(Scene& scene, double height);
 
 }  // namespace lacuna::io

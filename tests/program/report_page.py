@@ -99,14 +99,54 @@ def check_flight(driver):
     require(driver.execute_script("return lacuna.selected()") is None, "Escape deselects")
 
 
+# Pixels that the veil takes away from the background, such as those of lines over it, and those that it changes.
+BEHIND = """
+const {scenes} = lacuna.view, ground = lacuna.colours().view;
+const contrast = ({pixels}, i) => [0, 1, 2].reduce((sum, k) => sum + Math.abs(pixels[i + k] - ground[k]), 0);
+const {plane} = scenes.veil;
+const pale = lacuna.read_pixels();
+scenes.veil.plane = null;
+const plain = lacuna.read_pixels();
+scenes.veil.plane = plane;
+let darker = 0, changed = 0;
+for (let i = 0; i < pale.pixels.length; i += 4) {
+  const [with_veil, without] = [contrast(pale, i), contrast(plain, i)];
+  if (with_veil !== without) ++changed;
+  if (with_veil > without) ++darker;
+}
+return [darker, changed];"""
+
+
+def check_ids_apart(driver):
+    boxes = driver.execute_script("return Array.from(document.querySelectorAll('#names-over text:not([hidden])'), (text) => {"
+                                  "const {left, right, top, bottom} = text.getBoundingClientRect(); return [left, right, top, bottom]; });")
+    apart = all(a[1] <= b[0] or b[1] <= a[0] or a[3] - 2 <= b[2] or b[3] - 2 <= a[2] for i, a in enumerate(boxes) for b in boxes[:i])
+    require(apart, f"{len(boxes)} ids lie apart")
+
+
+def check_charts(driver):
+    """The histograms open below the table, so that its lines keep their place; on narrow screens they have a tab."""
+    is_narrow = driver.execute_script("return innerWidth < 900")
+    require(driver.execute_script("return document.getElementById('charts').open") == is_narrow, "charts are open in their tab alone")
+    if not is_narrow:
+        require(driver.execute_script("return document.getElementById('charts').getBoundingClientRect().top >="
+                                      "document.getElementById('rows').getBoundingClientRect().bottom - 1"), "charts lie below the table")
+
+
 def check_seen(driver):
     """A click shows the hole, whatever stands before it; in the order of the table, each from where the last one ended."""
     kinds = driver.execute_script("return Array.from(document.querySelectorAll('#body tr'), (row) => row.textContent.includes('hole'))")
+    veiled = 0
     for row in [i for i, is_hole in enumerate(kinds) if is_hole][:12]:
         driver.execute_script(f"document.querySelectorAll('#body tr')[{row}].click()")
         still(driver)
         share = driver.execute_script("return lacuna.seen()")
         require(share > 0.5, f"row {row + 1}: {100 * share:.0f} % of the loop is seen after a click")
+        darker, changed = driver.execute_script(BEHIND)
+        require(10 * darker <= changed, f"row {row + 1}: what lies behind the hole is pale ({changed} pixels)")
+        veiled += changed
+        check_ids_apart(driver)
+    require(veiled > 0 or driver.execute_script("return lacuna.stations") == 0, "a room has something behind its holes")
     press(driver, Keys.ESCAPE)
     still(driver)
 
@@ -253,6 +293,7 @@ def run(driver, arguments):
                 check_filter(driver, count)
                 check_typed(driver, count)
                 check_place(driver)
+                check_charts(driver)
                 check_flight(driver)
                 check_seen(driver)
                 check_inside(driver)

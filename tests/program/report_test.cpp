@@ -2,6 +2,7 @@
 // lacuna report and lacuna render on the results of runs. tests/program/report_page.sh has the page in a
 // browser.
 #include "engine/store/temporary_folder.hpp"
+#include "io/loops/loop_colours.hpp"
 #include "io/report/render.hpp"
 #include "io/report/scene.hpp"
 #include "tests/support/clouds.hpp"
@@ -11,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +31,7 @@ using nlohmann::json;
 using test::element;
 using test::read_file;
 using test::run_program;
+using test::Words;
 
 const Eigen::Vector3d kUtm(500'000, 5'400'000, 300);
 
@@ -334,6 +337,50 @@ TEST_CASE("numbers of a report have the digits that a reader needs") {
     for (const json& value : loops.at(name)) CHECK(value.dump().size() <= 8);
   for (const json& place : loops.at("centroid"))
     for (const json& value : place) CHECK(value.dump().size() <= 11);  // 5400000.123
+}
+
+// The share of a loop's pixels that are seen in a picture of it.
+double share_seen(Scene scene, std::uint64_t id) {
+  const View view = find_view(scene, std::to_string(id), 400, 300);
+  const auto [red, green, blue] = colour_of(scene.loops.measures[*view.loop].kind);
+  const Colour colour = {red, green, blue};
+  const auto count = [&] {
+    std::ptrdiff_t found = 0;
+    render(scene, view, {400, 300}, false,
+           [&](std::span<const Colour> row) { found += std::count(row.begin(), row.end(), colour); });
+    return static_cast<double>(found);
+  };
+  const double seen = count();
+  scene.points.positions.clear();
+  return seen / count();
+}
+
+TEST_CASE("each hole of a room and of a hollow body is seen in its own picture") {
+  test::ScratchFolder scratch;
+  const std::string room = (scratch / "room.ply").string();
+  REQUIRE(test::run_bench({"synth", "scan", room, "--stations", "1", "--points", "60000", "--seed", "2"})
+              .exit_code == 0);
+  Cloud body = sphere(20000);
+  for (const Eigen::Vector3d& axis : {Eigen::Vector3d(0, 0, -1), {1, 0, 0}, {0.6, 0, 0.8}, {0, -0.8, 0.6}})
+    std::erase_if(body.positions, [&](const Eigen::Vector3d& p) { return p.dot(axis) > 0.97 * p.norm(); });
+  for (const std::string& scan : {room, scratch.write("body.txt", body.text())}) {
+    const Scene scene = read_scene(test::detect(scan, scratch / (fs::path(scan).stem().string() + "_out")));
+    std::size_t holes = 0;
+    for (std::size_t loop = 0; loop < scene.loops.ids.size(); ++loop) {
+      if (scene.loops.measures[loop].kind != LoopKind::kHole) continue;
+      ++holes;
+      INFO(scan << ", hole " << scene.loops.ids[loop]);
+      CHECK(share_seen(scene, scene.loops.ids[loop]) > 0.5);
+    }
+    CHECK(holes >= 4);
+  }
+  // The ceiling is left out, with a word, as on the page; a height above all keeps it.
+  const std::string out = (scratch / "room_out").string(), picture = (scratch / "x.png").string();
+  const auto drawn = [&](const Words& more) {
+    return run_program(test::with({"render", out, "--out", picture, "--size", "90x60"}, more)).out;
+  };
+  CHECK_THAT(drawn({}), Contains("left out: the roof above 2.4") && Contains("--hide-above"));
+  CHECK_THAT(drawn({"--hide-above", "9"}), !Contains("left out"));
 }
 
 TEST_CASE("large pictures stay within 400 MiB") {

@@ -3,6 +3,7 @@
 #include "io/files/new_file.hpp"
 #include "io/files/number.hpp"
 #include "io/report/render.hpp"
+#include "io/report/roof.hpp"
 #include "io/report/section.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
@@ -44,6 +45,16 @@ std::pair<std::size_t, std::size_t> parse_size(const std::string& text) {
   return {width, height};
 }
 
+// The height of the roof that a view leaves out. A loop that reaches above it keeps it, as in the page.
+std::optional<double> roof_before(const View& view, const Scene& scene) {
+  const std::optional<double> height = roof_height(scene);
+  if (!height || !view.loop) return height;
+  const auto& [ids, measures, first, vertices, all] = scene.loops;
+  for (std::size_t i = first[*view.loop]; i < first[*view.loop + 1]; ++i)
+    if (scene.origin.z() + vertices[i].z() > *height) return std::nullopt;
+  return height;
+}
+
 void run_render(const RenderArguments& arguments) {
   const auto [width, height] = parse_size(arguments.size);
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
@@ -51,7 +62,10 @@ void run_render(const RenderArguments& arguments) {
   if (arguments.most_height && !std::isfinite(*arguments.most_height))
     throw WrongOption("--hide-above", "a finite height is allowed");
   Scene scene = read_scene(arguments.folder);
-  if (arguments.most_height) hide_above(scene, *arguments.most_height);
+  const std::optional<double> most_height =
+      arguments.most_height ? arguments.most_height
+                            : roof_before(find_view(scene, arguments.view, width, height), scene);
+  if (most_height) hide_above(scene, *most_height);
   const View view = find_view(scene, arguments.view, width, height);
   const PictureSize size{width, height};
   NewFile out(arguments.out, picture_mark(), overwrite);
@@ -60,6 +74,9 @@ void run_render(const RenderArguments& arguments) {
   png.finish();
   out.commit();
   std::cout << "written: " << visible(arguments.out.string()) << "\n";
+  if (most_height && !arguments.most_height)
+    std::cout << "left out: the roof above " << most_height.value()
+              << "; --hide-above with a greater height keeps it\n";
   if (scene.strays > 0)
     std::cout << "left out: " << scene.strays << (scene.strays == 1 ? " point" : " points")
               << " far from all others\n";
@@ -84,7 +101,8 @@ void add_render_command(const Command& program) {
   command.add_option("--size", arguments->size, "Width and height in pixels").type("WxH").show_default();
   command
       .add_option("--hide-above", arguments->most_height,
-                  "Draw nothing above this height, such as a ceiling; in units of the scan")
+                  "Draw nothing above this height, in units of the scan; by default nothing above a roof, "
+                  "where the scan has one")
       .real_number()
       .type("Z");
   command.add_flag("--as-it-came", arguments->as_it_came,

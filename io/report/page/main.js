@@ -54,7 +54,7 @@ class Page {
           draw_triad(view.navigation.camera);
           if (this.data.report.crs && this.data.frame.up === 2) draw_north(view.navigation.camera);
           if (this.sight) { this.sight.draw(); this.station_marks.draw(); }
-          if (this.names) this.names.draw(this.table.shown);
+          if (this.names) this.names.draw(this.table.shown, this.selected);
           if (this.measure) this.measure.draw();
         },
         on_pick: (x, y) => {
@@ -119,7 +119,7 @@ class Page {
     find("loop-colouring").addEventListener("change", () => this.set_by_cause(find("loop-colouring").value === "cause"));
     find("up-axis").addEventListener("change", () => this.turn_up(Number(find("up-axis").value)));
     this.section = new Section(this.data, this.view.bounds, this.units, (low, high) => this.apply_section(low, high));
-    this.section.open_roof(roof_height(this.data.points, this.view.bounds.box, this.data.frame.up));
+    this.section.open_roof(this.data.report.roof);
     for (const button of document.querySelectorAll("[data-side]")) {
       button.addEventListener("click", () => this.fly_to_side(button.dataset.side));
     }

@@ -2,6 +2,7 @@
 // Ids of holes over the view, and the hole that a place of the view lies in.
 
 const kMostNames = 60, kLeastPixels = 24;  // of a hole on the screen that has its id
+const kNamePixels = 15;  // height of an id
 
 // The pixels of a loop's vertices; null where one is behind the eye.
 function pixels_of_loop(view, {first, vertices}, index) {
@@ -62,17 +63,24 @@ class LoopNames {
   }
 
   // After each picture.
-  draw(shown) {
+  // The chosen one comes first, then the largest; an id that would lie on another one is left out.
+  draw(shown, selected) {
     if (this.shown !== shown) Object.assign(this, {shown, is_shown: new Set(shown)});
     const are_shown = find("show-loops").checked;
     const {focal} = view_pixels(this.view), {camera} = this.view.navigation;
-    this.largest.forEach((index, k) => {
+    const taken = [];
+    const order = Array.from(this.largest.keys()).sort((a, b) => (this.largest[b] === selected) - (this.largest[a] === selected) || a - b);
+    for (const k of order) {
+      const index = this.largest[k];
       const place = are_shown && this.is_shown.has(index) ? this.middles[k] : null;
       const ahead = place ? seen_from(camera, place)[2] : 0;
       const is_large = ahead > this.view.nearest() && (2 * this.radii[k] * focal) / ahead >= kLeastPixels;
-      const at = is_large ? pixel_of(this.view, place, 0) : null;
+      const pixel = is_large ? pixel_of(this.view, place, 0) : null;
+      const half = 4 * this.nodes[k].textContent.length + 2;
+      const at = pixel && taken.every(([x, y, wide]) => Math.abs(pixel[0] - x) >= half + wide || Math.abs(pixel[1] - y) >= kNamePixels) ? pixel : null;
+      if (at) taken.push([...at, half]);
       this.nodes[k].toggleAttribute("hidden", !at);
       if (at) this.nodes[k].setAttribute("transform", `translate(${at[0].toFixed(1)} ${at[1].toFixed(1)})`);
-    });
+    }
   }
 }

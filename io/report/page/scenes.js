@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is drawn: the points, their shading on the screen, the loops over them, and the loops as numbers for picking.
 
+const kDimmed = 0.3;  // opacity of the other loops when one is chosen
+
 class Scenes {
   constructor(data, spacing, uniforms, on_change) {
     Object.assign(this, {data, uniforms, on_change});
@@ -20,6 +22,7 @@ class Scenes {
     screen.frustumCulled = false;
     this.screen.add(screen);
     this.make_lines(data.loops);
+    this.veil = new Veil(data, uniforms);
   }
 
   make_lines(loops) {
@@ -38,9 +41,10 @@ class Scenes {
       outer: add("outer", {width: 2, order: 2}),
       hole_casing: add("hole", {width: 5.2, order: 3, opacity: 0.85}),
       hole: add("hole", {width: 3.2, order: 4}),
-      selected_casing: add("selected", {width: 9, order: 5}),
-      selected: add("selected", {width: 4.6, order: 6}),
+      selected_casing: add("selected", {width: 8.4, order: 5}),
+      selected: add("selected", {width: 5.4, order: 6}),
     };
+    this.opacities = Object.entries(this.passes).map(([name, {opacity}]) => [name, opacity.value]);
     const rows = Math.max(1, Math.ceil(loops.count / 256));
     this.loop_colours = new THREE.DataTexture(new Uint8Array(1024 * rows), 256, rows, THREE.RGBAFormat);
     this.passes.hole.loop_colours.value = this.loop_colours;
@@ -63,6 +67,11 @@ class Scenes {
   set_selected(index) {
     this.lines.selected.show(index < 0 ? [] : [index]);
     this.selected = index;
+    this.veil.choose(index);
+    // A chosen loop stands out from the others.
+    for (const [name, opacity] of this.opacities) {
+      this.passes[name].opacity.value = index < 0 || name.startsWith("selected") ? opacity : kDimmed * opacity;
+    }
     this.set_colours();
   }
 
@@ -111,7 +120,7 @@ class Scenes {
     if (this.by_cause) this.write_cause_colours(loops);
     set("hole_casing", "--casing");
     set("outer_casing", "--casing");
-    set("selected_casing", "--marked");
+    set("selected_casing", "--casing");
     set("selected", this.selected < 0 ? "--hole" : loop_style(loops, this.selected, this.by_cause));
     this.on_change();
   }
@@ -138,6 +147,8 @@ class Scenes {
     renderer.setClearColor(0, 0);
     renderer.clear();
     renderer.render(this.points, camera);
+    this.eye_dome.uniforms.pull.value = pull;
+    this.veil.draw(renderer, camera, target, this.eye_dome.uniforms);
     renderer.setRenderTarget(null);
     renderer.render(this.screen, camera);
     renderer.render(this.loops, camera);

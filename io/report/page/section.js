@@ -111,9 +111,9 @@ class Section {
     this.changed();
   }
 
-  // Hides what is above a roof's height, in scene coordinates, where there is one.
+  // Hides what is above a roof's height, where there is one.
   open_roof(height) {
-    if (height < Infinity) this.set(Number(real_height(this.frame, height).toFixed(this.above.decimals)), this.below.off);
+    if (Number.isFinite(height)) this.set(Number(height.toFixed(this.above.decimals)), this.below.off);
   }
 
   // Moves the heights that hide any of the box (scene coordinates, may be null) to where they hide nothing.

@@ -71,13 +71,21 @@ function eye_dome_material(camera_uniforms) {
     depthTest: false,
     depthWrite: false,
     uniforms: {...camera_uniforms, colour_map: {value: null}, background: {value: new THREE.Vector3()},
-               strength: {value: 60}, slack: {value: 0}},
+               strength: {value: 60}, slack: {value: 0}, mask_map: {value: null}, veil: {value: new THREE.Vector4()}, pull: {value: 0}},
     vertexShader: `void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }`,
     fragmentShader: `
       ${kDepthShader}
       uniform sampler2D colour_map;
       uniform vec3 background;
+      uniform sampler2D mask_map;  // where the chosen hole is
+      uniform vec4 veil;           // its plane: normal and distance from the eye; 0 for none
+      uniform float focal, pull;
       uniform float strength, pixel_ratio, has_depth, slack;  // slack: steps between discs of one surface
+      bool is_behind_hole(float away) {
+        if (veil.xyz == vec3(0.0) || texture2D(mask_map, gl_FragCoord.xy / resolution).x < 0.5) return false;
+        vec3 ray = vec3((gl_FragCoord.xy - 0.5 * resolution) / focal, -1.0);
+        return away > veil.w / dot(veil.xyz, ray) + pull;
+      }
       float step_to(float here, vec2 offset) {
         return max(0.0, here - log2(scene_distance(gl_FragCoord.xy + offset * pixel_ratio)));
       }
@@ -94,7 +102,9 @@ function eye_dome_material(camera_uniforms) {
                       step_to(here, vec2(1.0, -1.0)) + step_to(here, vec2(-1.0, 1.0));
           shade = max(0.35, exp(-strength * sum / 8.0));
         }
-        gl_FragColor = vec4(colour.rgb * shade, 1.0);
+        vec3 seen = colour.rgb * shade;
+        if (has_depth > 0.5 && is_behind_hole(scene_distance(gl_FragCoord.xy))) seen = mix(background, seen, 0.25);
+        gl_FragColor = vec4(seen, 1.0);
       }`,
   });
 }

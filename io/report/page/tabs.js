@@ -24,6 +24,11 @@ function connect_tabs() {
     });
   }
   choose(tabs[0], false);
+  // Elsewhere the charts open below the table.
+  const is_narrow = matchMedia("(max-width: 899px)");
+  const open_charts = () => { find("charts").open = is_narrow.matches; };
+  is_narrow.addEventListener("change", open_charts);
+  open_charts();
   find("sheet").addEventListener("click", () => {
     const is_tall = document.body.classList.toggle("tall-sheet");
     find("sheet").setAttribute("aria-expanded", String(is_tall));

@@ -2,6 +2,7 @@
 #include "io/report/render.hpp"
 
 #include "engine/run/error.hpp"
+#include "io/report/roof.hpp"
 #include "io/report/section.hpp"
 
 #include <algorithm>
@@ -90,17 +91,76 @@ TEST_CASE("a loop is seen along its normal, with as much around it") {
   CHECK(view.half_height < 12);
 }
 
-TEST_CASE("what lies before a loop at some distance does not hide it") {
-  Scene scene = sheet();
+Scene with_sheet_at(float z, Scene scene) {
   for (int y = 0; y <= 20; ++y) {
     for (int x = 0; x <= 20; ++x) {
-      scene.points.positions.push_back({float(x), float(y), 50});
+      scene.points.positions.push_back({float(x), float(y), z});
       scene.points.normals.push_back({0, 0, 1});
       scene.points.probabilities.push_back(0);
     }
   }
+  return scene;
+}
+
+TEST_CASE("what lies before a loop at some distance does not hide it") {
+  for (const float z : {5.0f, 50.0f}) {
+    const Scene scene = with_sheet_at(z, sheet());
+    const View view = find_view(scene, "7", 300, 300);
+    const Picture picture = draw(scene, view, {300, 300});
+    CHECK(is_white(colour_at(picture, view, 15, 5)));
+    CHECK(is_reddish(colour_at(picture, view, 15, 2)));
+  }
+}
+
+TEST_CASE("what lies behind a chosen hole is pale, and the surface around it is not") {
+  const Scene scene = with_sheet_at(-50, sheet());
   const View view = find_view(scene, "7", 300, 300);
-  CHECK(is_white(colour_at(draw(scene, view, {300, 300}), view, 15, 5)));
+  const Picture picture = draw(scene, view, {300, 300});
+  const Colour behind = colour_at(picture, view, 15, 5), around = colour_at(picture, view, 10, 5);
+  CHECK_FALSE(is_white(behind));
+  CHECK(behind[0] > 230);
+  CHECK(around[0] < 215);
+  const View all = find_view(scene, "top", 300, 300);
+  CHECK(colour_at(draw(scene, all, {300, 300}), all, 15, 5)[0] < 215);
+}
+
+TEST_CASE("a chosen loop is thick, and pale where the surface hides it; others are thin and pale") {
+  Scene scene = sheet();
+  scene.loops.ids.push_back(8);
+  scene.loops.measures.push_back(scene.loops.measures.front());
+  for (const Eigen::Vector3f& corner : {Eigen::Vector3f(6, 2, 0), {9, 2, 0}, {9, 8, 0}, {6, 8, 0}})
+    scene.loops.vertices.push_back(corner);
+  scene.loops.first.push_back(8);
+  const auto count = [](const Picture& picture, Colour colour) {
+    return std::count(picture.pixels.begin(), picture.pixels.end(), colour);
+  };
+  constexpr Colour kHole = {230, 80, 30}, kPale = {249, 211, 199};
+  const View view = find_view(scene, "7", 100, 100);
+  const auto chosen = count(draw(scene, view, {100, 100}), kHole);
+  CHECK(chosen > 200);  // about 90 pixels long
+  CHECK(count(draw(scene, view, {100, 100}), kPale) > 20);
+  const View all = find_view(scene, "top", 100, 100);
+  CHECK(count(draw(scene, all, {100, 100}), kPale) == 0);
+
+  scene = with_sheet_at(3.5f, std::move(scene));  // too near to be cut
+  CHECK(find_view(scene, "7", 100, 100).before > 3.5f);
+  const Picture hidden = draw(scene, view, {100, 100});
+  CHECK(count(hidden, kHole) == 0);
+  CHECK(count(hidden, kPale) > 200);
+}
+
+TEST_CASE("a scan has a roof where a ceiling hides all else from above, and none without it") {
+  Scene scene = with_sheet_at(10, sheet());
+  scene.origin = {0, 0, 100};
+  REQUIRE(roof_height(scene));
+  CHECK(*roof_height(scene) > 104);
+  CHECK(*roof_height(scene) < 110);
+  CHECK_FALSE(roof_height(sheet()));
+  CHECK_FALSE(roof_height(Scene()));
+  // A ceiling over a quarter of the plan is no roof.
+  std::erase_if(scene.points.positions,
+                [](const Eigen::Vector3f& p) { return p.z() > 5 && (p.x() > 10 || p.y() > 10); });
+  CHECK_FALSE(roof_height(scene));
 }
 
 TEST_CASE("a view of another name is an error that says what is allowed") {
@@ -124,7 +184,7 @@ TEST_CASE("a loop without vertices, since it runs through strays, has no view of
   Scene scene = sheet();
   scene.loops.vertices.clear();
   scene.loops.first = {0, 0};
-  CHECK_THROWS_WITH(find_view(scene, "7", 100, 100), Contains("far from all others"));
+  CHECK_THROWS_WITH(find_view(scene, "7", 100, 100), Contains("not drawn"));
   CHECK_NOTHROW(draw(scene, find_view(scene, "top", 100, 100), {100, 100}));
 }
 
@@ -161,9 +221,8 @@ TEST_CASE("a section hides points above it, and loops that lie above it as a who
   CHECK(scene.points.probabilities == std::vector<float>{0, 0.1f, 0.2f, 0.3f, 0.4f, 0.5f});
   CHECK(scene.points.normals.size() == 6);
   CHECK(scene.points.colours.empty());
-  CHECK(scene.loops.ids == std::vector<std::uint64_t>{10, 12});
-  CHECK(scene.loops.first == std::vector<std::size_t>{0, 3, 6});
-  CHECK(scene.loops.measures[1].diameter == 4);
+  CHECK(scene.loops.ids == std::vector<std::uint64_t>{10, 11, 12});
+  CHECK(scene.loops.first == std::vector<std::size_t>{0, 3, 3, 6});
   CHECK(scene.loops.vertices[5].z() == 6);
 }
 
@@ -174,8 +233,8 @@ TEST_CASE("a section above everything hides nothing, one below everything all") 
   CHECK(scene.loops.ids.size() == 3);
   hide_above(scene, 99.5);
   CHECK(scene.points.positions.empty());
-  CHECK(scene.loops.ids.empty());
-  CHECK(scene.loops.first == std::vector<std::size_t>{0});
+  CHECK(scene.loops.vertices.empty());
+  CHECK(scene.loops.first == std::vector<std::size_t>{0, 0, 0, 0});
 }
 
 }  // namespace
