@@ -34,7 +34,7 @@ namespace fs = std::filesystem;
 
 // Finds the loops of each level above the first one, from fine to coarse.
 void find_loops_above(const Level& first, Totals totals, std::vector<LevelLoops>& levels, const Run& run) {
-  Phase phase(run.job, "levels", 2 * first.store.tiling().points());  // each has half of the points below
+  Phase phase(run.job, "levels", first.store.tiling().points());  // each has half of the points below
   std::optional<Level> below;
   while (std::optional<Level> level = level_above(
              below ? *below : first, [&] { return totals; }, run)) {

@@ -9,8 +9,10 @@
 #include "io/report/scene.hpp"
 #include "io/results/results.hpp"
 #include "python/arrays.hpp"
+#include "python/command.hpp"
 #include "python/run.hpp"
 #include "tools/commands/compare_command.hpp"
+#include "tools/commands/info_command.hpp"
 #include "tools/run/input_files.hpp"
 #include "tools/run/parameter_options.hpp"
 
@@ -54,9 +56,23 @@ std::vector<std::string> check_files(const std::vector<fs::path>& files, const p
   return check(tools::expand_inputs(files, config), config, folder, progress);
 }
 
-// Names, defaults and what is allowed, of the parameters of a run, or of a check.
-py::list list_parameters(bool of_check) {
-  const tools::ReadParameters read = of_check ? tools::parameters_of_check() : tools::parameters_of_run();
+// Returns the JSON, and warnings.
+std::pair<std::string, std::vector<std::string>> info(const std::vector<fs::path>& files,
+                                                      const py::dict& parameters) {
+  io::FilesConfig config;
+  set_parameters(parameters, config);
+  check_config(config);
+  const py::gil_scoped_release unlocked;
+  std::vector<std::string> warnings;
+  std::string json = tools::info_json(files, config, warnings);
+  return {std::move(json), std::move(warnings)};
+}
+
+// Names, defaults and what is allowed, of the parameters of a run, a check or an info.
+py::list list_parameters(const std::string& command) {
+  const tools::ReadParameters read = command == "check"  ? tools::parameters_of_check()
+                                     : command == "info" ? tools::parameters_of_info()
+                                                         : tools::parameters_of_run();
   io::FilesConfig config;
   py::list all;
   for (const Parameter& parameter : parameters(config)) {
@@ -123,6 +139,7 @@ std::pair<std::string, std::vector<std::string>> compare(const fs::path& before,
 
 PYBIND11_MODULE(_core, module) {
   module.attr("version") = LACUNA_VERSION;
+  collect_warnings();
   py::register_exception<Error>(module, "Error", PyExc_RuntimeError).attr("__module__") = "lacuna";
 
   py::class_<Found>(module, "Found")
@@ -136,10 +153,12 @@ PYBIND11_MODULE(_core, module) {
       .def("for_each_block", &for_each_block)
       .def("save", &save);
 
-  module.def("parameters", &list_parameters, py::arg("of_check"));
+  module.def("parameters", &list_parameters, py::arg("command"));
   module.def("find_in_arrays", &find_in_arrays);
   module.def("find_in_files", &find_in_files);
   module.def("check_files", &check_files);
+  module.def("info", &info);
+  module.def("run_command", &run_command);
   module.def("write_report", &write_report);
   module.def("copy_results", &copy_results);
   module.def("evaluate", &evaluate);

@@ -9,6 +9,7 @@
 #include "io/stations/find_causes.hpp"
 #include "tools/console/area_text.hpp"
 #include "tools/console/progress.hpp"
+#include "tools/run/run_steps.hpp"
 #include "tools/run/scan_warnings.hpp"
 
 #include <algorithm>
@@ -28,31 +29,20 @@ namespace py = pybind11;
 namespace lacuna::python {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 class Cancelled : public std::exception {};
 
 // Where the run stands, for the thread that Python knows.
-class WatchedProgress final : public Progress {
+class WatchedProgress final : public tools::CountedProgress {
  public:
+  using CountedProgress::CountedProgress;
+
   void begin(std::string_view step, std::uint64_t total) override {
     stop_if_cancelled();
-    const std::lock_guard lock(mutex_);
-    step_ = step;
-    total_ = total;
-    done_ = 0;
-    start_ = Clock::now();
+    CountedProgress::begin(step, total);
   }
   void advance(std::uint64_t count) override {
-    done_ += count;
+    CountedProgress::advance(count);
     stop_if_cancelled();
-  }
-  void end() noexcept override {}
-
-  tools::StepProgress state() {
-    const std::lock_guard lock(mutex_);
-    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-    return {.step = step_, .done = done_, .total = total_, .step_seconds = seconds};
   }
   void cancel() { is_cancelled_ = true; }
 
@@ -61,11 +51,6 @@ class WatchedProgress final : public Progress {
     if (is_cancelled_) throw Cancelled();
   }
 
-  std::mutex mutex_;
-  std::string step_;
-  Clock::time_point start_;  // of the step
-  std::uint64_t total_ = 0;
-  std::atomic<std::uint64_t> done_ = 0;
   std::atomic<bool> is_cancelled_ = false;
 };
 
@@ -109,7 +94,9 @@ bool wants_more(const tools::StepProgress& state, const py::object& callback) {
   const auto or_none = [](std::optional<double> value) {
     return value ? py::object(py::cast(*value)) : py::object(py::none());
   };
-  return !callback(state.step, or_none(state.share()), or_none(state.seconds_left())).is(py::bool_(false));
+  const py::object answer = callback(state.step, or_none(state.share()), or_none(state.seconds_left()),
+                                     or_none(state.run_share), or_none(state.run_seconds_left()));
+  return !answer.is(py::bool_(false));
 }
 
 template <class Work>
@@ -159,7 +146,7 @@ std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig c
   auto found = std::make_unique<Found>();
   found->config = with_min_hole(config);
   found->arrays = std::move(arrays);
-  WatchedProgress watched;
+  WatchedProgress watched(tools::steps_of_run(config, !config.area.area.empty()));
   run_watched(
       [&] {
         check_config(config);
@@ -189,7 +176,7 @@ std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig c
 std::vector<std::string> check(std::vector<io::ScanInput> inputs, const io::FilesConfig& given,
                                const std::filesystem::path& folder, const py::object& progress) {
   std::vector<std::string> warnings;
-  WatchedProgress watched;
+  WatchedProgress watched(tools::steps_of_check());
   run_watched(
       [&] {
         io::FilesConfig config = given;

@@ -7,22 +7,21 @@ namespace lacuna::evaluation {
 
 CloudScore score_cloud(const Result& result, const Truth& truth, const EvaluationRule& rule) {
   const Evaluation evaluation = evaluate(result, truth, rule);
-  CloudScore score{.false_loops = evaluation.scores.false_loops,
-                   .joined_or_parted = evaluation.scores.joined + evaluation.scores.parted};
+  const LoopScores& scores = evaluation.scores;
+  CloudScore score{.false_loops = scores.false_loops + scores.repeated,
+                   .repeated = scores.repeated,
+                   .joined_or_parted = scores.joined + scores.parted};
   for (const Tally& width : evaluation.holes) {
     score.holes.found += width.found;
     score.holes.all += width.all;
   }
-  score.outer_curves = {.found = evaluation.scores.found - score.holes.found,
-                        .all = evaluation.scores.true_loops - score.holes.all};
+  score.outer_curves = {.found = scores.found - score.holes.found,
+                        .all = scores.true_loops - score.holes.all};
 
-  std::vector<LoopIds> loops;
   std::vector<std::uint64_t> ids;
   for (std::size_t i = 0; i < result.loops.size(); ++i) {
-    const EdgeDecision decision = evaluation.loops.loops[i].verdict;
-    if (decision == EdgeDecision::kStep || decision == EdgeDecision::kUnsampled) continue;
-    loops.push_back(result.loops[i]);
-    ids.insert(ids.end(), result.loops[i].begin(), result.loops[i].end());
+    if (takes_part(evaluation.loops.loops[i].verdict))
+      ids.insert(ids.end(), result.loops[i].begin(), result.loops[i].end());
   }
   const MatchRule match = match_rule(truth, rule, evaluation.tolerances);
   if (result.boundary) ids = *result.boundary;
@@ -36,7 +35,7 @@ CloudScore score_cloud(const Result& result, const Truth& truth, const Evaluatio
   score.points = score_against(counting);
   const PointScores all = score_against(truth.loops).within_tolerance;
   score.points.within_tolerance = point_scores(all.precision, score.points.within_tolerance.recall);
-  score.areas = compare_areas(loops, truth, evaluation.loops.true_loops, match);
+  score.areas = compare_areas(result.loops, truth, evaluation.loops, match);
   for (double* area : {&score.areas.truth, &score.areas.covered, &score.areas.found, &score.areas.right})
     *area /= truth.spacing * truth.spacing;
   return score;

@@ -58,8 +58,8 @@ class TrueSurfaces {
     all_.emplace(centroids_);
   }
 
-  // `reach`: of the found hole.
-  void take_found(const Points& loop, double reach) {
+  // `reach`: of the found hole. The places of one that repeats another are not right.
+  void take_found(const Points& loop, double reach, bool is_repeated) {
     const auto is_far = [&](const Corners& part) {
       double extent = 0;
       const Eigen::Vector3d centroid = centroid_of(part);
@@ -71,7 +71,7 @@ class TrueSurfaces {
     visit_surface(loop, longest_edge_, is_far, [&](const Corners& piece) {
       found_ += area_of(piece);
       const Eigen::Vector3d centroid = centroid_of(piece);
-      if (all_->nearest_distance(centroid) <= reach) right_ += area_of(piece);
+      if (!is_repeated && all_->nearest_distance(centroid) <= reach) right_ += area_of(piece);
       counting_->owners_within(centroid, farthest_, near_);
       for (const std::size_t of : near_) {
         if ((centroids_[of] - centroid).stableNorm() <= reaches_[of]) covered_[of] = true;
@@ -115,14 +115,17 @@ class TrueSurfaces {
 
 }  // namespace
 
-HoleAreas compare_areas(std::span<const LoopIds> loops, const Truth& truth,
-                        std::span<const TrueMatch> matches, const MatchRule& rule) {
+HoleAreas compare_areas(std::span<const LoopIds> loops, const Truth& truth, const LoopAccuracy& accuracy,
+                        const MatchRule& rule) {
   if (!(rule.tolerance > 0)) return {};
-  TrueSurfaces surfaces(truth, matches, rule);
+  TrueSurfaces surfaces(truth, accuracy.true_loops, rule);
   const PointTree tree(truth.points);
-  for (const LoopIds& ids : loops) {
-    if (kind_of(ids, truth.positions, truth.points, tree) == LoopKind::kHole)
-      surfaces.take_found(points_of(ids, truth), reach_of(ids, rule));
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    const EdgeDecision verdict = accuracy.loops[i].verdict;
+    if (!takes_part(verdict)) continue;
+    if (kind_of(loops[i], truth.positions, truth.points, tree) == LoopKind::kHole)
+      surfaces.take_found(points_of(loops[i], truth), reach_of(loops[i], rule),
+                          verdict == EdgeDecision::kRepeated);
   }
   return surfaces.areas();
 }

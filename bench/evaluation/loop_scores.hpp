@@ -23,6 +23,11 @@ struct LoopScores {
       precision;  // neither false, joined nor parted of the loops but steps; empty without such loops
 };
 
+// Loops along steps of density and around unsampled places are neither right nor wrong.
+constexpr bool takes_part(EdgeDecision verdict) {
+  return verdict != EdgeDecision::kStep && verdict != EdgeDecision::kUnsampled;
+}
+
 LoopScores score_loops(std::span<const LoopMatch> loops, std::span<const TrueMatch> true_loops);
 
 // Decides on false loops once more. A loop becomes `verdict` if `share` of its points are `at(loop, point)`,

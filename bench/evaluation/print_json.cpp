@@ -1,32 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The output of `lacuna-bench evaluate --json`.
 #include "bench/evaluation/decision_names.hpp"
+#include "bench/evaluation/json.hpp"
 #include "bench/evaluation/loop_size.hpp"
 #include "bench/evaluation/print.hpp"
 
 #include <optional>
 #include <tuple>
 
-#include <nlohmann/json.hpp>
-
 namespace lacuna::evaluation {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json();
-}
-
 std::optional<std::string> name_of(const TrueLoop& loop) {
   return loop.name.empty() ? std::nullopt : std::optional(loop.name);
-}
-
-Json points_json(const PointScores& scores) {
-  return {{"precision", or_null(scores.precision)},
-          {"recall", or_null(scores.recall)},
-          {"f1", or_null(scores.f1)}};
 }
 
 }  // namespace
@@ -59,8 +45,8 @@ std::string print_json(const EvaluationText& text) {
   if (const auto& boundary = evaluation.boundary) {
     root["boundary"] = {{"flagged", boundary->flagged},
                         {"true", boundary->truth},
-                        {"by_id", points_json(boundary->by_id)},
-                        {"within_tolerance", points_json(boundary->within_tolerance)}};
+                        {"by_id", json_of(boundary->by_id)},
+                        {"within_tolerance", json_of(boundary->within_tolerance)}};
   }
   root["holes_by_width"] = Json::array();
   for (std::size_t i = 0; i < kWidths.size(); ++i) {
@@ -96,8 +82,7 @@ std::string print_json(const EvaluationText& text) {
                                     {"on_step", or_null(match.on_step)},
                                     {"at_unsampled", or_null(match.at_unsampled)}});
   }
-  // Names of files need not be UTF-8.
-  return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text_of(root);
 }
 
 }  // namespace lacuna::evaluation

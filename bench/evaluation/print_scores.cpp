@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The output of `lacuna-bench score`.
+// The output of `lacuna-bench score`: tables, and JSON.
 #include "bench/evaluation/cloud_score.hpp"
+#include "bench/evaluation/json.hpp"
 #include "tools/console/measures_text.hpp"
 #include "tools/console/visible_text.hpp"
 
@@ -8,6 +9,9 @@
 #include <cstdio>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace lacuna::evaluation {
 using namespace tools;
@@ -24,9 +28,8 @@ auto sum(Clouds clouds, const Value& value_of) {
   return total;
 }
 
-std::string print_tally(Clouds clouds, Tally CloudScore::*tally) {
-  return print_count(sum(clouds, [&](const CloudScore& c) { return (c.*tally).found; })) + " of " +
-         print_count(sum(clouds, [&](const CloudScore& c) { return (c.*tally).all; }));
+std::string print_tally(const Tally& tally) {
+  return print_count(tally.found) + " of " + print_count(tally.all);
 }
 
 std::string print_number(const std::optional<double>& value) {
@@ -60,55 +63,121 @@ std::optional<double> median(Clouds clouds, std::optional<double> PointScores::*
   return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
 }
 
-Row hole_row(const std::string& name, Clouds clouds) {
-  return {name,
-          print_count(clouds.size()),
-          print_tally(clouds, &CloudScore::holes),
-          print_tally(clouds, &CloudScore::outer_curves),
-          print_count(sum(clouds, [](const CloudScore& c) { return c.false_loops; })),
-          print_count(sum(clouds, [](const CloudScore& c) { return c.joined_or_parted; }))};
-}
+// The scores of some clouds together.
+struct Scores {
+  std::size_t clouds = 0;
+  Tally holes, outer_curves;
+  std::size_t false_loops = 0, repeated = 0, joined_or_parted = 0;
+  HoleAreas areas;
+  std::size_t flagged_points = 0, true_points = 0;
+  PointScores points, medians;
 
-Row area_row(const std::string& name, Clouds clouds) {
+  std::optional<double> completeness() const { return share(areas.covered, areas.truth); }
+  std::optional<double> correctness() const { return share(areas.right, areas.found); }
+};
+
+Scores scores_of(Clouds clouds) {
+  const auto tally = [&](Tally CloudScore::*of) {
+    return Tally{.found = sum(clouds, [&](const CloudScore& c) { return (c.*of).found; }),
+                 .all = sum(clouds, [&](const CloudScore& c) { return (c.*of).all; })};
+  };
   const auto area = [&](double HoleAreas::*part) {
     return sum(clouds, [&](const CloudScore& c) { return c.areas.*part; });
   };
-  return {name, print_number(share(area(&HoleAreas::covered), area(&HoleAreas::truth))),
-          print_number(share(area(&HoleAreas::right), area(&HoleAreas::found)))};
+  const auto points = [&](std::size_t PointAccuracy::*count) {
+    return sum(clouds, [&](const CloudScore& c) { return c.points.*count; });
+  };
+  const auto loops = [&](std::size_t CloudScore::*count) {
+    return sum(clouds, [&](const CloudScore& c) { return c.*count; });
+  };
+  return {.clouds = clouds.size(),
+          .holes = tally(&CloudScore::holes),
+          .outer_curves = tally(&CloudScore::outer_curves),
+          .false_loops = loops(&CloudScore::false_loops),
+          .repeated = loops(&CloudScore::repeated),
+          .joined_or_parted = loops(&CloudScore::joined_or_parted),
+          .areas = {.truth = area(&HoleAreas::truth),
+                    .covered = area(&HoleAreas::covered),
+                    .found = area(&HoleAreas::found),
+                    .right = area(&HoleAreas::right)},
+          .flagged_points = points(&PointAccuracy::flagged),
+          .true_points = points(&PointAccuracy::truth),
+          .points = point_scores(pooled(clouds, &PointAccuracy::flagged, &PointScores::precision),
+                                 pooled(clouds, &PointAccuracy::truth, &PointScores::recall)),
+          .medians = {.precision = median(clouds, &PointScores::precision),
+                      .recall = median(clouds, &PointScores::recall),
+                      .f1 = median(clouds, &PointScores::f1)}};
 }
 
-Row point_row(const std::string& name, Clouds clouds) {
-  const PointScores all = point_scores(pooled(clouds, &PointAccuracy::flagged, &PointScores::precision),
-                                       pooled(clouds, &PointAccuracy::truth, &PointScores::recall));
-  return {name,
-          print_number(all.precision),
-          print_number(all.recall),
-          print_number(all.f1),
-          print_number(median(clouds, &PointScores::precision)),
-          print_number(median(clouds, &PointScores::recall)),
-          print_number(median(clouds, &PointScores::f1))};
+using NamedScores = std::vector<std::pair<std::string, Scores>>;
+
+// Those of each kind; those of all clouds come last.
+NamedScores named_scores(const ScoresByKind& kinds) {
+  NamedScores named;
+  std::vector<CloudScore> all;
+  for (const auto& [name, clouds] : kinds) {
+    named.emplace_back(name, scores_of(clouds));
+    all.insert(all.end(), clouds.begin(), clouds.end());
+  }
+  named.emplace_back("all", scores_of(all));
+  return named;
+}
+
+Json tally_json(const Tally& tally) {
+  return {{"true", tally.all}, {"found", tally.found}};
+}
+
+Json json_of(const Scores& scores) {
+  return {{"clouds", scores.clouds},
+          {"holes", tally_json(scores.holes)},
+          {"outer_curves", tally_json(scores.outer_curves)},
+          {"false", scores.false_loops},
+          {"repeated", scores.repeated},
+          {"joined_or_parted", scores.joined_or_parted},
+          {"areas",
+           {{"true", scores.areas.truth},
+            {"covered", scores.areas.covered},
+            {"found", scores.areas.found},
+            {"right", scores.areas.right},
+            {"completeness", or_null(scores.completeness())},
+            {"correctness", or_null(scores.correctness())}}},
+          {"points",
+           {{"true", scores.true_points},
+            {"flagged", scores.flagged_points},
+            {"all", json_of(scores.points)},
+            {"median", json_of(scores.medians)}}}};
 }
 
 }  // namespace
 
-std::string print_scores(const std::map<std::string, std::vector<CloudScore>>& kinds) {
+std::string print_scores(const ScoresByKind& kinds) {
   std::vector<Row> holes = {
       {"per hole", "clouds", "holes found", "outer curves found", "false loops", "joined or parted"}};
   std::vector<Row> areas = {{"per area", "completeness", "correctness"}};
   std::vector<Row> points = {
       {"per point", "precision", "recall", "F1", "median precision", "median recall", "median F1"}};
-  const auto add = [&](const std::string& name, Clouds clouds) {
-    holes.push_back(hole_row(name, clouds));
-    areas.push_back(area_row(name, clouds));
-    points.push_back(point_row(name, clouds));
-  };
-  std::vector<CloudScore> all;
-  for (const auto& [name, clouds] : kinds) {
-    add(visible(name), clouds);
-    all.insert(all.end(), clouds.begin(), clouds.end());
+  for (const auto& [kind, s] : named_scores(kinds)) {
+    const std::string name = visible(kind);
+    holes.push_back({name, print_count(s.clouds), print_tally(s.holes), print_tally(s.outer_curves),
+                     print_count(s.false_loops), print_count(s.joined_or_parted)});
+    areas.push_back({name, print_number(s.completeness()), print_number(s.correctness())});
+    points.push_back({name, print_number(s.points.precision), print_number(s.points.recall),
+                      print_number(s.points.f1), print_number(s.medians.precision),
+                      print_number(s.medians.recall), print_number(s.medians.f1)});
   }
-  add("all", all);
   return print_table(holes) + "\n" + print_table(areas) + "\n" + print_table(points);
+}
+
+std::string print_json(const ScoresByKind& kinds, const ScoredFolders& folders) {
+  Json root = {{"clouds", folders.clouds.string()},   {"results", folders.results.string()},
+               {"tolerance", folders.rule.tolerance}, {"min_vertices", folders.rule.min_vertices},
+               {"without_result", Json::array()},     {"groups", Json::object()}};
+  for (const auto& cloud : folders.without_result) root["without_result"].push_back(cloud.stem().string());
+  NamedScores named = named_scores(kinds);
+  root["all"] = json_of(named.back().second);
+  named.pop_back();
+  for (const auto& [name, scores] : named) root["groups"][name] = json_of(scores);
+  return text_of(root);
 }
 
 }  // namespace lacuna::evaluation

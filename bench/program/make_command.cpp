@@ -30,6 +30,8 @@ struct Cloud {
   Options options;  // all but files, points and seed
 };
 
+// Each cloud of each set has a seed of its own.
+constexpr std::uint64_t kFirstSeed = 301, kSeedsOfSet = 1000;
 constexpr std::uint64_t kSurfacePoints = 40'000, kScanPoints = 150'000;
 
 std::vector<Cloud<SurfaceOptions>> surfaces() {
@@ -74,6 +76,7 @@ constexpr std::array<std::string_view, 3> kSets{"surfaces", "scans", "all"};
 struct MakeArguments {
   CloudSet set = CloudSet::kAll;
   fs::path folder;
+  std::uint64_t seed = 1;
 };
 
 struct Made {
@@ -81,13 +84,13 @@ struct Made {
 };
 
 template <class Options, class Write>
-void make(const std::vector<Cloud<Options>>& clouds, std::uint64_t points, const fs::path& folder,
+void make(const std::vector<Cloud<Options>>& clouds, std::uint64_t points, const MakeArguments& arguments,
           const Write& write, Made& made) {
   for (std::size_t i = 0; i < clouds.size(); ++i) {
     Options options = clouds[i].options;
-    options.out = folder / (std::string(clouds[i].name) + ".ply");
+    options.out = arguments.folder / (std::string(clouds[i].name) + ".ply");
     options.points = points;
-    options.seed = 301 + i;
+    options.seed = kFirstSeed + kSeedsOfSet * (arguments.seed - 1) + i;  // modulo 2^64
     const auto summary = write(options);
     ++made.clouds;
     made.points += summary.points;
@@ -100,14 +103,14 @@ void run_make(const MakeArguments& arguments) {
   fs::create_directories(arguments.folder, failure);
   if (failure) throw Error(arguments.folder.string() + ": cannot be made: " + failure.message());
   Made made;
-  if (arguments.set != CloudSet::kScans)
-    make(surfaces(), kSurfacePoints, arguments.folder, write_surface, made);
+  if (arguments.set != CloudSet::kScans) make(surfaces(), kSurfacePoints, arguments, write_surface, made);
   if (arguments.set != CloudSet::kSurfaces) {
     make(
-        scans(), kScanPoints, arguments.folder, [](const ScanOptions& o) { return write_scan(o); }, made);
+        scans(), kScanPoints, arguments, [](const ScanOptions& o) { return write_scan(o); }, made);
   }
   std::cout << visible(arguments.folder.string()) << ": " << print_count(made.clouds) << " clouds of "
-            << print_count(made.points) << " points, and " << print_count(made.loops) << " true loops\n";
+            << print_count(made.points) << " points, and " << print_count(made.loops) << " true loops (seed "
+            << arguments.seed << ")\n";
 }
 
 }  // namespace
@@ -123,6 +126,9 @@ void add_make_command(const Command& program) {
       .required();
   command.add_option("DIR", arguments->folder, "the folder for X.ply and X.loops.txt of each cloud X")
       .required();
+  command.add_option("--seed", arguments->seed, "Another seed makes other clouds of the same kinds")
+      .whole_number()
+      .show_default();
   command.runs([arguments] { run_make(*arguments); });
 }
 

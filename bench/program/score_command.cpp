@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,7 +25,7 @@ using namespace evaluation;
 struct ScoreArguments {
   fs::path clouds, results;
   EvaluationRule rule;
-  bool each = false;
+  bool each = false, json = false;
 };
 
 // Returns the PLY files of the folder, by name.
@@ -59,8 +58,7 @@ fs::path truth_of(const fs::path& cloud) {
 
 void run_score(const ScoreArguments& arguments) {
   check(arguments.rule);
-  std::map<std::string, std::vector<CloudScore>> kinds;
-  if (!arguments.each) kinds["noise"];  // a row even where the set has none
+  ScoresByKind kinds;
   std::vector<fs::path> without_result;
   const std::vector<fs::path> clouds = clouds_in(arguments.clouds);
   for (const fs::path& cloud : clouds) {
@@ -76,6 +74,10 @@ void run_score(const ScoreArguments& arguments) {
     throw Error(arguments.results.string() + ": has no loops for any cloud of " + arguments.clouds.string() +
                 "; those of " + clouds.front().filename().string() + " would be in " +
                 clouds.front().stem().string() + ".txt");
+  }
+  if (arguments.json) {
+    std::cout << print_json(kinds, {arguments.clouds, arguments.results, without_result, arguments.rule});
+    return;
   }
   if (!without_result.empty()) {
     std::cout << "no loops for " << print_count(without_result.size()) << " of " << print_count(clouds.size())
@@ -103,6 +105,7 @@ void add_score_command(const Command& program) {
       .required();
   add_rule_options(command, a.rule);
   command.add_flag("--each", a.each, "Print a row for each cloud instead of each kind");
+  command.add_flag("--json", a.json, "Print every number as JSON");
   command.runs([arguments] { run_score(*arguments); });
 }
 

@@ -13,9 +13,9 @@ docs/python.md has all of it with examples.
 """
 
 from ._core import Error, version as __version__
-from .files import compare, evaluate, load, stream
+from .files import compare, evaluate, load, render, stations, stream
 from .holes import CAUSES, Holes, Loop, Loops, LacunaWarning
-from .run import check, detect, find_holes, parameters
+from .run import check, detect, find_holes, info, parameters
 
 __all__ = [
     "CAUSES",
@@ -29,7 +29,10 @@ __all__ = [
     "detect",
     "evaluate",
     "find_holes",
+    "info",
     "load",
     "parameters",
+    "render",
+    "stations",
     "stream",
 ]

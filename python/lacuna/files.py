@@ -13,12 +13,17 @@ import warnings
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Union
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
 
 from . import _core
 from .holes import CAUSES, NUMBERS, Holes, LacunaWarning
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._parameters import FileParameters
 
 Result = Union[Holes, str, "os.PathLike[str]"]
 
@@ -73,7 +78,74 @@ def compare(before: Result, after: Result, *, tolerance: float = 0.0) -> dict[st
     return json.loads(compared)
 
 
-def stream(files: Union[str, os.PathLike, Iterable[Union[str, os.PathLike]]], **params: Any) -> Iterator[dict[str, Any]]:
+def render(
+    holes: Result,
+    file: Union[str, os.PathLike],
+    *,
+    view: Union[str, int] = "oblique",
+    size: tuple[int, int] = (1600, 1000),
+    hide_above: Optional[float] = None,
+    as_it_came: bool = False,
+    overwrite: bool = False,
+) -> Path:
+    """Draws the scan and its holes as a PNG, as `lacuna render` does. Returns its name.
+
+    - view: oblique, top, front, side, or the id of a loop.
+    - hide_above: nothing above this height is drawn, such as a ceiling.
+    - as_it_came: colours or intensities of the scan, where it has them, not probabilities.
+    - overwrite: whether a file that Lacuna did not write is replaced, too.
+    """
+    options = {"out": os.fspath(file), "view": view, "size": "{}x{}".format(*size), "hide_above": hide_above}
+    with _folder_of(holes) as folder:
+        _run("render", folder, options, as_it_came=as_it_came, overwrite=overwrite)
+    return Path(file)
+
+
+def stations(
+    holes: Result,
+    *,
+    count: int = 5,
+    height: Optional[float] = None,
+    range: Optional[float] = None,
+    places: Union[str, os.PathLike, None] = None,
+    incidence: Optional[float] = None,
+    grid: Optional[float] = None,
+) -> dict[str, Any]:
+    """Says where a scanner should stand next, as `lacuna stations` does. Returns what next_stations.geojson has.
+
+    - count: how many places at most.
+    - height: of the scanner over the floor. range: how far it measures. grid: distance of the places that are
+      tried. These are lengths in the unit of the scan; None chooses them.
+    - places: a file with the places to try, instead of those over the floor.
+    - incidence: degrees between a ray and a surface, at least.
+
+    Where the results are in a folder, the file is written there, and the report shows the places.
+    """
+    options = {
+        "count": count,
+        "height": height,
+        "range": range,
+        "places": places,
+        "incidence": incidence,
+        "grid": grid,
+    }
+    with _folder_of(holes) as folder:
+        _run("stations", folder, options)
+        return json.loads(Path(folder, "next_stations.geojson").read_text(encoding="utf-8"))
+
+
+def _run(command: str, folder: str, options: dict[str, Any], **flags: bool) -> None:
+    """Runs a command of the program. Options that are None are left out."""
+    words = [command]
+    words += [f"--{name.replace('_', '-')}={value}" for name, value in options.items() if value is not None]
+    words += [f"--{name.replace('_', '-')}" for name, is_set in flags.items() if is_set]
+    for warning in _core.run_command([*words, "--", folder]):
+        warnings.warn(warning, LacunaWarning, stacklevel=3)
+
+
+def stream(
+    files: Union[str, os.PathLike, Iterable[Union[str, os.PathLike]]], **params: Unpack[FileParameters]
+) -> Iterator[dict[str, Any]]:
     """Finds the holes of files, and yields the results of their points in blocks, in the order of the input.
 
     files: as for `detect`, or patterns such as "big/*.laz". Parameters are those of `detect`.

@@ -35,6 +35,10 @@ CAUSES = ("hidden", "opening", "out_of_view", "no_return", "filtered")
 NUMBERS = tuple(name for name in MEASURES if name != "points")
 
 
+def _counted(count: int, noun: str) -> str:
+    return f"{count:,} {noun}{'' if count == 1 else 's'}"
+
+
 class LacunaWarning(UserWarning):
     """Something of a scan is odd: not wrong, but hardly meant."""
 
@@ -76,7 +80,7 @@ class Loop:
 
     def __repr__(self) -> str:
         return (
-            f"Loop({self.id}, {self.kind}, {len(self)} points, diameter {self.diameter:.3g}, "
+            f"Loop({self.id}, {self.kind}, {_counted(len(self), 'point')}, diameter {self.diameter:.3g}, "
             f"confidence {self.confidence:.2f})"
         )
 
@@ -131,7 +135,7 @@ class Loops(Sequence):
 
     def __repr__(self) -> str:
         outer = int(np.count_nonzero(self.is_outer))
-        return f"Loops({len(self) - outer} holes, {outer} outer)"
+        return f"Loops({_counted(len(self) - outer, 'hole')}, {outer} outer)"
 
 
 class Holes:
@@ -282,6 +286,16 @@ class Holes:
             raise _core.Error("loaded results are copied as they are; save the result of a run to have other files")
         return list(_core.copy_results(os.fspath(self._folder), os.fspath(folder)))
 
+    def lids(self) -> dict[int, tuple[np.ndarray, np.ndarray]]:
+        """Triangulated lids, by the id of their hole: vertices, m x 3, and triangles, t x 3 indices of vertices.
+
+        A hole that cannot be closed has none. Loaded results have lids where the run wrote lids.obj."""
+        if self._found is None:
+            return _read_lids(Path(self._folder, "lids.obj"))
+        with tempfile.TemporaryDirectory(prefix="lacuna-") as folder:
+            self.save(folder, lids=True)
+            return _read_lids(Path(folder, "lids.obj"))
+
     def report(self, file: Union[str, os.PathLike]) -> Path:
         """Writes the scan and its holes in 3D as one HTML file, for a browser. Returns its name.
 
@@ -310,7 +324,8 @@ class Holes:
 
     def __repr__(self) -> str:
         outer = int(np.count_nonzero(self.loops.is_outer))
-        return f"Holes({len(self.loops) - outer} holes and {outer} outer curves of {self.summary['points']:,} points)"
+        holes, curves = _counted(len(self.loops) - outer, "hole"), _counted(outer, "outer curve")
+        return f"Holes({holes} and {curves} of {_counted(self.summary['points'], 'point')})"
 
     def _repr_html_(self) -> str:
         from .plot import picture_of
@@ -325,3 +340,22 @@ class Holes:
         more = "" if len(largest) == len(self.loops) else f"<p>The largest 10 of {len(self.loops)} loops.</p>"
         head = "".join(f"<th>{name}</th>" for name in ("loop", "kind", "confidence", "points", "diameter", "perimeter"))
         return f"<p>{html.escape(repr(self))}</p>{picture_of(self)}<table><tr>{head}</tr>{rows}</table>{more}"
+
+
+def _read_lids(file: Path) -> dict[int, tuple[np.ndarray, np.ndarray]]:
+    try:
+        lines = file.read_text(encoding="utf-8").splitlines()
+    except OSError as error:
+        raise _core.Error(f"{file}: cannot be read: {error.strerror}; a run with lids=True writes it") from error
+    lids: dict[int, tuple[list[Any], list[Any]]] = {}
+    first = vertices = 1  # of the lid, and of the next one; the file counts from 1
+    for kind, *words in (line.split() for line in lines if line and line[0] in "ovf"):
+        if kind == "o":
+            lid = lids[int(words[0].removeprefix("hole_"))] = ([], [])
+            first = vertices
+        elif kind == "v":
+            lid[0].append([float(word) for word in words])
+            vertices += 1
+        else:
+            lid[1].append([int(word) - first for word in words])
+    return {hole: (np.array(points), np.array(triangles, np.int64).reshape(-1, 3)) for hole, (points, triangles) in lids.items()}

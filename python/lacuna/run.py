@@ -9,20 +9,25 @@ import os
 import tempfile
 import warnings
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
 
 from . import _core
 from .holes import Holes, LacunaWarning
 
-Progress = Callable[[str, Optional[float], Optional[float]], Any]
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._parameters import CheckParameters, FileParameters, InfoParameters, RunParameters
+
+Progress = Callable[[str, Optional[float], Optional[float], Optional[float], Optional[float]], Any]
 Path = Union[str, "os.PathLike[str]"]
 
 
 def parameters() -> list[dict[str, str]]:
     """All parameters of a run: section, key, default, what is allowed, and a sentence of help each."""
-    return _core.parameters(of_check=False)
+    return _core.parameters("run")
 
 
 def find_holes(
@@ -32,7 +37,7 @@ def find_holes(
     points: bool = False,
     attributes: Optional[Mapping[str, Any]] = None,
     progress: Optional[Progress] = None,
-    **params: Any,
+    **params: Unpack[RunParameters],
 ) -> Holes:
     """Finds the holes of the surface that points sample.
 
@@ -42,15 +47,18 @@ def find_holes(
     - points: whether results of all points are wanted, such as `Holes.probability`.
     - attributes: further columns of n values each, by name, for files that `Holes.save` writes. The report shows
       `red`, `green` and `blue`.
-    - progress: is called as progress(step, share, seconds_left) some times a second. The share, from 0 to 1, and
-      the seconds belong to the current step, and None where they are not known. If it returns False, the run
-      ends with an `Error`.
+    - progress: is called as progress(step, share, seconds_left, run_share, run_seconds_left) some times a second.
+      The first share, from 0 to 1, and the first seconds belong to the current step, the others to the whole run.
+      They are None where they are not known. The share of the run is rough. If it returns False, the run ends
+      with an `Error`.
     - params: parameters by their keys, such as min_hole=0.5, k=20, memory_limit="4GiB", crs="EPSG:25832".
       `lacuna.parameters()` lists them.
 
     Non-finite points are dropped and counted. Cost: linear in n. Memory: the input, the results, and at most
     memory_limit, half of the machine's by default.
     """
+    if isinstance(xyz, (str, bytes, os.PathLike)):
+        raise TypeError(f"find_holes takes an array of points; lacuna.detect({os.fspath(xyz)!r}) reads a file")
     positions = _positions_of(xyz)
     columns = dict(zip("xyz", _columns(positions, "xyz")))
     if normals is not None:
@@ -66,7 +74,7 @@ def detect(
     *,
     points: bool = False,
     progress: Optional[Progress] = None,
-    **params: Any,
+    **params: Unpack[FileParameters],
 ) -> Holes:
     """Finds the holes of scan files, which together are one registered scan and may be larger than memory.
 
@@ -84,7 +92,7 @@ def check(
     *,
     out: Optional[Path] = None,
     progress: Optional[Progress] = None,
-    **params: Any,
+    **params: Unpack[CheckParameters],
 ) -> dict[str, Any]:
     """Checks whether scan files cover the polygons of `area`, as `lacuna check` does. Returns what voids.json has.
 
@@ -97,12 +105,22 @@ def check(
         if area is not None:
             if not os.fspath(area):
                 raise _core.Error("area: is empty; allowed: a file of polygons, or None for the scan's own outline")
-            params["area"] = area
-        checked = _checked(params, of_check=True)
+            params = {**params, "area": area}
+        checked = _checked(params, "check")
         for warning in _core.check_files(_names(files), checked, folder, progress):
             warnings.warn(warning, LacunaWarning, stacklevel=2)
         with open(os.path.join(folder, "voids.json"), encoding="utf-8") as file:
             return json.load(file)
+
+
+def info(files: Union[Path, Iterable[Path]], **params: Unpack[InfoParameters]) -> dict[str, Any]:
+    """Says what scan files hold, and what a run on them would take, as `lacuna info --json` does.
+
+    Its parameters are those of the input, min_hole, resolution, stations, memory_limit and threads."""
+    content, warned = _core.info(_names(files), _checked(params, "info"))
+    for warning in warned:
+        warnings.warn(warning, LacunaWarning, stacklevel=2)
+    return json.loads(content)
 
 
 def _names(files: Union[Path, Iterable[Path]]) -> list[str]:
@@ -130,13 +148,13 @@ def _columns(array: np.ndarray, name: str) -> list[np.ndarray]:
     return [array[:, axis] for axis in range(3)]
 
 
-def _checked(params: Mapping[str, Any], of_check: bool = False) -> dict[str, str]:
-    keys = [p["key"] for p in _core.parameters(of_check)]
+def _checked(params: Mapping[str, Any], command: str = "run") -> dict[str, str]:
+    keys = [p["key"] for p in _core.parameters(command)]
     for key in params:
         if key not in keys:
             near = difflib.get_close_matches(key, keys, 1)
             hint = f"; did you mean {near[0]}?" if near else "; lacuna.parameters() lists them"
-            of = " of a check" if of_check else ""
+            of = {"run": "", "check": " of a check", "info": " of info"}[command]
             raise TypeError(f"{key} is no parameter{of}{hint}")
     return {key: _text(value) for key, value in params.items() if value is not None}
 

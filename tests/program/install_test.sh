@@ -82,6 +82,7 @@ mkdir -p "$work/example/engine/config"
 echo '#error "this is not the header of the library"' >"$work/example/engine/config/config.hpp"
 cmake -S "$work/example" -B "$work/example/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Debug \
   -DCMAKE_CXX_FLAGS=-I"$work/example" >"$work/log" 2>&1 || { cat "$work/log"; fail "the example cannot be configured"; }
+! grep --quiet faulty "$work/log" || fail "find_package(lacuna) says that a package is faulty"
 cmake --build "$work/example/build" --target find_holes detect_files >"$work/log" 2>&1 || { cat "$work/log"; fail "the example cannot be built"; }
 found=$("$work/example/build/find_holes")
 expected='^hole at (49|50)\.[0-9] (49|50)\.[0-9] -?0\.0: [0-9]+ points, perimeter [78][0-9]\.[0-9], diameter 2[4-6]\.'

@@ -7,6 +7,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <sstream>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -50,6 +51,26 @@ TEST_CASE("a run counts its loops in words") {
   };
   CHECK_THAT(summary_of("plane"), StartsWith("1 hole, 1 outer curve\n"));
   CHECK_THAT(summary_of("torus"), StartsWith("1 hole, 0 outer curves\n"));
+}
+
+TEST_CASE("progress for programs is an object of JSON a line, whose share of the run goes up to 1") {
+  const ScratchFolder scratch;
+  const std::string scan = (scratch / "plane.ply").string();
+  test::run_bench({"synth", "surface", scan, "--points", "10000", "--holes", "1"});
+  std::istringstream lines(
+      run_program({"detect", scan, "--out", (scratch / "out").string(), "--progress", "json"}).err);
+  double share = 0;
+  std::string step;
+  for (std::string line; std::getline(lines, line);) {
+    INFO(line);
+    if (!line.starts_with('{')) continue;  // a warning
+    const auto state = nlohmann::json::parse(line);
+    CHECK(state.at("run_share") >= share);
+    share = state.at("run_share");
+    step = state.at("step");
+  }
+  CHECK(share == Approx(1));
+  CHECK(step == "write");
 }
 
 TEST_CASE("a smallest hole that thins nothing is a warning, one that thins is none") {
@@ -113,7 +134,7 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
          {"detect", "a.ply", "--out", "d", "--k", "0", "k = 0"},
          {"detect", "a.ply", "--out", "d", "--k", "3", "--k", "4", "--k"},
          {"detect", "a.ply", "--out", "d", "--eps", "1", "--eps-fraction", "0.1", "eps"},
-         {"detect", "a.ply", "--out", "d", "--progress", "2", "bar, plain, none"},
+         {"detect", "a.ply", "--out", "d", "--progress", "2", "bar, plain, json, none"},
          {"detect", "a.ply", "--min-hol", "3", "--out", "d", "(did you mean \"--min-hole\"?)"},
          {"detect", "a.ply", "--min-hol", "3", "--out", "d", "see lacuna detect --help"},
          {"detect", "a.ply", "--mem", "1GiB", "--mem (did you mean \"--memory-limit\"?)"},
@@ -125,6 +146,10 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
           "unknown option --report; lacuna detect has it (see lacuna check --help)"},
          {"version", "unknown command \"version\" (did you mean \"--version\"?)"},
          {"--v", "unknown option --v (did you mean \"--version\"?)"},
+         {"detect", "--version", "unknown option --version; it has no command before it: lacuna --version"},
+         {"info", "a.ply", "-o", "unknown option -o; the names of files need no option"},
+         {"check", "a.laz", "--class", "2", "\"--classes\"?); --where 'Classification == 2' chooses points"},
+         {"detect", "a.laz", "--classification", "2", "; --where 'Classification == 2' chooses points"},
          {"detect", "--print-config", "--config", config, "c.toml:2: unknown key \"sigmas\""},
          {"detect", "--print-config", "--config", "aerail", "(did you mean \"aerial\"?)"},
          {"detect", "--print-config", "--config", "aerail", "a TOML file, or one of these: aerial"},
@@ -143,6 +168,9 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
          {"synth", "surface", "d.ply", "--positions", "random", "--jitter", "0.1", "--jitter"},
          {"synth", "scan", "d.ply", "--stations", "0", "--stations"},
          {"synth", "scan", "d.ply", "--truth", "d.ply", "two files"},
+         {"make", "all", "--output", "d", "unknown option --output; the names of files need no option"},
+         {"synth", "surface", "-o", "d.ply", "unknown option -o; the names of files need no option"},
+         {"synth", "surface", "-V", "unknown option -V; it has no command before it: lacuna-bench -V"},
          {"evaluate", "RESULT"},
          {"evaluate", "a", "TRUTH"},
          {"evaluate", "a", "b", "--tolerance", "-1", "--tolerance"},

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 namespace lacuna {
 namespace {
@@ -42,8 +43,8 @@ struct Clouds {
   void answer(const std::string& name, const std::string& loops) const {
     folder.write("results/" + name + ".txt", loops);
   }
-  std::string score() const {
-    const test::ProgramResult result = run_bench({"score", clouds, results});
+  std::string score(const test::Words& options = {}) const {
+    const test::ProgramResult result = run_bench(with({"score", clouds, results}, options));
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
     return result.out;
@@ -64,17 +65,51 @@ std::string row(const std::string& text, const std::string& table, const std::st
 
 }  // namespace
 
-TEST_CASE("the true loops score 1, and noise has a row without a cloud of noise") {
+TEST_CASE("the true loops score 1, and only kinds with a cloud have a row") {
   const Clouds made;
   for (const char* name : {"surface-plane", "closed-sphere"}) made.answer(name, made.truth(name));
   const std::string text = made.score();
   CHECK(row(text, "per hole", "surface") == "surface 1 3 of 3 1 of 1 0 0");
   CHECK(row(text, "per hole", "closed") == "closed 1 0 of 0 0 of 0 0 0");
-  CHECK(row(text, "per hole", "noise") == "noise 0 0 of 0 0 of 0 0 0");
+  CHECK(row(text, "per hole", "noise").empty());
   CHECK(row(text, "per hole", "all") == "all 2 3 of 3 1 of 1 0 0");
   CHECK(row(text, "per area", "surface") == "surface 1.000 1.000");
-  CHECK(row(text, "per area", "noise") == "noise - -");
   CHECK(row(text, "per point", "all") == "all 1.000 1.000 1.000 1.000 1.000 1.000");
+}
+
+TEST_CASE("a true loop that is found twice is found once, and the second loop is false") {
+  const Clouds made;
+  const std::string truth = made.truth("surface-plane");
+  made.answer("surface-plane", truth + truth + truth);
+  made.answer("closed-sphere", "");
+  const std::string text = made.score();
+  CHECK(row(text, "per hole", "surface") == "surface 1 3 of 3 1 of 1 8 0");
+  CHECK(row(text, "per area", "surface") == "surface 1.000 0.333");
+  const auto all = nlohmann::json::parse(made.score({"--json"})).at("all");
+  CHECK(all.at("false") == 8);
+  CHECK(all.at("repeated") == 8);
+}
+
+TEST_CASE("the JSON of a score has every number of the tables, by group and in all") {
+  const Clouds made;
+  made.answer("surface-plane", made.truth("surface-plane"));
+  const auto root = nlohmann::json::parse(made.score({"--json"}));
+  CHECK(root.at("clouds") == made.clouds);
+  CHECK(root.at("tolerance") == 2);
+  CHECK(root.at("without_result").dump() == R"(["closed-sphere"])");
+  CHECK(root.at("groups").size() == 2);
+  CHECK(root.at("groups").at("closed").at("holes").at("true") == 0);
+  CHECK(root.at("groups").at("closed").at("areas").at("correctness").is_null());
+  const auto& all = root.at("all");
+  CHECK(all.at("clouds") == 2);
+  CHECK(all.at("holes") == nlohmann::json{{"true", 3}, {"found", 3}});
+  CHECK(all.at("outer_curves") == nlohmann::json{{"true", 1}, {"found", 1}});
+  CHECK(all.at("joined_or_parted") == 0);
+  CHECK(all.at("areas").at("true") > 100);
+  CHECK(all.at("areas").at("completeness") == 1);
+  CHECK(all.at("points").at("flagged") == all.at("points").at("true"));
+  for (const char* kind : {"all", "median"}) CHECK(all.at("points").at(kind).at("f1") == 1);
+  CHECK(nlohmann::json::parse(made.score({"--json", "--each"})).at("groups").contains("surface-plane"));
 }
 
 TEST_CASE("an empty answer finds nothing, and has nothing that is false") {
@@ -164,6 +199,23 @@ TEST_CASE("a set has noise and closed surfaces, and its own truth scores all of 
   const std::string text = run_bench({"score", clouds, (folder / "results").string()}).out;
   CHECK(row(text, "per hole", "noise") == "noise 3 24 of 24 2 of 2 0 0");
   CHECK(row(text, "per hole", "closed") == "closed 3 0 of 0 0 of 0 0 0");
+}
+
+TEST_CASE("a set has the bytes of its seed, another seed makes other points, and the line says which") {
+  const ScratchFolder folder;
+  const auto make = [&](const std::string& name, const test::Words& options) {
+    return run_bench(with({"make", "surfaces", (folder / name).string()}, options)).out;
+  };
+  CHECK_THAT(make("default", {}), Contains("(seed 1)"));
+  CHECK_THAT(make("first", {"--seed", "1"}), Contains("(seed 1)"));
+  CHECK_THAT(make("second", {"--seed", "2"}), Contains("(seed 2)"));
+  for (const fs::directory_entry& file : fs::directory_iterator(folder / "default")) {
+    const fs::path name = file.path().filename();
+    const std::string bytes = read_file(file.path());
+    INFO(name);
+    CHECK((bytes == read_file(folder / "first" / name)));
+    if (name.extension() == ".ply") CHECK((bytes != read_file(folder / "second" / name)));
+  }
 }
 
 }  // namespace lacuna

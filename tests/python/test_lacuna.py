@@ -161,16 +161,20 @@ BIG = plane(1000, [(500, 500, 20)])
 
 
 class Running(Folder):
-    def test_progress_of_a_step_goes_from_0_to_1(self):
+    def test_progress_of_a_step_and_of_the_run_goes_from_0_to_1(self):
         calls = []
-        lacuna.find_holes(BIG, progress=lambda step, share, left: calls.append((step, share, left)))
+        lacuna.find_holes(BIG, progress=lambda *call: calls.append(call))
         self.assertGreater(len(calls), 2)
-        for step in {step for step, _, _ in calls}:
+        for step in {step for step, *_ in calls}:
             self.assertIsInstance(step, str)
-            shares = [share for name, share, _ in calls if name == step and share is not None]
+            shares = [share for name, share, *_ in calls if name == step and share is not None]
             self.assertEqual(shares, sorted(shares))
             self.assertTrue(all(0 <= share <= 1 for share in shares))
-        self.assertTrue(any(left is not None and left >= 0 for _, _, left in calls))
+        self.assertTrue(any(left is not None and left >= 0 for _, _, left, _, _ in calls))
+        run = [share for *_, share, _ in calls]
+        self.assertEqual(run, sorted(run))
+        self.assertTrue(0 <= run[0] < run[-1] <= 1)
+        self.assertTrue(any(left is not None and left >= 0 for *_, left in calls))
 
     def test_progress_can_cancel(self):
         with self.assertRaisesRegex(lacuna.Error, "cancelled"):
@@ -313,6 +317,65 @@ class Files(Folder):
         with self.assertRaisesRegex(TypeError, "min_confidence is no parameter of a check"):
             lacuna.check(self.folder / "s.xyz", area, void_rule=9, min_confidence=0.9)
 
+    def test_a_file_of_points_is_read_by_detect(self):
+        for name in ("room.ply", b"room.ply", Path("room.ply")):
+            with self.assertRaisesRegex(TypeError, r"lacuna.detect\(b?'room.ply'\) reads a file"):
+                lacuna.find_holes(name)
+
+    def test_a_picture_is_the_program_s(self):
+        holes = lacuna.find_holes(SHEET)
+        holes.save(self.folder / "out")
+        command = [PROGRAM, "render", self.folder / "out", "--out", self.folder / "p.png", "--view", "1", "--size", "200x100"]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+        for result in (holes, self.folder / "out"):
+            picture = lacuna.render(result, self.folder / "ours.png", view=1, size=(200, 100))
+            self.assertEqual(picture.read_bytes(), (self.folder / "p.png").read_bytes())
+        with self.assertRaisesRegex(lacuna.Error, "--view"):
+            lacuna.render(holes, self.folder / "ours.png", view="below")
+        (self.folder / "mine.png").write_text("mine")
+        with self.assertRaisesRegex(lacuna.Error, "mine.png"):
+            lacuna.render(holes, self.folder / "mine.png")
+
+    def test_next_stations_are_the_program_s(self):
+        scan, stations = self.folder / "room.ply", self.folder / "room.stations.txt"
+        subprocess.run([BENCH_PROGRAM, "synth", "scan", scan, "--points", "60000"], check=True, stdout=subprocess.DEVNULL)
+        holes = lacuna.detect(scan, stations=stations)
+        holes.save(self.folder / "out")
+        subprocess.run([PROGRAM, "stations", self.folder / "out", "--count", "2"], check=True, stdout=subprocess.DEVNULL)
+        program = json.loads((self.folder / "out/next_stations.geojson").read_text())
+        self.assertEqual(len(program["features"]), 2)
+        self.assertEqual(lacuna.stations(holes, count=2), program)
+        with self.assertWarnsRegex(lacuna.LacunaWarning, "no next station: .*all is farther"):
+            self.assertEqual(lacuna.stations(holes, range=0.01)["features"], [])
+
+    def test_info_is_the_program_s(self):
+        np.savetxt(self.folder / "s.xyz", SHEET, fmt="%.17g")
+        command = [PROGRAM, "info", "--json", self.folder / "s.xyz", "--min-hole", "10"]
+        program = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+        self.assertEqual(lacuna.info(self.folder / "s.xyz", min_hole=10), program)
+        with self.assertRaisesRegex(TypeError, "k is no parameter of info"):
+            lacuna.info(self.folder / "s.xyz", k=3)
+
+    def test_lids_close_their_holes(self):
+        holes = lacuna.find_holes(SHEET)
+        lids = holes.lids()
+        self.assertEqual(sorted(lids), [loop.id for loop in holes.loops if loop.kind == "hole"])
+        for hole, (vertices, triangles) in lids.items():
+            self.assertEqual((triangles.min(), triangles.max()), (0, len(vertices) - 1))
+            a, b, c = (vertices[triangles[:, corner]] for corner in range(3))
+            area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+            self.assertAlmostEqual(area / holes.loops[hole].area, 1, delta=0.05)
+        holes.save(self.folder / "with", lids=True)
+        np.testing.assert_array_equal(lacuna.load(self.folder / "with").lids()[hole][0], vertices)
+        holes.save(self.folder / "without")
+        with self.assertRaisesRegex(lacuna.Error, "lids.obj: cannot be read.*lids=True"):
+            lacuna.load(self.folder / "without").lids()
+
+    def test_one_hole_is_no_holes(self):
+        holes = lacuna.find_holes(plane(40, [(18, 17, 6)]))
+        self.assertRegex(repr(holes), r"^Holes\(1 hole and 1 outer curve of 1,[0-9]+ points\)$")
+        self.assertEqual(repr(holes.loops), "Loops(1 hole, 1 outer)")
+
     def test_a_stream_has_all_points_in_order(self):
         for i, part in enumerate(np.array_split(BIG, 3)):
             np.savetxt(self.folder / f"part{i}.xyz", part, fmt="%.17g")
@@ -372,7 +435,30 @@ class OtherLibraries(Folder):
             require("no_such_library", "to_frame")
 
 
+def typed(name, parameters, own):
+    """A TypedDict of the parameters of a function, without those that it has as arguments of its own."""
+    types = {"t": "bool", "f": "bool", "[": "Sequence[float]", '"': "Text"}
+    lines = [f'{name} = TypedDict(', f'    "{name}",', "    {"]
+    for parameter in parameters:
+        default = parameter["default"]
+        type = types.get(default[0], "float" if "." in default else "int")
+        if parameter["key"] not in own:
+            lines.append(f'        "{parameter["key"]}": {type},')
+    return "\n".join([*lines, "    },", "    total=False,", ")", ""])
+
+
 class Documentation(unittest.TestCase):
+    def test_editors_know_all_parameters(self):
+        from lacuna import _core, _parameters
+
+        file = Path(_parameters.__file__).read_text()
+        for name, command, own in (("RunParameters", "run", {"points", "normals"}), ("CheckParameters", "check", {"area"}), ("InfoParameters", "info", {})):
+            text = typed(name, _core.parameters(command), own)
+            self.assertTrue(text in file, f"_parameters.py needs:\n{text}")
+        self.assertEqual(set(_parameters.FileParameters.__annotations__), {p["key"] for p in lacuna.parameters()} - {"points"})
+        for function, name in ((lacuna.find_holes, "Run"), (lacuna.detect, "File"), (lacuna.stream, "File"), (lacuna.check, "Check"), (lacuna.info, "Info")):
+            self.assertEqual(inspect.signature(function).parameters["params"].annotation, f"Unpack[{name}Parameters]")
+
     def test_public_functions_say_what_they_do(self):
         for name in lacuna.__all__:
             self.assertTrue(inspect.getdoc(getattr(lacuna, name)), name)

@@ -20,6 +20,7 @@
 #include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
 #include "tools/run/parameter_options.hpp"
+#include "tools/run/run_steps.hpp"
 #include "tools/run/scan_warnings.hpp"
 #include "tools/run/signals.hpp"
 
@@ -45,7 +46,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 // Names are in the order of ProgressStyle.
-constexpr std::array<std::string_view, 3> kProgressStyles = {"bar", "plain", "none"};
+constexpr std::array<std::string_view, 4> kProgressStyles = {"bar", "plain", "json", "none"};
 
 struct DetectArguments {
   explicit DetectArguments(const Command& command) : run(command, parameters_of_run()) {}
@@ -91,8 +92,8 @@ FilesConfig RunArguments::start(FilesConfig base) const {
   return parameters.start(std::move(base));
 }
 
-std::unique_ptr<Progress> RunArguments::show_progress() const {
-  return make_progress(quiet ? ProgressStyle::kNone : progress);
+std::unique_ptr<Progress> RunArguments::show_progress(RunSteps steps) const {
+  return make_progress(quiet ? ProgressStyle::kNone : progress, std::move(steps));
 }
 
 FilesConfig config_of(const KeptRun& run, const fs::path& workspace) {
@@ -134,7 +135,7 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   const ScratchFolder scratch(scratch_parent(config.run, results));
 
   print_warnings(memory_warnings(config));
-  const std::unique_ptr<Progress> progress = arguments.show_progress();
+  const std::unique_ptr<Progress> progress = arguments.show_progress(steps_of_run(config, area.has_value()));
 
   const std::unique_ptr<StationViews> stations = watch_stations(scan, config.output, scratch.path());
   ExplainedDetection detection{*detect(scan, config, scratch.path(), *progress)};

@@ -22,7 +22,8 @@ struct RunArguments {
   // Returns the parameters over the ones in `base`. Sets up the log, and starts as `ParameterOptions` does.
   io::FilesConfig start(io::FilesConfig base = {}) const;
 
-  std::unique_ptr<Progress> show_progress() const;
+  // `steps`: of the run, for its share; none where it is not known.
+  std::unique_ptr<Progress> show_progress(RunSteps steps = steps_of_check()) const;
 
   ProgressStyle progress = default_progress_style();
   bool quiet = false;

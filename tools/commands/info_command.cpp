@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tools/commands/info_command.hpp"
+
 #include "engine/config/config.hpp"
 #include "engine/inspect.hpp"
 #include "engine/run/error.hpp"
@@ -23,10 +25,12 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <spdlog/spdlog.h>
@@ -39,9 +43,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct InfoArguments {
-  explicit InfoArguments(const Command& command)
-      : parameters(command, {.common = {"min_hole", "bounds", "where", "stations", "memory_limit"},
-                             .rare = {"resolution", "input", "threads", "tile_points", "scratch"}}) {}
+  explicit InfoArguments(const Command& command) : parameters(command, parameters_of_info()) {}
 
   std::vector<fs::path> scans;
   bool json = false;
@@ -203,7 +205,7 @@ Json returns_of(const AttributeCounts& counts) {
   return {{"only", counts.only}, {"first", counts.first}, {"later", counts.later}};
 }
 
-void print_json(const std::vector<FileInfo>& files, const FileScan& scan, const RunInfo& run) {
+std::string json_of(const std::vector<FileInfo>& files, const FileScan& scan, const RunInfo& run) {
   Json root;
   root["files"] = Json::array();
   for (const FileInfo& file : files) {
@@ -239,35 +241,57 @@ void print_json(const std::vector<FileInfo>& files, const FileScan& scan, const 
   root["memory_limit"] = summary.memory_limit;
   root["threads"] = summary.threads;
   const Needs needs = needs_of(summary);
-  const auto json_of = [](const Need& need) { return Json{{"least", need.least}, {"most", need.most}}; };
-  root["temporary_bytes"] = json_of(needs.temporary);
-  root["kept_bytes"] = json_of(needs.kept);
+  const auto need_json = [](const Need& need) { return Json{{"least", need.least}, {"most", need.most}}; };
+  root["temporary_bytes"] = need_json(needs.temporary);
+  root["kept_bytes"] = need_json(needs.kept);
   root["stations_bytes"] = run.stations_bytes;
-  root["seconds"] = json_of(needs.seconds);
-  std::cout << print(root, 2) << "\n";
+  root["seconds"] = need_json(needs.seconds);
+  return print(root, 2) + "\n";
 }
+
+// All that is known of a scan before its run.
+struct ScanInfo {
+  ScanInfo(const std::vector<fs::path>& scans, const FilesConfig& config)
+      : scan(expand_inputs(scans, config), config.input, read_options(config).memory) {
+    for (std::size_t i = 0; i < scan.files().size(); ++i)
+      files.push_back(read_file_info(scan, i, read_options(config)));
+    run = inspect_run(scan, config);
+  }
+
+  std::vector<std::string> warnings(const FilesConfig& config) const {
+    std::vector<std::string> all = input_warnings(scan);
+    const Summary& summary = run.inspection.summary;
+    std::ranges::copy(filter_warnings(scan, config.input, summary.strays.rest), std::back_inserter(all));
+    if (std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
+      all.push_back(std::move(strays));
+    std::ranges::copy(station_warnings(run.stations, run.points_of_none), std::back_inserter(all));
+    return all;
+  }
+
+  FileScan scan;
+  std::vector<FileInfo> files;
+  RunInfo run;
+};
 
 void run_info(const InfoArguments& arguments) {
   const FilesConfig config = arguments.parameters.start();
-  const ReadOptions options = read_options(config);
-  FileScan scan(expand_inputs(arguments.scans, config), config.input, options.memory);
-  std::vector<FileInfo> files;
-  for (std::size_t i = 0; i < scan.files().size(); ++i) files.push_back(read_file_info(scan, i, options));
-  const RunInfo run = inspect_run(scan, config);
+  const ScanInfo info(arguments.scans, config);
   if (arguments.json) {
-    print_json(files, scan, run);
+    std::cout << json_of(info.files, info.scan, info.run);
   } else {
-    print_text(files, scan, run);
+    print_text(info.files, info.scan, info.run);
   }
-  print_warnings(input_warnings(scan));
-  const Summary& summary = run.inspection.summary;
-  print_warnings(filter_warnings(scan, config.input, summary.strays.rest));
-  if (const std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
-    spdlog::warn("{}", strays);
-  print_warnings(station_warnings(run.stations, run.points_of_none));
+  print_warnings(info.warnings(config));
 }
 
 }  // namespace
+
+std::string info_json(const std::vector<fs::path>& scans, const FilesConfig& config,
+                      std::vector<std::string>& warnings) {
+  const ScanInfo info(scans, config);
+  warnings = info.warnings(config);
+  return json_of(info.files, info.scan, info.run);
+}
 
 void add_info_command(const Command& program) {
   const Command command =

@@ -101,7 +101,7 @@ void run_work(const WorkArguments& arguments) {
   watch_workspace(arguments.workspace);
   const fs::path parent = config.run.scratch.empty() ? arguments.workspace : fs::path(config.run.scratch);
   const ScratchFolder scratch(parent);
-  const std::unique_ptr<Progress> progress = arguments.run.show_progress();
+  const std::unique_ptr<Progress> progress = arguments.run.show_progress({});
   const bool exists = work(scan, config, *step, arguments.task, scratch.path(), *progress);
   if (!fs::exists(arguments.workspace / kRunPart))
     throw Error(arguments.workspace.string() +

@@ -114,11 +114,24 @@ std::vector<std::string> option_names(const CLI::App& command) {
 // Other programs name their input and output by options such as -i and --output.
 std::string option_hint(const CLI::App& command, const std::string& name) {
   if (name == "-i" || name == "--input") return "; the names of inputs need no option";
-  for (const CLI::App* other : command.get_parent() ? command.get_parent()->get_subcommands({}) : Apps()) {
-    if (other->get_option_no_throw(name) != nullptr)
-      return "; " + other->get_parent()->get_name() + " " + other->get_name() + " has it";
+  for (const CLI::App* parent = command.get_parent(); parent != nullptr; parent = parent->get_parent()) {
+    const std::string path = parent->get_name();
+    if (parent->get_option_no_throw(name) != nullptr)
+      return "; it has no command before it: " + path + " " + name;
+    for (const CLI::App* other : parent->get_subcommands({})) {
+      if (other->get_option_no_throw(name) != nullptr)
+        return "; " + path + " " + other->get_name() + " has it";
+    }
   }
+  const bool has_out = command.get_option_no_throw("--out") != nullptr;
+  const bool is_of_file = command.get_parent() != nullptr && !has_out;
+  if (is_of_file && (name == "-o" || name == "--output" || name == "--out"))
+    return "; the names of files need no option";
   const std::vector<std::string> names = option_names(command);
+  const bool chooses_points = command.get_option_no_throw("--where") != nullptr;
+  if (chooses_points && name.starts_with("--class"))
+    return suggestion(name, {names.begin(), names.end()}) +
+           "; --where 'Classification == 2' chooses points by their class";
   if (name.starts_with("--")) return suggestion(name, {names.begin(), names.end()});
   for (const CLI::Option* option : command.get_options()) {
     const bool is_parameter = section_of(*option) != kGeneral;

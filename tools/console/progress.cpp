@@ -5,11 +5,12 @@
 #include "tools/console/visible_text.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
+#include <condition_variable>
+#include <cstdio>
 #include <cstdlib>
-#include <mutex>
-#include <string_view>
+#include <stop_token>
+#include <thread>
 
 #include <unistd.h>
 
@@ -19,8 +20,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-constexpr auto kRedrawAfter = 100ms;
-constexpr auto kPlainLineAfter = 10s;
+constexpr auto kLookAfter = 100ms;
+
+Clock::duration interval_of(ProgressStyle style) {
+  if (style == ProgressStyle::kPlain) return 10s;
+  return style == ProgressStyle::kJson ? Clock::duration(1s) : kLookAfter;
+}
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -30,41 +35,57 @@ std::string rate_of(const StepProgress& progress) {
   return progress.done > 0 ? ", " + print_rate(progress.done, progress.step_seconds) : "";
 }
 
-std::string run_time(const StepProgress& progress) {
-  return "; run: " + print_duration(progress.run_seconds);
+std::string per_cent(double share) {
+  return std::to_string(static_cast<int>(100 * share)) + " %";
 }
 
-// Counts the progress and shows it now and then, by whichever thread comes by when it is time.
-class ShownProgress final : public Progress {
+std::string run_time(const StepProgress& progress) {
+  std::string text = "; run: ";
+  if (progress.run_share) text += per_cent(*progress.run_share) + ", ";
+  text += print_duration(progress.run_seconds);
+  if (const auto left = progress.run_seconds_left()) text += ", " + print_duration(*left) + " left";
+  return text;
+}
+
+std::string json_number(const std::optional<double>& value) {
+  if (!value) return "null";
+  char buffer[400];
+  std::snprintf(buffer, sizeof buffer, "%.3f", *value);
+  return buffer;
+}
+
+std::optional<double> seconds_left_of(std::optional<double> share, double seconds) {
+  if (share.value_or(0) == 0) return std::nullopt;
+  return seconds * (1 - *share) / *share;
+}
+
+// Shows the progress now and then, by a thread of its own: some steps count no points.
+class ShownProgress final : public CountedProgress {
  public:
-  explicit ShownProgress(bool is_bar)
-      : is_bar_(is_bar), interval_(is_bar ? Clock::duration(kRedrawAfter) : kPlainLineAfter) {}
-  ~ShownProgress() override { clear_progress(); }
+  ShownProgress(ProgressStyle style, RunSteps steps)
+      : CountedProgress(std::move(steps)),
+        style_(style),
+        clock_([this](const std::stop_token& stop) { show_until(stop); }) {}
+  ~ShownProgress() override {
+    clock_.request_stop();
+    clock_.join();
+    clear_progress();
+  }
 
   void begin(std::string_view step, std::uint64_t total) override {
     const std::lock_guard lock(mutex_);
-    step_ = step;
-    total_ = total;
-    done_ = 0;
-    step_start_ = Clock::now();
-    next_ = (step_start_ + interval_).time_since_epoch().count();
+    CountedProgress::begin(step, total);
     is_running_ = true;
-    if (is_bar_) show();
-  }
-  void advance(std::uint64_t count) override {
-    done_.fetch_add(count, std::memory_order_relaxed);
-    const auto now = Clock::now().time_since_epoch().count();
-    if (now < next_.load(std::memory_order_relaxed)) return;
-    const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (!lock || !is_running_ || now < next_) return;
-    next_ = now + interval_.count();
-    show();
+    next_ = Clock::now() + interval_of(style_);
+    if (style_ == ProgressStyle::kBar) show();
   }
   void end() noexcept override {
     const std::lock_guard lock(mutex_);
     if (!is_running_) return;
     is_running_ = false;
-    if (is_bar_) return clear_progress();
+    CountedProgress::end();
+    if (style_ == ProgressStyle::kBar) return clear_progress();
+    if (style_ == ProgressStyle::kJson) return show();
     const StepProgress all = state();
     print_line("lacuna: " + all.step + ": done in " + print_duration(all.step_seconds) + rate_of(all) +
                run_time(all));
@@ -75,44 +96,65 @@ class ShownProgress final : public Progress {
   }
 
  private:
-  StepProgress state() const {
-    return {.step = step_,
-            .done = done_,
-            .total = total_,
-            .step_seconds = seconds_since(step_start_),
-            .run_seconds = seconds_since(start_)};
-  }
-  void show() const {
-    if (is_bar_) {
-      show_bar(progress_bar(state(), terminal_width()));
-    } else {
-      print_line("lacuna: " + progress_text(state()));
+  void show_until(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (!stop.stop_requested()) {
+      woken_.wait_for(lock, stop, kLookAfter, [] { return false; });
+      if (is_running_ && !stop.stop_requested() && Clock::now() >= next_) show();
     }
   }
+  void show() {
+    next_ = Clock::now() + interval_of(style_);
+    if (style_ == ProgressStyle::kBar) return show_bar(progress_bar(state(), terminal_width()));
+    print_line(style_ == ProgressStyle::kJson ? progress_json(state()) : "lacuna: " + progress_text(state()));
+  }
 
-  const bool is_bar_;
-  const Clock::duration interval_;
-  const Clock::time_point start_ = Clock::now();
+  const ProgressStyle style_;
   std::mutex mutex_;
-  std::string step_;
-  std::uint64_t total_ = 0;
-  std::atomic<std::uint64_t> done_ = 0;
-  Clock::time_point step_start_;
-  std::atomic<Clock::rep> next_ = 0;
+  std::condition_variable_any woken_;
+  Clock::time_point next_;
   bool is_running_ = false;
+  std::jthread clock_;  // uses the others
 };
 
 }  // namespace
 
+void CountedProgress::begin(std::string_view step, std::uint64_t total) {
+  const std::lock_guard lock(mutex_);
+  step_ = step;
+  total_ = total;
+  done_ = 0;
+  is_done_ = false;
+  step_start_ = Clock::now();
+}
+
+void CountedProgress::end() noexcept {
+  const std::lock_guard lock(mutex_);
+  is_done_ = true;
+}
+
+StepProgress CountedProgress::state() const {
+  const std::lock_guard lock(mutex_);
+  StepProgress state{.step = step_, .done = done_, .total = total_, .is_done = is_done_};
+  if (step_.empty()) return state;
+  state.step_seconds = seconds_since(step_start_);
+  state.run_seconds = seconds_since(start_);
+  state.run_share = run_share(steps_, step_, state.share().value_or(0));
+  return state;
+}
+
 std::optional<double> StepProgress::share() const {
+  if (is_done) return 1;
   if (total == 0) return std::nullopt;
   return std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
 }
 
 std::optional<double> StepProgress::seconds_left() const {
-  const double part = share().value_or(0);
-  if (part == 0) return std::nullopt;
-  return step_seconds * (1 - part) / part;
+  return seconds_left_of(share(), step_seconds);
+}
+
+std::optional<double> StepProgress::run_seconds_left() const {
+  return seconds_left_of(run_share, run_seconds);
 }
 
 ProgressStyle default_progress_style() {
@@ -121,23 +163,33 @@ ProgressStyle default_progress_style() {
   return isatty(STDERR_FILENO) && can_redraw ? ProgressStyle::kBar : ProgressStyle::kPlain;
 }
 
-std::unique_ptr<Progress> make_progress(ProgressStyle style) {
+std::unique_ptr<Progress> make_progress(ProgressStyle style, RunSteps steps) {
   if (style == ProgressStyle::kNone) return std::make_unique<NoProgress>();
-  return std::make_unique<ShownProgress>(style == ProgressStyle::kBar);
+  return std::make_unique<ShownProgress>(style, std::move(steps));
 }
 
 std::string progress_text(const StepProgress& progress) {
   std::string known;
-  if (const auto share = progress.share())
-    known += ", " + std::to_string(static_cast<int>(100 * *share)) + " %";
+  if (const auto share = progress.share()) known += ", " + per_cent(*share);
   known += rate_of(progress);
   if (const auto left = progress.seconds_left()) known += ", " + print_duration(*left) + " left";
   return progress.step + (known.empty() ? "" : ":" + known.substr(1)) + run_time(progress);
 }
 
+std::string progress_json(const StepProgress& progress) {
+  return "{\"step\": \"" + progress.step + "\", \"share\": " + json_number(progress.share()) +
+         ", \"seconds\": " + json_number(progress.step_seconds) +
+         ", \"seconds_left\": " + json_number(progress.seconds_left()) +
+         ", \"points\": " + std::to_string(progress.done) +
+         ", \"run_share\": " + json_number(progress.run_share) +
+         ", \"run_seconds\": " + json_number(progress.run_seconds) +
+         ", \"run_seconds_left\": " + json_number(progress.run_seconds_left()) + "}";
+}
+
 std::string progress_bar(const StepProgress& progress, std::size_t width) {
   constexpr std::size_t kLength = 10;
-  const auto filled = static_cast<std::size_t>(progress.share().value_or(0) * kLength);
+  const double share = progress.run_share.value_or(progress.share().value_or(0));
+  const auto filled = static_cast<std::size_t>(share * kLength);
   const std::string bar = std::string(filled, '=') + std::string(kLength - filled, ' ');
   // The cursor stays on the line.
   return ("lacuna  [" + bar + "]  " + progress_text(progress)).substr(0, std::max<std::size_t>(width, 1) - 1);

@@ -3,28 +3,59 @@
 #pragma once
 
 #include "engine/run/progress.hpp"
+#include "tools/console/run_share.hpp"
 
+#include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace lacuna::tools {
 
 struct StepProgress {
   std::string step;
   std::uint64_t done = 0, total = 0;  // of the step; total 0: not known
+  bool is_done = false;               // the step
   double step_seconds = 0;
   double run_seconds = 0;
+  std::optional<double> run_share = {};  // from 0 to 1; rough
 
-  std::optional<double> share() const;         // of the step, from 0 to 1
-  std::optional<double> seconds_left() const;  // of the step, at its speed so far
+  std::optional<double> share() const;             // of the step, from 0 to 1
+  std::optional<double> seconds_left() const;      // of the step, at its speed so far
+  std::optional<double> run_seconds_left() const;  // from the run's share and time
+};
+
+// Counts the progress of a run. Any thread may call any function.
+class CountedProgress : public Progress {
+ public:
+  explicit CountedProgress(RunSteps steps) : steps_(std::move(steps)) {}
+
+  void begin(std::string_view step, std::uint64_t total) override;
+  void advance(std::uint64_t count) override { done_.fetch_add(count, std::memory_order_relaxed); }
+  void end() noexcept override;
+  StepProgress state() const;  // the step is empty before the first one
+
+ private:
+  const RunSteps steps_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  mutable std::mutex mutex_;
+  std::string step_;
+  std::uint64_t total_ = 0;
+  bool is_done_ = false;
+  std::atomic<std::uint64_t> done_ = 0;
+  std::chrono::steady_clock::time_point step_start_;
 };
 
 enum class ProgressStyle {
   kBar,    // one line, redrawn
   kPlain,  // for logs: a line at the end of each step, and every 10 seconds in long ones
+  kJson,   // for programs: an object at the end of each step, and every second
   kNone,
 };
 
@@ -32,11 +63,14 @@ enum class ProgressStyle {
 ProgressStyle default_progress_style();
 
 // Only one may exist at a time. Any thread may advance it.
-std::unique_ptr<Progress> make_progress(ProgressStyle style);
+std::unique_ptr<Progress> make_progress(ProgressStyle style, RunSteps steps);
 
-// "evaluate: 37 %, 1.60 M points/s, 12.3 s left; run: 42.0 s", without what is not known.
+// "evaluate: 37 %, 1.60 M points/s, 12.3 s left; run: 25 %, 42.0 s, 2:06 min left", without what is not
+// known.
 std::string progress_text(const StepProgress& progress);
-// The same after "lacuna  [===       ]  ", cut to less than `width` columns.
+// One line of JSON, with null for what is not known.
+std::string progress_json(const StepProgress& progress);
+// The text after "lacuna  [===       ]  ", cut to less than `width` columns. The bar is of the run.
 std::string progress_bar(const StepProgress& progress, std::size_t width);
 
 }  // namespace lacuna::tools

@@ -67,6 +67,11 @@ ReadParameters parameters_of_check() {
   return {.common = {"area", "report", "bounds", "where", "memory_limit"}, .rare = {"input", "threads"}};
 }
 
+ReadParameters parameters_of_info() {
+  return {.common = {"min_hole", "bounds", "where", "stations", "memory_limit"},
+          .rare = {"resolution", "input", "threads", "tile_points", "scratch"}};
+}
+
 ReadParameters parameters_of_process() {
   return {.common = {"memory_limit"}, .rare = {"threads", "scratch"}, .has_config_file = false};
 }

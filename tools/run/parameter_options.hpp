@@ -28,6 +28,8 @@ struct ReadParameters {
 ReadParameters parameters_of_run();
 // Returns those of a check of an area.
 ReadParameters parameters_of_check();
+// Returns those that `lacuna info` reads.
+ReadParameters parameters_of_info();
 // Returns those of a process that does a part of a plan, which has the others.
 ReadParameters parameters_of_process();
 

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The parameters of each function and their types, for editors. A test holds them equal to the engine's list."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import TypedDict, Union
+
+Text = Union[str, float, "os.PathLike[str]", Sequence[str]]
+
+RunParameters = TypedDict(
+    "RunParameters",
+    {
+        "resolution": float,
+        "min_hole": float,
+        "every_point": bool,
+        "k": int,
+        "eps": float,
+        "eps_fraction": float,
+        "crease_threshold": float,
+        "orient_normals": bool,
+        "sigma": float,
+        "cone": float,
+        "weight_angle": float,
+        "weight_halfdisc": float,
+        "weight_shape": float,
+        "threshold": float,
+        "method": Text,
+        "max_prob_weight": float,
+        "max_total_weight": float,
+        "e": int,
+        "seed_probability": float,
+        "max_radius": float,
+        "hole_radius": float,
+        "most_radius": float,
+        "coarse_bound": float,
+        "clear_radius": float,
+        "added_length": float,
+        "min_curve": int,
+        "min_confidence": float,
+        "min_perimeter": float,
+        "max_perimeter": float,
+        "min_area": float,
+        "max_area": float,
+        "min_diameter": float,
+        "min_points": int,
+        "holes_only": bool,
+        "columns": Text,
+        "bounds": Sequence[float],
+        "leave_out": Sequence[float],
+        "drop_origin": bool,
+        "keep_withheld": bool,
+        "keep_noise": bool,
+        "where": Text,
+        "trust": Text,
+        "crs": Text,
+        "unit": Text,
+        "unit_z": Text,
+        "recursive": bool,
+        "skip_damaged": bool,
+        "area": Text,
+        "void_rule": Text,
+        "except": Text,
+        "classes": Text,
+        "area_tile": float,
+        "sample_points": int,
+        "points_format": Text,
+        "points_normals": bool,
+        "obj": bool,
+        "gpkg": bool,
+        "geojson": bool,
+        "lids": bool,
+        "polygons": bool,
+        "stations": Text,
+        "coverage": float,
+        "no_coordinates": bool,
+        "local_coordinates": bool,
+        "report": bool,
+        "threads": int,
+        "memory_limit": Text,
+        "tile_points": int,
+        "workspace": Text,
+        "scratch": Text,
+    },
+    total=False,
+)
+
+
+# `find_holes` has an argument of this name, which are the normals themselves.
+class FileParameters(RunParameters, total=False):
+    normals: Text
+
+
+CheckParameters = TypedDict(
+    "CheckParameters",
+    {
+        "columns": Text,
+        "bounds": Sequence[float],
+        "leave_out": Sequence[float],
+        "drop_origin": bool,
+        "keep_withheld": bool,
+        "keep_noise": bool,
+        "where": Text,
+        "trust": Text,
+        "crs": Text,
+        "unit": Text,
+        "unit_z": Text,
+        "recursive": bool,
+        "skip_damaged": bool,
+        "void_rule": Text,
+        "except": Text,
+        "classes": Text,
+        "area_tile": float,
+        "threads": int,
+        "memory_limit": Text,
+    },
+    total=False,
+)
+
+InfoParameters = TypedDict(
+    "InfoParameters",
+    {
+        "resolution": float,
+        "min_hole": float,
+        "columns": Text,
+        "bounds": Sequence[float],
+        "leave_out": Sequence[float],
+        "drop_origin": bool,
+        "keep_withheld": bool,
+        "keep_noise": bool,
+        "where": Text,
+        "trust": Text,
+        "crs": Text,
+        "unit": Text,
+        "unit_z": Text,
+        "recursive": bool,
+        "skip_damaged": bool,
+        "stations": Text,
+        "threads": int,
+        "memory_limit": Text,
+        "tile_points": int,
+        "scratch": Text,
+    },
+    total=False,
+)
