@@ -112,6 +112,7 @@ CheckParameters = TypedDict(
         "except": Text,
         "classes": Text,
         "area_tile": float,
+        "report": bool,
         "threads": int,
         "memory_limit": Text,
     },

@@ -458,7 +458,7 @@ refuse() {
 }
 some=(holes.xyz --columns "x y z" --out refused)
 for command in check detect; do
-  refuse "void_rule = \"\": --area needs it; allowed: a length above 0, or" "$command" "${some[@]}" --area holes.geojson
+  refuse "void_rule = \"\": a check of an area needs it; allowed: a length above 0, or" "$command" "${some[@]}" --area holes.geojson
   refuse "nothing.gpkg: cannot be opened: No such file" "$command" "${some[@]}" --area nothing.gpkg --void-rule 4
   refuse "holes.xyz: cannot be read as GeoPackage" "$command" "${some[@]}" --area holes.xyz --void-rule 4
   refuse "void_rule = 1e-6: the area has .* cells of an eighth of this size, more than .* allowed: a size of .* or more" "$command" "${some[@]}" \

@@ -330,7 +330,7 @@ class Files(Folder):
         for result in (holes, self.folder / "out"):
             picture = lacuna.render(result, self.folder / "ours.png", view=1, size=(200, 100))
             self.assertEqual(picture.read_bytes(), (self.folder / "p.png").read_bytes())
-        with self.assertRaisesRegex(lacuna.Error, "--view"):
+        with self.assertRaisesRegex(lacuna.Error, "view 'below'"):
             lacuna.render(holes, self.folder / "ours.png", view="below")
         (self.folder / "mine.png").write_text("mine")
         with self.assertRaisesRegex(lacuna.Error, "mine.png"):
