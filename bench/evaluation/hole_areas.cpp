@@ -8,7 +8,9 @@
 #include "tools/matching/point_tree.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -44,17 +46,18 @@ void visit_surface(const Points& loop, double longest_edge, const Skip& skip, co
 // The surfaces of the true holes. Those of found holes pass by piece by piece, however many they are.
 class TrueSurfaces {
  public:
-  TrueSurfaces(const Truth& truth, std::span<const TrueMatch> matches, const MatchRule& rule)
-      : longest_edge_(rule.tolerance / 2) {
+  TrueSurfaces(const Truth& truth, std::span<const TrueMatch> matches, const MatchRule& rule) {
     for (const bool counts : {true, false}) {
       for (std::size_t i = 0; i < truth.loops.size(); ++i) {
         if (truth.hole_widths[i] && matches[i].counts == counts) add(truth.loops[i], truth, rule);
       }
       if (counts) covered_.resize(areas_.size());
     }
-    std::vector<Segment> places;
-    for (std::size_t i = 0; i < covered_.size(); ++i) places.push_back({centroids_[i], centroids_[i], i});
-    counting_.emplace(std::move(places));
+    std::map<int, std::vector<Segment>> places;  // by the octave of their reach
+    for (std::size_t i = 0; i < covered_.size(); ++i)
+      places[std::ilogb(reaches_[i])].push_back({centroids_[i], centroids_[i], i});
+    for (auto& [octave, of_octave] : places)
+      counting_.push_back({std::ldexp(1.0, octave + 1), EdgeTree(std::move(of_octave))});
     all_.emplace(centroids_);
   }
 
@@ -68,13 +71,15 @@ class TrueSurfaces {
       found_ += area_of(part);
       return true;
     };
-    visit_surface(loop, longest_edge_, is_far, [&](const Corners& piece) {
+    visit_surface(loop, reach / 2, is_far, [&](const Corners& piece) {
       found_ += area_of(piece);
       const Eigen::Vector3d centroid = centroid_of(piece);
       if (!is_repeated && all_->nearest_distance(centroid) <= reach) right_ += area_of(piece);
-      counting_->owners_within(centroid, farthest_, near_);
-      for (const std::size_t of : near_) {
-        if ((centroids_[of] - centroid).stableNorm() <= reaches_[of]) covered_[of] = true;
+      for (const Counting& counting : counting_) {
+        counting.tree.owners_within(centroid, counting.reach, near_);
+        for (const std::size_t of : near_) {
+          if ((centroids_[of] - centroid).stableNorm() <= reaches_[of]) covered_[of] = true;
+        }
       }
     });
   }
@@ -95,7 +100,7 @@ class TrueSurfaces {
     const double reach = reach_of(ids, rule);
     farthest_ = std::max(farthest_, reach);
     visit_surface(
-        points_of(ids, truth), longest_edge_, [](const Corners&) { return false; },
+        points_of(ids, truth), reach / 2, [](const Corners&) { return false; },
         [&](const Corners& piece) {
           centroids_.push_back(centroid_of(piece));
           areas_.push_back(area_of(piece));
@@ -103,11 +108,17 @@ class TrueSurfaces {
         });
   }
 
-  double longest_edge_, farthest_ = 0;
+  // Pieces that count, of holes whose reaches are within an octave below this one.
+  struct Counting {
+    double reach;
+    EdgeTree tree;
+  };
+
+  double farthest_ = 0;
   Points centroids_;  // of the pieces; those of the holes that count come first
   std::vector<double> areas_, reaches_;
   std::vector<bool> covered_;  // of the pieces that count
-  std::optional<EdgeTree> counting_;
+  std::vector<Counting> counting_;
   std::optional<PointTree> all_;
   std::vector<std::size_t> near_;
   double found_ = 0, right_ = 0;

@@ -19,7 +19,7 @@ struct HoleAreas {
 // the triangulation of its loop that has the least area. Outer curves have none, and neither has a loop with
 // a point that is not finite. Loops along steps of density and around unsampled places take no part. A loop
 // that repeats another has no right place. Places of a hole are near others within the mean tolerance of the
-// hole's points. Each surface is divided into pieces with edges of at most half of the least tolerance. The
+// hole's points. Each surface is divided into pieces with edges of at most half of its mean tolerance. The
 // centroid of a piece decides for the piece. With a tolerance of 0, all areas are 0. Cost: n log n for points
 // and pieces. Memory: the pieces of the true holes.
 HoleAreas compare_areas(std::span<const LoopIds> loops, const Truth& truth, const LoopAccuracy& accuracy,

@@ -67,7 +67,8 @@ TEST_CASE("the lid of a large hole stays within the memory limit") {
   check_limit(plane(600).punched({300, 300}, 250).jittered(0.2, 1), {"--lids"});
 }
 
-TEST_CASE("range images of stations stay within the memory limit, with the same causes as without one") {
+TEST_CASE("range images of stations stay within the memory limit, with the same causes as without one",
+          "[.slow]") {
   const test::ScratchFolder scratch;
   const std::string scan = (scratch / "room.ply").string(),
                     stations = (scratch / "room.stations.txt").string();

@@ -127,8 +127,8 @@ TEST_CASE("OBJ has the loops and measures of holes.json, with all digits on Eart
     const Object& object = obj.objects[i];
     CHECK(object.name == loop.at("kind").get<std::string>() + "_" + std::to_string(i));
     for (const auto& [name, value] : object.comments) CHECK(loop.at(name) == value);
-    for (const char* measure : {"points", "confidence", "prominence", "first_scale", "last_scale", "perimeter",
-                                "area", "diameter", "planarity", "mean_probability"})
+    for (const char* measure : {"points", "confidence", "prominence", "first_scale", "last_scale",
+                                "perimeter", "area", "diameter", "planarity", "mean_probability"})
       CHECK(object.comments.contains(measure));
     CHECK(object.comments.contains("parent") == !loop.at("parent").is_null());
     const std::vector<Eigen::Vector3d> places = coordinates(loop);

@@ -188,7 +188,8 @@ void set_other(const Parameter& parameter, const std::string& workspace) {
 
 }  // namespace
 
-TEST_CASE("a parameter changes the results unless what it needs is missing or it is about the run") {
+TEST_CASE("a parameter changes the results unless what it needs is missing or it is about the run",
+          "[.slow]") {
   Runs runs;
   struct Setting {
     LoopMethod method;
@@ -269,7 +270,7 @@ void check_kept_runs(const io::FilesConfig& config, const IsTried& is_tried) {
 
 }  // namespace
 
-TEST_CASE("a kept run with another parameter of the method gives the results of a fresh run") {
+TEST_CASE("a kept run with another parameter of the method gives the results of a fresh run", "[.slow]") {
   io::FilesConfig config;
   config.scale.min_hole = 4;
   config.normals.use = NormalsUse::kGiven;  // they do not fit
@@ -446,7 +447,7 @@ TEST_CASE("each command refuses the parameters that it does not offer, and a run
     CHECK_THAT(help, Contains(option));
 }
 
-TEST_CASE("each parameter that info, check or find-stations offers changes what it does") {
+TEST_CASE("each parameter that info, check or find-stations offers changes what it does", "[.slow]") {
   const Sweep sweep;
   const Words all = {"plain.txt", "origin.txt", "withheld.txt", "noise.las"};
   // Options that a parameter needs, and other files that it changes.

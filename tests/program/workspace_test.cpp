@@ -87,7 +87,7 @@ TEST_CASE("a signal says how to go on, and what is done stays") {
                  Contains("scan.txt, ") && Contains(" bytes, written 20") && !Contains(" ns"));
 }
 
-TEST_CASE("a workspace on a full disk is an error, and its parts are used elsewhere") {
+TEST_CASE("a workspace on a full disk is an error, and its parts are used elsewhere", "[.slow]") {
   const Run run;
   std::size_t failed = 0;
   for (const int bytes_a_point : {1, 12, 35, 70, 105, 140, 175, 233, 291, 350}) {
