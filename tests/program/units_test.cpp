@@ -3,6 +3,7 @@
 #include "tests/support/run_program.hpp"
 #include "tests/support/sheet.hpp"
 
+#include <csignal>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -99,9 +100,11 @@ TEST_CASE("a task that ends after its workspace was cleaned fails, and its part 
   const fs::path workspace = run.workspace;
   bool is_cleaned = false;
   const ProgramResult late =
-      test::run_program_beside({"work", run.workspace, "--step", "evaluate-0", "--quiet"}, [&](pid_t) {
+      test::run_program_beside({"work", run.workspace, "--step", "evaluate-0", "--quiet"}, [&](pid_t task) {
         if (is_cleaned || !fs::exists(workspace / "level-0-0.lacuna")) return;
+        ::kill(task, SIGSTOP);  // so that it does not end before
         is_cleaned = run_program({"clean", run.workspace}).exit_code == 0;
+        ::kill(task, SIGCONT);
       });
   CHECK(is_cleaned);
   check_failure(late, 1, run.workspace);
