@@ -250,7 +250,7 @@ outline 1 pond.txt hole 4731
 outline 0 corner.txt "" 2999
 "$program" detect river.xyz --out detected --quiet
 "$program" detect river.xyz --out detected >detected.txt 2>detected.err
-grep -q "^  plan *from above, about 1[3-6].* % of it are uncovered, and the widest void has about 1[0-3].* (estimates); lacuna check shows them" detected.txt
+grep -q "^  plan *from above, about 1[3-6].* % of it is uncovered, and the widest void has about 1[0-3].* (estimates); lacuna check shows them" detected.txt
 "$program" detect whole.txt --out detected >detected.txt 2>detected.err
 [[ $(grep -c "^  plan" detected.txt) == 0 ]]
 

@@ -128,7 +128,7 @@ std::string print_plan(const Detection& detection, std::string_view unit) {
   const std::optional<PlanEstimate> plan = estimate_plan(detection);
   if (!plan || !(plan->uncovered > detection.summary.hole_area)) return "";
   return "from above, about " + print_number(100 * plan->uncovered / plan->area) +
-         " % of it are uncovered, and the widest void has about " + print_length(plan->widest, unit) +
+         " % of it is uncovered, and the widest void has about " + print_length(plan->widest, unit) +
          " (estimates); lacuna check shows them";
 }
 
