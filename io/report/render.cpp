@@ -298,7 +298,17 @@ float share_seen(const Scene& scene, const View& view, float aspect) {
   return static_cast<float>(seen) / static_cast<float>(first[*view.loop + 1] - first[*view.loop]);
 }
 
-View view_of_loop(const Scene& scene, std::string_view name, float aspect) {
+struct NamedView {
+  std::string_view name;
+  Eigen::Vector3f towards, up;
+};
+const NamedView kNamedViews[] = {{"top", {0, 0, 1}, {0, 1, 0}},
+                                 {"front", {0, -1, 0}, {0, 0, 1}},
+                                 {"side", {1, 0, 0}, {0, 0, 1}},
+                                 {"oblique", {0.6f, -1, 0.8f}, {0, 0, 1}}};
+
+// Returns the index of the loop whose id a view is named by.
+std::size_t find_loop(const Scene& scene, std::string_view name) {
   std::uint64_t id = 0;
   const auto& ids = scene.loops.ids;
   const bool is_number = parse_number(name, id);
@@ -311,6 +321,10 @@ View view_of_loop(const Scene& scene, std::string_view name, float aspect) {
   const auto loop = static_cast<std::size_t>(found - ids.begin());
   if (scene.loops.first[loop] == scene.loops.first[loop + 1])
     throw Error("view '" + std::string(name) + "': " + kUndrawn);
+  return loop;
+}
+
+View view_of_loop(const Scene& scene, std::size_t loop, float aspect) {
   Eigen::Vector3f normal = scene.loops.measures[loop].normal.cast<float>();
   if (!(normal.norm() > 0.5f)) normal = {0, 0, 1};
   // Mostly from above, and a loop in a wall is drawn upright. The other side and views aslant are for what
@@ -335,20 +349,16 @@ View view_of_loop(const Scene& scene, std::string_view name, float aspect) {
 
 }  // namespace
 
+std::optional<std::size_t> loop_of_view(const Scene& scene, std::string_view name) {
+  if (std::ranges::find(kNamedViews, name, &NamedView::name) != std::end(kNamedViews)) return std::nullopt;
+  return find_loop(scene, name);
+}
+
 View find_view(const Scene& scene, std::string_view name, std::size_t width, std::size_t height) {
   const float aspect = static_cast<float>(width) / static_cast<float>(height);
-  View view;
-  if (name == "top") {
-    view = looking_from({0, 0, 1}, {0, 1, 0});
-  } else if (name == "front") {
-    view = looking_from({0, -1, 0}, {0, 0, 1});
-  } else if (name == "side") {
-    view = looking_from({1, 0, 0}, {0, 0, 1});
-  } else if (name == "oblique") {
-    view = looking_from({0.6f, -1, 0.8f}, {0, 0, 1});
-  } else {
-    return view_of_loop(scene, name, aspect);
-  }
+  if (const auto loop = loop_of_view(scene, name)) return view_of_loop(scene, *loop, aspect);
+  const NamedView& named = *std::ranges::find(kNamedViews, name, &NamedView::name);
+  View view = looking_from(named.towards, named.up);
   fit(scene.points.positions.empty() ? scene.loops.vertices : scene.points.positions, aspect, view);
   return view;
 }

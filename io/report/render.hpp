@@ -40,6 +40,10 @@ struct View {
 // loop.
 View find_view(const Scene& scene, std::string_view name, std::size_t width, std::size_t height);
 
+// Returns the loop that a view of this name is of, as an index; nothing for the four others. Throws `Error` as
+// find_view does.
+std::optional<std::size_t> loop_of_view(const Scene& scene, std::string_view name);
+
 // Points are discs, grey to dark green by their boundary probability. If `as_it_came` is set and the scan has
 // colours, they keep these. Curves of holes and outer curves have the colours of loops.ply. A chosen loop is
 // thick, and pale where the surface hides it; the others are thin and pale. What lies within the outline of a

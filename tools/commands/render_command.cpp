@@ -46,11 +46,11 @@ std::pair<std::size_t, std::size_t> parse_size(const std::string& text) {
 }
 
 // The height of the roof that a view leaves out. A loop that reaches above it keeps it, as in the page.
-std::optional<double> roof_before(const View& view, const Scene& scene) {
+std::optional<double> roof_before(std::optional<std::size_t> loop, const Scene& scene) {
   const std::optional<double> height = roof_height(scene);
-  if (!height || !view.loop) return height;
+  if (!height || !loop) return height;
   const auto& [ids, measures, first, vertices, all] = scene.loops;
-  for (std::size_t i = first[*view.loop]; i < first[*view.loop + 1]; ++i)
+  for (std::size_t i = first[*loop]; i < first[*loop + 1]; ++i)
     if (scene.origin.z() + vertices[i].z() > *height) return std::nullopt;
   return height;
 }
@@ -63,8 +63,7 @@ void run_render(const RenderArguments& arguments) {
     throw WrongOption("--hide-above", "a finite height is allowed");
   Scene scene = read_scene(arguments.folder);
   const std::optional<double> most_height =
-      arguments.most_height ? arguments.most_height
-                            : roof_before(find_view(scene, arguments.view, width, height), scene);
+      arguments.most_height ? arguments.most_height : roof_before(loop_of_view(scene, arguments.view), scene);
   if (most_height) hide_above(scene, *most_height);
   const View view = find_view(scene, arguments.view, width, height);
   const PictureSize size{width, height};
