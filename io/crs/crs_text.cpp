@@ -110,6 +110,11 @@ std::string_view without_vertical(std::string_view crs) {
   return is_code(crs) ? crs.substr(0, crs.find('+')) : horizontal_system(crs);
 }
 
+std::string name_of_crs(const std::string& crs) {
+  const std::size_t begin = crs.find('"'), end = crs.find('"', begin + 1);
+  return end == crs.npos ? crs : crs.substr(begin + 1, end - begin - 1);
+}
+
 // It is the last node of the system, such as AUTHORITY["EPSG","25832"]] or ID["EPSG",25832]].
 std::string own_code(std::string_view system) {
   constexpr std::string_view kEpsg = "\"EPSG\"";

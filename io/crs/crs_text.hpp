@@ -17,6 +17,9 @@ std::string_view vertical_system(std::string_view crs);
 // Whether the text is "EPSG:25832", "ESRI:102100", or a horizontal and a vertical one, "EPSG:25832+7837".
 bool is_code(std::string_view text);
 
+// Returns the name within well-known text, such as "NAD83 / UTM zone 10N"; a code stays as it is.
+std::string name_of_crs(const std::string& crs);
+
 // Whether the system is a zone of UTM, by its code or its name.
 bool is_utm(std::string_view crs);
 

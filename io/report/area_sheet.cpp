@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/report/area_sheet.hpp"
 
+#include "io/crs/crs_text.hpp"
 #include "io/report/page.hpp"
 #include "io/report/report.hpp"
 
@@ -95,12 +96,6 @@ std::string_view source_of(std::string_view rule) {
   if (rule.starts_with("spacing2:"))
     return "English Heritage, draft specification for laser scanning: twice the nominal spacing";
   return "a length, as it was ordered";
-}
-
-// The name within well-known text; a code as it is.
-std::string name_of_crs(const std::string& crs) {
-  const std::size_t begin = crs.find('"'), end = crs.find('"', begin + 1);
-  return end == crs.npos ? crs : crs.substr(begin + 1, end - begin - 1);
 }
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;

@@ -15,12 +15,6 @@ namespace {
 
 constexpr const char* kGeocentricCode = "EPSG:4978";
 
-// Returns the name in well-known text.
-std::string name_in(const std::string& text) {
-  const std::size_t begin = text.find('"') + 1;
-  return text.substr(begin, text.find('"', begin) - begin);
-}
-
 // Projected systems have such places, too, but no such heights.
 bool is_on_earth(const Eigen::Vector3d& place) {
   constexpr double kLeast = 6'330'000, kMost = 6'400'000, kLeastHeight = 20'000;
@@ -62,7 +56,7 @@ void require_plan(const FileScan& scan, const std::string& option) {
     if (place) degrees = to_degrees(is_guess ? kGeocentricCode : crs, {*place}, scan.files()[i].name);
     const std::string zone = degrees ? utm_zone(degrees->front().x(), degrees->front().y()) : "EPSG:N";
     throw Error(scan.files()[i].name.string() + ": " +
-                (is_guess ? "its places are geocentric, as of EPSG:4978" : name_in(text) + " is geocentric") +
+                (is_guess ? "its places are geocentric, as of EPSG:4978" : name_of_crs(text) + " is geocentric") +
                 ", and " + option + " needs a plan; `pdal translate IN OUT reprojection " +
                 (is_guess ? "--filters.reprojection.in_srs=EPSG:4978 " : "") +
                 "--filters.reprojection.out_srs=" + zone + "` projects it" +

@@ -209,8 +209,7 @@ void warn_of_degrees(const FileScan& scan, std::vector<std::string>& warnings) {
 }  // namespace
 
 std::string crs_name(const std::string& crs) {
-  const std::size_t begin = crs.find('"'), end = crs.find('"', begin + 1);
-  return visible(end == crs.npos ? crs : crs.substr(begin + 1, end - begin - 1));
+  return visible(name_of_crs(crs));
 }
 
 namespace {

@@ -12,7 +12,7 @@
 
 namespace lacuna::tools {
 
-// Returns the name within well-known text, such as "NAD83 / UTM zone 10N"; a code stays as it is.
+// Returns io::name_of_crs, fit to be printed.
 std::string crs_name(const std::string& crs);
 
 // Throws `Error` if positions are longitude and latitude, because nothing of a run fits degrees. Throws, too,
