@@ -117,8 +117,7 @@ ResultArguments::ResultArguments(const Command& command, const ReadParameters& r
       .type("DIR");
 }
 
-std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
-                      const ResultArguments& arguments) {
+void detect_to(const std::vector<ScanInput>& inputs, FilesConfig config, const ResultArguments& arguments) {
   if (config.run.note.empty()) config.run.note = print_config(config);
   const Clock::time_point start = Clock::now();
   require_outside_results(config.run.workspace, arguments.out, "--workspace");
@@ -149,13 +148,14 @@ std::string detect_to(const std::vector<ScanInput>& inputs, FilesConfig config,
   print_warnings(station_warnings(detection.stations, detection.points_of_none, detection.upward));
   print_warnings(scan_warnings(scan, detection, config));
 
+  if (arguments.quiet) return;
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   std::string summary = print_summary(detection, scan, seconds);
   for (const fs::path& file : written) summary += "written: " + visible(file.string()) + "\n";
   if (workspace)
     summary += "kept: " + visible(config.run.workspace) +
                ", from which the same command goes on; lacuna clean removes it\n";
-  return summary;
+  std::cout << summary;
 }
 
 namespace {
@@ -169,8 +169,7 @@ void run_detect(const Command& command, const DetectArguments& arguments) {
   require(command, "SCAN");
   require(command, "--out");
   if (arguments.run.out.empty()) throw WrongOption("--out", "a folder name is needed");
-  const std::string summary = detect_to(expand_inputs(arguments.scans, config), config, arguments.run);
-  if (!arguments.run.quiet) std::cout << summary;
+  detect_to(expand_inputs(arguments.scans, config), config, arguments.run);
 }
 
 }  // namespace

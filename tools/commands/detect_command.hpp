@@ -44,8 +44,8 @@ io::FilesConfig config_of(const KeptRun& run, const std::filesystem::path& works
 std::unique_ptr<io::FileScan> open_inputs(const std::vector<io::ScanInput>& inputs,
                                           const io::FilesConfig& config);
 
-// Finds the holes and writes the results; returns their summary.
-std::string detect_to(const std::vector<io::ScanInput>& inputs, io::FilesConfig config,
-                      const ResultArguments& arguments);
+// Finds the holes and writes the results. Prints their summary, unless the arguments are quiet.
+void detect_to(const std::vector<io::ScanInput>& inputs, io::FilesConfig config,
+               const ResultArguments& arguments);
 
 }  // namespace lacuna::tools

@@ -122,8 +122,7 @@ void run_finish(const FinishArguments& arguments) {
   FilesConfig config = arguments.run.start(config_of(stored, arguments.workspace));
   config.run.workspace = arguments.workspace.string();
   config.run.note = stored.note;
-  const std::string summary = detect_to(inputs_of(stored.names), config, arguments.run);
-  if (!arguments.run.quiet) std::cout << summary;
+  detect_to(inputs_of(stored.names), config, arguments.run);
 }
 
 void add_workspace(const Command& command, fs::path& workspace) {
