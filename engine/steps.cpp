@@ -126,9 +126,7 @@ std::optional<Step> step_of_name(std::string_view name, const fs::path& folder) 
     name.remove_prefix(static_cast<std::size_t>(end - name.data()));
   }
   if (!name.empty() || step.level >= kMostLevels) return std::nullopt;
-  const std::optional<TaskPlan> plan = read_plan(folder);
-  if (!plan) throw Error(folder.string() + ": has no plan; allowed: a workspace of lacuna plan");
-  step.tasks = tasks_of(*form, step.level, *plan);
+  step.tasks = tasks_of(*form, step.level, require_plan(folder));
   return step;
 }
 

@@ -97,6 +97,11 @@ std::optional<TaskPlan> read_plan(const fs::path& folder) {
   }
 }
 
+TaskPlan require_plan(const fs::path& folder) {
+  if (const std::optional<TaskPlan> plan = read_plan(folder)) return *plan;
+  throw Error(folder.string() + ": has no plan; allowed: a workspace of lacuna plan");
+}
+
 Config with_planned_tiles(Config config) {
   const fs::path folder = config.run.workspace;
   if (!folder.empty() && config.run.tile_points == 0)
@@ -127,7 +132,7 @@ Parts open_parts(const PointSource& scan, const Config& config, Progress& progre
     throw Error(folder.string() + ": no workspace can be kept for points that are not read from files");
   Parts parts{.folder = folder,
               .made_from = made_from(identity, config),
-              .plan = read_plan(folder).value_or(TaskPlan()),
+              .plan = opener == Opener::kUnit ? require_plan(folder) : read_plan(folder).value_or(TaskPlan()),
               .is_unit = opener != Opener::kRun,
               .progress = &progress};
   if (!is_kept_folder(folder)) refuse_others(folder);

@@ -24,7 +24,8 @@ bool can_share_reading(const PointSource& scan, const Config& config);
 
 // Opens the kept folder that the config names, for this input; without a name, nothing is kept. Where it is
 // of another input or other parameters, the parts that differ are made again. Tasks share only what they
-// can share with these. Throws `Error`, also where files of others have the names of parts.
+// can share with these. Throws `Error`, also where files of others have the names of parts, and to a unit
+// whose folder has no plan, as after lacuna clean.
 Parts open_parts(const PointSource& scan, const Config& config, Progress& progress, Opener opener);
 
 // Return further parameters, a line each. The evaluation of a tile depends on the first, and the others say
@@ -46,6 +47,8 @@ std::optional<std::vector<std::string>> made_from_of(const std::filesystem::path
 // Write and read the plan of a run. The result is empty where none was made, or where it is damaged.
 void write_plan(const std::filesystem::path& folder, const TaskPlan& plan);
 std::optional<TaskPlan> read_plan(const std::filesystem::path& folder);
+// Returns the plan of a folder that must have one. Throws `Error`.
+TaskPlan require_plan(const std::filesystem::path& folder);
 // Returns the config with tiles as large as the plan of its folder has them, unless it says how large.
 Config with_planned_tiles(Config config);
 
