@@ -7,8 +7,6 @@
 #include <utility>
 
 namespace lacuna::peers {
-using namespace io;
-
 namespace {
 
 using HalfEdge = std::pair<std::size_t, std::size_t>;
