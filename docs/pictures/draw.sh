@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Draws the pictures of README.md, choosing.md, confidence.md and examples.md into this folder, and prints what
-# `lacuna-bench evaluate` says of each synthetic scan.
+# Draws the pictures of README.md, choosing.md, confidence.md and examples.md into this folder. Prints the numbers of these pages:
+# points, what `lacuna-bench evaluate` says of each synthetic scan, and sizes of files.
 #
 #     docs/pictures/draw.sh build/lacuna build/lacuna-bench [FOLDER]
 #
@@ -35,7 +35,7 @@ render() {
 small=(--view top --size 280x280)
 
 "$bench" synth surface rough.ply --kind plane --points 16000 --holes 7 --hole-radius 3 8 --positions random \
-  --noise 0.3 --seed 3 > log
+  --noise 0.3 --seed 3
 for k in 8 15 40; do
   detect "k-$k" rough.ply --k "$k"
   render "k-$k" "${small[@]}"
@@ -49,20 +49,20 @@ detect weight-halfdisc rough.ply --weight-angle 0 --weight-shape 0
 detect weight-shape rough.ply --weight-angle 0 --weight-halfdisc 0
 for criterion in angle halfdisc shape; do render "weight-$criterion" "${small[@]}"; done
 
-"$bench" synth surface step.ply --kind plane --points 16000 --holes 5 --hole-radius 3 8 --density-step 9 --seed 3 > log
+"$bench" synth surface step.ply --kind plane --points 16000 --holes 5 --hole-radius 3 8 --density-step 9 --seed 3
 for eps in 0 0.035; do
   detect "eps-$eps" step.ply --eps "$eps"
   render "eps-$eps" "${small[@]}"
 done
 
-"$bench" synth scan room.ply --stations 1 --points 400000 --seed 2 > log
-detect room room.ply --stations room.stations.txt
+"$bench" synth scan room.ply --stations 1 --points 400000 --seed 2
+detect room room.ply --stations room.stations.txt --report
+wc --bytes room.ply room/*
 render room --hide-above 2.5 --size 900x560
 
 # The report as it opens, in Chromium: without the ceiling. It shows times of the run, so no two pictures are equal.
 page=$pictures/../../tests/program/report_page.py
 if [[ -e $page ]]; then
-  "$lacuna" report room > log
   python3 "$page" room/report.html --screenshot "$pictures/report.png" --size 1400x860 --no-checks || (($? == 77))
 fi
 
