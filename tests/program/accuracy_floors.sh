@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Finds the holes of known scans, and fails where fewer than the floors are found, or more than the ceilings are false:
-# bench/accuracy/floors.csv. So it does where a group that has run has other numbers in bench/accuracy/README.md or README.md. Takes an
-# expression for GROUP/NAME of the sets. LACUNA_PROGRAM names the program.
+# bench/accuracy/floors.csv. A group that has run has to have the numbers of bench/accuracy/README.md and README.md, too, and so have
+# the rated loops of real scans. Takes an expression for GROUP/NAME of the sets. LACUNA_PROGRAM names the program.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+data=${LACUNA_SHARED:-$root/../shared}/data
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 "$root/tools/accuracy.sh" --lacuna "$LACUNA_PROGRAM" --bench "$LACUNA_BENCH_PROGRAM" --no-peers --work "$scratch" --csv "$scratch/rows.csv" \
-  --data "${LACUNA_SHARED:-$root/../shared}/data" --only "$1" --floors "$root/bench/accuracy/floors.csv"
+  --data "$data" --only "$1" --floors "$root/bench/accuracy/floors.csv"
 
 python3 - "$scratch/rows.csv" "$root" <<'END'
 import csv
@@ -49,3 +50,12 @@ for group in list(measured):
         compare("bench/accuracy/README.md", f"{group} ({measured[group][0]})", [group])
 sys.exit("\n".join(failed) or 0)
 END
+
+[[ $1 != ^quick/ && -d $data/real ]] || exit 0
+python3 "$root/bench/accuracy/real.py" --lacuna "$LACUNA_PROGRAM" --bench "$LACUNA_BENCH_PROGRAM" --work "$scratch" --scans "$data/real" |
+  grep '^| [a-z]' >"$scratch/rated"
+status=0
+while IFS= read -r row; do
+  grep --quiet --fixed-strings --line-regexp -- "$row" "$root/bench/accuracy/README.md" || { echo "bench/accuracy/README.md: has no row $row"; status=1; }
+done <"$scratch/rated"
+exit "$status"
