@@ -166,20 +166,23 @@ class SeenParts {
 };
 
 std::vector<Label> find_labels(const Scene& scene, const View& view, PictureSize size) {
-  const auto& [ids, measures, first, vertices, all] = scene.loops;
-  std::vector<std::size_t> loops(ids.size());
-  std::iota(loops.begin(), loops.end(), std::size_t{0});
-  const auto rank = [&](std::size_t loop) { return std::pair(loop != view.loop, -measures[loop].diameter); };
-  std::ranges::stable_sort(loops, {}, rank);
+  const Scene::Loops& loops = scene.loops;
+  std::vector<std::size_t> order(loops.ids.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto rank = [&](std::size_t loop) {
+    return std::pair(loop != view.loop, -loops.measures[loop].diameter);
+  };
+  std::ranges::stable_sort(order, {}, rank);
   const SeenParts seen(scene, view, static_cast<float>(size.width) / static_cast<float>(size.height));
   const Projection project(view, size);
   std::vector<Labelled> labelled;
-  for (const std::size_t loop : loops) {
-    if (first[loop] == first[loop + 1] || (loop != view.loop && seen.share(loop) < 0.5f)) continue;
+  for (const std::size_t loop : order) {
+    const std::size_t first = loops.first[loop], end = loops.first[loop + 1];
+    if (first == end || (loop != view.loop && seen.share(loop) < 0.5f)) continue;
     Eigen::AlignedBox2f box;
-    for (std::size_t i = first[loop]; i < first[loop + 1]; ++i)
-      if (loop == view.loop || seen.shows(i)) box.extend(project(vertices[i]).head<2>());
-    labelled.push_back({ids[loop], box});
+    for (std::size_t i = first; i < end; ++i)
+      if (loop == view.loop || seen.shows(i)) box.extend(project(loops.vertices[i]).head<2>());
+    labelled.push_back({loops.ids[loop], box});
   }
   return place_labels(labelled, size);
 }

@@ -49,9 +49,9 @@ std::pair<std::size_t, std::size_t> parse_size(const std::string& text) {
 std::optional<double> roof_before(std::optional<std::size_t> loop, const Scene& scene) {
   const std::optional<double> height = roof_height(scene);
   if (!height || !loop) return height;
-  const auto& [ids, measures, first, vertices, all] = scene.loops;
-  for (std::size_t i = first[*loop]; i < first[*loop + 1]; ++i)
-    if (scene.origin.z() + vertices[i].z() > *height) return std::nullopt;
+  const Scene::Loops& loops = scene.loops;
+  for (std::size_t i = loops.first[*loop]; i < loops.first[*loop + 1]; ++i)
+    if (scene.origin.z() + loops.vertices[i].z() > *height) return std::nullopt;
   return height;
 }
 
