@@ -4,131 +4,26 @@
 #include "engine/run/error.hpp"
 #include "io/files/number.hpp"
 #include "io/loops/loop_colours.hpp"
+#include "io/report/canvas.hpp"
+#include "io/report/labels.hpp"
 #include "io/report/percentile.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <string>
+#include <utility>
 
 namespace lacuna::io {
 namespace {
 
-constexpr int kFiner = 2;  // pixels are drawn in so many by so many parts
 constexpr float kMargin = 1.05f;
 constexpr const char* kUndrawn =
     "the loop is not drawn: it runs through points far from all others, or lies above --hide-above";
 constexpr float kNearer = 3;  // spacings
 constexpr float kLineWidth = 2.5f, kThin = 1.5f,
                 kThick = 4.5f;  // pixels; the last two where a loop is chosen
-const Eigen::Vector3f kPaper(255, 255, 255), kSurface(206, 210, 216), kBoundary(0, 84, 74);
-
-Eigen::Vector3f pale(const Eigen::Vector3f& colour) {
-  return kPaper - 0.25f * (kPaper - colour);
-}
-
-// Colours and depths of the parts of a picture's rows from `first_row` on. A larger depth is nearer.
-class Canvas {
- public:
-  static constexpr std::size_t kPixelBytes = kFiner * kFiner * (sizeof(Eigen::Vector3f) + sizeof(float));
-
-  Canvas(PictureSize size, std::size_t first_row, std::size_t rows)
-      : width_(static_cast<int>(size.width) * kFiner),
-        height_(static_cast<int>(size.height) * kFiner),
-        first_(static_cast<int>(first_row) * kFiner),
-        end_(static_cast<int>(first_row + rows) * kFiner),
-        colours_(size.width * rows * kFiner * kFiner, kPaper),
-        depths_(colours_.size(), -std::numeric_limits<float>::infinity()) {}
-
-  int height() const { return height_; }  // of the whole picture
-  // Whether anything between these heights may be on the canvas.
-  bool reaches(float top, float bottom) const { return bottom >= float(first_) && top <= float(end_); }
-
-  // Draws at (x, y) in parts from the top left corner. A nearer part stays.
-  void disc(float x, float y, float radius, float depth, const Eigen::Vector3f& colour) {
-    for_each_in_disc(x, y, radius, [&](std::size_t at) {
-      if (depth < depths_[at]) return;
-      depths_[at] = depth;
-      colours_[at] = colour;
-    });
-  }
-
-  // Whether nothing nearer is at a place; never outside of the canvas.
-  bool shows(float x, float y, float depth) const {
-    bool is_shown = false;
-    for_each_in_disc(std::round(x), std::round(y), 0,
-                     [&](std::size_t at) { is_shown = depth >= depths_[at]; });
-    return is_shown;
-  }
-
-  // Draws over all that is there. What comes later is before or behind as if it were not there.
-  void overlay(float x, float y, float radius, const Eigen::Vector3f& colour) {
-    for_each_in_disc(x, y, radius, [&](std::size_t at) { colours_[at] = colour; });
-  }
-
-  // Makes pale what lies within a closed outline, by the even-odd rule, and beyond a plane. Its depth at (x,
-  // y) is the scalar product of `plane` and (x, y, 1).
-  void veil(const std::vector<Eigen::Vector3f>& outline, const Eigen::Vector3f& plane) {
-    std::vector<float> crossings;
-    for (int row = first_; row < end_; ++row) {
-      const auto y = static_cast<float>(row);
-      crossings.clear();
-      for (std::size_t i = 0; i < outline.size(); ++i) {
-        const Eigen::Vector3f &a = outline[i], &b = outline[(i + 1) % outline.size()];
-        if ((a.y() > y) != (b.y() > y))
-          crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
-      }
-      std::sort(crossings.begin(), crossings.end());
-      for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
-        for_each_between(row, crossings[i], crossings[i + 1], [&](std::size_t at) {
-          const std::size_t column = at % static_cast<std::size_t>(width_);
-          if (depths_[at] < plane.dot(Eigen::Vector3f(static_cast<float>(column), y, 1)))
-            colours_[at] = pale(colours_[at]);
-        });
-    }
-  }
-
-  void take_rows(const std::function<void(std::span<const Colour>)>& take_row) const {
-    std::vector<Colour> pixels;
-    for (int row = 0; row < end_ - first_; row += kFiner) {
-      pixels.clear();
-      for (int column = 0; column < width_; column += kFiner) {
-        Eigen::Vector3f sum(0.5f * kFiner * kFiner, 0.5f * kFiner * kFiner, 0.5f * kFiner * kFiner);
-        for (int i = 0; i < kFiner * kFiner; ++i)
-          sum += colours_[std::size_t(row + i / kFiner) * std::size_t(width_) +
-                          std::size_t(column + i % kFiner)];
-        const Eigen::Vector3f mean = sum / (kFiner * kFiner);
-        pixels.push_back({std::uint8_t(mean.x()), std::uint8_t(mean.y()), std::uint8_t(mean.z())});
-      }
-      take_row(pixels);
-    }
-  }
-
- private:
-  template <class Visit>
-  void for_each_between(int row, float left, float right, const Visit& visit) const {
-    const auto limit = [&](float x) { return std::clamp(x, -1.0f, static_cast<float>(width_)); };
-    const int first = std::max(0, static_cast<int>(std::ceil(limit(left))));
-    const int last = std::min(width_ - 1, static_cast<int>(std::floor(limit(right))));
-    for (int column = first; column <= last; ++column)
-      visit(std::size_t(row - first_) * std::size_t(width_) + std::size_t(column));
-  }
-
-  template <class Visit>
-  void for_each_in_disc(float x, float y, float radius, const Visit& visit) const {
-    if (!reaches(y - radius, y + radius)) return;
-    const int top = std::max(first_, static_cast<int>(std::ceil(y - radius)));
-    const int bottom = std::min(end_ - 1, static_cast<int>(std::floor(y + radius)));
-    for (int row = top; row <= bottom; ++row) {
-      const float half = std::sqrt(std::max(0.0f, radius * radius - (float(row) - y) * (float(row) - y)));
-      for_each_between(row, x - half, x + half, visit);
-    }
-  }
-
-  int width_, height_, first_, end_;  // parts
-  std::vector<Eigen::Vector3f> colours_;
-  std::vector<float> depths_;
-};
+const Eigen::Vector3f kSurface(206, 210, 216), kBoundary(0, 84, 74);
 
 // Maps the scan to the canvas: x and y in parts, z the depth in units of the scan.
 class Projection {
@@ -237,6 +132,61 @@ void draw_loops(const Scene& scene, const View& view, const Projection& project,
         [&](float x, float y, float depth) { canvas.disc(x, y, kRadius, depth + nearer, colour); });
 }
 
+// A small picture of the surface, which says what it hides.
+class SeenParts {
+ public:
+  SeenParts(const Scene& scene, const View& view, float aspect)
+      : scene_(scene),
+        size_{static_cast<std::size_t>(std::clamp(300 * aspect, 1.0f, 3000.0f)), 300},
+        project_(view, size_),
+        canvas_(size_, 0, size_.height) {
+    draw_points(scene.points, view, project_, false, canvas_);
+  }
+
+  // Whether the surface does not hide this vertex of the loops.
+  bool shows(std::size_t vertex) const {
+    const Eigen::Vector3f at = project_(scene_.loops.vertices[vertex]);
+    return project_.is_drawn(at.z()) &&
+           canvas_.shows(at.x(), at.y(), at.z() + kNearer * scene_.points.spacing);
+  }
+
+  // The share of a loop's vertices that it shows.
+  float share(std::size_t loop) const {
+    const auto& first = scene_.loops.first;
+    std::size_t seen = 0;
+    for (std::size_t i = first[loop]; i < first[loop + 1]; ++i) seen += shows(i);
+    return static_cast<float>(seen) / static_cast<float>(first[loop + 1] - first[loop]);
+  }
+
+ private:
+  const Scene& scene_;
+  PictureSize size_;
+  Projection project_;
+  Canvas canvas_;
+};
+
+std::vector<Label> find_labels(const Scene& scene, const View& view, PictureSize size) {
+  const Scene::Loops& loops = scene.loops;
+  std::vector<std::size_t> order(loops.ids.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto rank = [&](std::size_t loop) {
+    return std::pair(loop != view.loop, -loops.measures[loop].diameter);
+  };
+  std::ranges::stable_sort(order, {}, rank);
+  const SeenParts seen(scene, view, static_cast<float>(size.width) / static_cast<float>(size.height));
+  const Projection project(view, size);
+  std::vector<Labelled> labelled;
+  for (const std::size_t loop : order) {
+    const std::size_t first = loops.first[loop], end = loops.first[loop + 1];
+    if (first == end || (loop != view.loop && seen.share(loop) < 0.5f)) continue;
+    Eigen::AlignedBox2f box;
+    for (std::size_t i = first; i < end; ++i)
+      if (loop == view.loop || seen.shows(i)) box.extend(project(loops.vertices[i]).head<2>());
+    labelled.push_back({loops.ids[loop], box});
+  }
+  return place_labels(labelled, size);
+}
+
 View looking_from(const Eigen::Vector3f& towards, const Eigen::Vector3f& above) {
   View view;
   view.towards = towards.normalized();
@@ -283,21 +233,6 @@ View view_along(const Scene& scene, std::size_t loop, const Eigen::Vector3f& nor
   return view;
 }
 
-// The share of the vertices of a view's loop that the surface does not hide.
-float share_seen(const Scene& scene, const View& view, float aspect) {
-  const PictureSize size{static_cast<std::size_t>(std::clamp(300 * aspect, 1.0f, 3000.0f)), 300};
-  const Projection project(view, size);
-  Canvas canvas(size, 0, size.height);
-  draw_points(scene.points, view, project, false, canvas);
-  const auto& [ids, measures, first, vertices, all] = scene.loops;
-  std::size_t seen = 0;
-  for (std::size_t i = first[*view.loop]; i < first[*view.loop + 1]; ++i) {
-    const Eigen::Vector3f at = project(vertices[i]);
-    seen += canvas.shows(at.x(), at.y(), at.z() + kNearer * scene.points.spacing);
-  }
-  return static_cast<float>(seen) / static_cast<float>(first[*view.loop + 1] - first[*view.loop]);
-}
-
 struct NamedView {
   std::string_view name;
   Eigen::Vector3f towards, up;
@@ -338,7 +273,7 @@ View view_of_loop(const Scene& scene, std::size_t loop, float aspect) {
     for (const float sign : {1.0f, -1.0f}) {
       if (most > 0.9f) return best;
       const View view = view_along(scene, loop, (sign * normal + side).normalized(), aspect);
-      const float seen = share_seen(scene, view, aspect);
+      const float seen = SeenParts(scene, view, aspect).share(loop);
       if (seen <= most + 0.1f) continue;
       most = seen;
       best = view;
@@ -363,14 +298,16 @@ View find_view(const Scene& scene, std::string_view name, std::size_t width, std
   return view;
 }
 
-void render(const Scene& scene, const View& view, PictureSize size, bool as_it_came,
+void render(const Scene& scene, const View& view, PictureSize size, PictureStyle style,
             const std::function<void(std::span<const Colour> row)>& take_row, std::size_t band_bytes) {
   const Projection project(view, size);
+  const std::vector<Label> labels = style.has_ids ? find_labels(scene, view, size) : std::vector<Label>();
   const std::size_t band = std::max<std::size_t>(1, band_bytes / (size.width * Canvas::kPixelBytes));
   for (std::size_t row = 0; row < size.height; row += band) {
     Canvas canvas(size, row, std::min(band, size.height - row));
-    draw_points(scene.points, view, project, as_it_came, canvas);
+    draw_points(scene.points, view, project, style.as_it_came, canvas);
     draw_loops(scene, view, project, canvas);
+    for (const Label& label : labels) draw_label(label, size, canvas);
     canvas.take_rows(take_row);
   }
 }

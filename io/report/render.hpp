@@ -3,6 +3,7 @@
 #pragma once
 
 #include "io/files/new_file.hpp"
+#include "io/report/canvas.hpp"
 #include "io/report/scene.hpp"
 
 #include <cstddef>
@@ -16,10 +17,6 @@
 #include <Eigen/Core>
 
 namespace lacuna::io {
-
-struct PictureSize {
-  std::size_t width = 0, height = 0;  // pixels
-};
 
 // A parallel projection: the picture shows a box around `middle`.
 struct View {
@@ -40,18 +37,24 @@ struct View {
 // loop.
 View find_view(const Scene& scene, std::string_view name, std::size_t width, std::size_t height);
 
-// Returns the loop that a view of this name is of, as an index; nothing for the four others. Throws `Error` as
-// find_view does.
+// Returns the loop that a view of this name is of, as an index; nothing for the four others. Throws `Error`
+// as find_view does.
 std::optional<std::size_t> loop_of_view(const Scene& scene, std::string_view name);
 
-// Points are discs, grey to dark green by their boundary probability. If `as_it_came` is set and the scan has
-// colours, they keep these. Curves of holes and outer curves have the colours of loops.ply. A chosen loop is
-// thick, and pale where the surface hides it; the others are thin and pale. What lies within the outline of a
-// chosen hole and beyond its plane is pale, too. `take_row` gets the rows from the top. The picture is drawn
-// in bands of at most `band_bytes`, or of one row if that takes more; its pixels do not depend on them. Cost:
-// about 0.1 us a point, and 0.01 us a point and band.
+struct PictureStyle {
+  bool as_it_came = false;  // points keep the colours of the scan, where it has them
+  bool has_ids = false;     // of loops
+};
+
+// Points are discs, grey to dark green by their boundary probability, if they do not keep their colours.
+// Curves of holes and outer curves have the colours of loops.ply. A chosen loop is thick, and pale where the
+// surface hides it; the others are thin and pale. What lies within the outline of a chosen hole and beyond
+// its plane is pale, too. A loop has its id in the middle of what is seen of it, if that is half or
+// more. The chosen one comes first, then the largest; no id overlaps another. `take_row` gets the rows from
+// the top. The picture is drawn in bands of at most `band_bytes`, or of one row if that takes more; its
+// pixels do not depend on them. Cost: about 0.1 us a point, and 0.01 us a point and band.
 inline constexpr std::size_t kBandBytes = std::size_t{128} << 20;
-void render(const Scene& scene, const View& view, PictureSize size, bool as_it_came,
+void render(const Scene& scene, const View& view, PictureSize size, PictureStyle style,
             const std::function<void(std::span<const Colour> row)>& take_row,
             std::size_t band_bytes = kBandBytes);
 

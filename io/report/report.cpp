@@ -135,6 +135,10 @@ Json loops_of(const Scene::Loops& loops, int decimals) {
   });
   add("hidden_from", [](const ExplainedLoop& loop) { return Json(loop.cause.hidden_from); });
   json["first"] = loops.first;
+  if (!loops.changes.empty()) {
+    json["change"] = loops.changes;
+    json["earlier"] = loops.earlier;
+  }
   return json;
 }
 
@@ -150,6 +154,7 @@ Json report_of(const Scene& scene) {
           {"counts", holes.at("counts")},
           {"bounds", corners(scene.bounds)},
           {"strays", scene.strays},
+          {"compared", scene.compared},
           {"roof", roof ? Json(*roof) : Json()},
           {"resolution", holes.at("resolution")},
           {"median_distance", holes.at("median_distance")},

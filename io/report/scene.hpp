@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -40,12 +41,15 @@ struct Scene {
     float spacing = 0;                     // typical distance of neighbours
   } points;
 
+  std::string compared;  // the earlier result of a comparison; empty without one
   struct Loops {
     std::vector<std::uint64_t> ids;       // as in holes.json
     std::vector<ExplainedLoop> measures;  // of each
     std::vector<std::size_t> first;       // of its vertices; one more at the end
     std::vector<Eigen::Vector3f> vertices;
     std::uint64_t all = 0;  // reported by the run
+    // Of each loop in a comparison, else empty: what has become of it, and its ids in the earlier result.
+    std::vector<std::string> changes, earlier;
   } loops;
 };
 

@@ -86,6 +86,7 @@ def render(
     size: tuple[int, int] = (1600, 1000),
     hide_above: Optional[float] = None,
     as_it_came: bool = False,
+    ids: bool = True,
     overwrite: bool = False,
 ) -> Path:
     """Draws the scan and its holes as a PNG, as `lacuna render` does. Returns its name.
@@ -93,11 +94,12 @@ def render(
     - view: oblique, top, front, side, or the id of a loop.
     - hide_above: nothing above this height is drawn, such as a ceiling.
     - as_it_came: colours or intensities of the scan, where it has them, not probabilities.
+    - ids: whether loops have their ids on the picture.
     - overwrite: whether a file that Lacuna did not write is replaced, too.
     """
     options = {"out": os.fspath(file), "view": view, "size": "{}x{}".format(*size), "hide_above": hide_above}
     with _folder_of(holes) as folder:
-        _run("render", folder, options, as_it_came=as_it_came, overwrite=overwrite)
+        _run("render", folder, options, as_it_came=as_it_came, no_ids=not ids, overwrite=overwrite)
     return Path(file)
 
 

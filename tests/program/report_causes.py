@@ -57,6 +57,24 @@ def check_without(driver):
     require(not value(driver, "document.querySelectorAll('#stations-over path.station').length"), "no station is drawn")
 
 
+def check_changes(driver):
+    """The page of a comparison has loops of both results, and what has become of them, in place of causes."""
+    changes = value(driver, "lacuna.causes()")
+    require({"same", "closed"} <= set(changes), f"loops have changes: {sorted(set(changes))}")
+    require(all(words == value(driver, "lacuna.cause(arguments[0])", loop).replace("_", " ") for loop, words in value(driver, ROWS)),
+            "the table has them in words")
+    require(driver.find_element(By.CSS_SELECTOR, "th[data-key=cause]").text.endswith("Change"), "under their name")
+    require("compared with " in driver.find_element(By.ID, "summary").text, "the head names the other result")
+    require("closed" in driver.find_element(By.ID, "legend").text, "loops have the colours of changes")
+    require(driver.execute_script(PIXELS, "cause-closed") > 0, "as the legend says")
+    closed = next(loop for loop, words in value(driver, ROWS) if words == "closed")
+    driver.find_element(By.CSS_SELECTOR, f"#body tr[data-id='{closed}']").click()
+    next_picture(driver)
+    require("Before" in driver.find_element(By.ID, "details-body").text, "details have the id before")
+    head, *rows = list(csv.reader(io.StringIO(saved(driver, "csv").decode(), newline="")))
+    require([row[head.index("change")] for row in rows].count("closed") == changes.count("closed"), "the saved table has changes")
+
+
 def check_head(driver):
     """Openings are no missing surface: the head of the page says both, with their unit."""
     words = driver.find_element(By.ID, "summary").text

@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks report.html in a real browser: headless Chromium, with WebGL in software.
 
-    report_page.py REPORT.html [--screenshot OUT.png] [--size 1400x900] [--dark] [--no-webgl] [--run SCRIPT] [--no-checks] [--causes]
+    report_page.py REPORT.html [--screenshot OUT.png] [--size 1400x900] [--dark] [--no-webgl] [--run SCRIPT] [--no-checks] [--causes] [--changes]
                    [--save-marks FILE] [--load-marks FILE]
 
 --screenshot  a picture at the end (with --run: after that JavaScript and its flight)
 --causes      checks causes and stations alone, or that the page says how to give stations
+--changes     checks what a comparison shows alone
 --save-marks  writes the marks that the checks have made
 --load-marks  loads a file of marks, as by hand, and checks that the page has them
 --no-webgl    a browser without WebGL: the message, the table and the facts
@@ -275,7 +276,9 @@ def run(driver, arguments):
     if arguments.load_marks:
         print(report_marks.load(driver, arguments.load_marks.read_text(encoding="utf-8")))
         report_marks.check_has(driver, arguments.load_marks)
-    if arguments.causes:
+    if arguments.changes:
+        report_causes.check_changes(driver)
+    elif arguments.causes:
         report_causes.check(driver, driver.execute_script("return lacuna.visible_loops()"))
     elif not arguments.no_checks:
         check_policy(driver)
@@ -320,6 +323,7 @@ def main():
     parser.add_argument("--no-webgl", action="store_true")
     parser.add_argument("--no-checks", action="store_true")
     parser.add_argument("--causes", action="store_true")
+    parser.add_argument("--changes", action="store_true")
     parser.add_argument("--save-marks", type=Path)
     parser.add_argument("--load-marks", type=Path)
     parser.add_argument("--run", help="JavaScript before the picture")

@@ -30,6 +30,13 @@ fi
 /usr/bin/python3 mock_report.py "$scratch/without.html" --points 5000 --stations 0
 /usr/bin/python3 report_page.py "$scratch/without.html" --causes
 "$LACUNA_PROGRAM" report "$scratch/other" > "$scratch/log"
+if [ "$1" = flat ]; then
+  # A hole is scanned, and the outer curve is as it was.
+  "$LACUNA_BENCH_PROGRAM" synth surface --points 40000 --holes 5 --hole-radius 5 12 "$scratch/later.ply" > "$scratch/log"
+  "$LACUNA_PROGRAM" detect "$scratch/later.ply" --out "$scratch/later" --quiet
+  "$LACUNA_PROGRAM" compare "$scratch/out" "$scratch/later" --report > "$scratch/log"
+  /usr/bin/python3 report_page.py "$scratch/later/changes.html" --size 1280x800 --changes
+fi
 /usr/bin/python3 report_page.py "$scratch/other/report.html" --no-checks --load-marks "$scratch/marks.json" > "$scratch/log"
 cat "$scratch/log"
 grep --quiet '1 of 2 marks found their loops' "$scratch/log"  # the checks leave one far away from the scan

@@ -346,7 +346,7 @@ double share_seen(Scene scene, std::uint64_t id) {
   const Colour colour = {red, green, blue};
   const auto count = [&] {
     std::ptrdiff_t found = 0;
-    render(scene, view, {400, 300}, false,
+    render(scene, view, {400, 300}, {},
            [&](std::span<const Colour> row) { found += std::count(row.begin(), row.end(), colour); });
     return static_cast<double>(found);
   };

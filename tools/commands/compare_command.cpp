@@ -4,7 +4,8 @@
 #include "engine/run/error.hpp"
 #include "io/crs/length_unit.hpp"
 #include "io/crs/stated_crs.hpp"
-#include "io/report/scene.hpp"
+#include "io/files/result_folder.hpp"
+#include "io/report/report.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/measures_text.hpp"
@@ -37,14 +38,29 @@ using nlohmann::ordered_json;
 struct CompareArguments {
   fs::path before, after;
   double tolerance = 0;
-  bool json = false;
+  bool json = false, report = false, overwrite = false;
 };
+
+constexpr const char* kReportName = "changes.html";
 
 // Returns "12, 14".
 std::string names_of(const std::vector<std::size_t>& loops) {
   std::string text;
   for (const std::size_t loop : loops) text += (text.empty() ? "" : ", ") + std::to_string(loop);
   return text.empty() ? "-" : text;
+}
+
+// Writes the page of a comparison into the folder of the second result.
+fs::path write_changes(const Comparison& comparison, io::Overwrite overwrite) {
+  const fs::path folder = comparison.after.folder, file = folder / kReportName;
+  io::check_output(file, io::kReportMark, overwrite);
+  io::Scene scene = io::read_scene(folder);
+  comparison.show_in(scene);
+  io::NewFile out(file, io::kReportMark, overwrite);
+  io::write_report(scene, out.content());
+  io::note_result(folder, kReportName);
+  out.commit();
+  return file;
 }
 
 void run_compare(const CompareArguments& arguments) {
@@ -60,6 +76,10 @@ void run_compare(const CompareArguments& arguments) {
               << comparison.print_counts() << "\n"
               << comparison.print_table();
   }
+  if (!arguments.report) return;
+  const fs::path file =
+      write_changes(comparison, arguments.overwrite ? io::Overwrite::kAny : io::Overwrite::kOwn);
+  if (!arguments.json) std::cout << "\nwritten: " << visible(file.string()) << "\n";
 }
 
 // Brings a result into another unit of length.
@@ -227,6 +247,47 @@ ordered_json Comparison::json() const {
   return json;
 }
 
+void Comparison::show_in(io::Scene& scene) const {
+  io::Scene::Loops& loops = scene.loops;
+  scene.compared = before.folder.string();
+  std::vector<const LoopChange*> change_of(after.scan.loops.size());
+  for (const LoopChange& change : changes)
+    for (const std::size_t loop : change.after) change_of[loop] = &change;
+  const auto add = [&](const LoopChange& change) {
+    std::string name(name_of(change.change));
+    std::ranges::replace(name, ' ', '_');
+    loops.changes.push_back(std::move(name));
+    loops.earlier.push_back(change.before.empty() ? "" : names_of(change.before));
+  };
+  for (const std::uint64_t id : loops.ids) add(*change_of.at(id));
+
+  // Loops of the first result may lie beyond the second one: the cube of the scene grows.
+  Eigen::AlignedBox3d box(scene.origin, scene.origin + Eigen::Vector3d::Constant(scene.edge));
+  std::vector<const LoopChange*> lost;
+  for (const LoopChange& change : changes) {
+    if (!change.after.empty()) continue;
+    lost.push_back(&change);
+    for (const std::size_t loop : change.before)
+      for (const Eigen::Vector3d& point : before.scan.loops[loop].points) box.extend(point);
+  }
+  const Eigen::Vector3f moved = (scene.origin - box.min()).cast<float>();
+  for (Eigen::Vector3f& position : scene.points.positions) position += moved;
+  for (Eigen::Vector3f& vertex : loops.vertices) vertex += moved;
+  scene.origin = box.min();
+  scene.edge = box.sizes().maxCoeff();
+  for (const LoopChange* const change : lost) {
+    for (const std::size_t loop : change->before) {
+      const ComparedLoop& drawn = before.scan.loops[loop];
+      loops.ids.push_back(loops.all + loop);
+      loops.measures.push_back({drawn.measures, {}});
+      for (const Eigen::Vector3d& point : drawn.points)
+        loops.vertices.push_back((point - scene.origin).cast<float>());
+      loops.first.push_back(loops.vertices.size());
+      add(*change);
+    }
+  }
+}
+
 void add_compare_command(const Command& program) {
   const Command command = program.add_command(
       "compare", "Say which holes of two results are closed, opened, changed or the same");
@@ -241,6 +302,11 @@ void add_compare_command(const Command& program) {
                   "spacing of the place, and at least twice the median distance of neighbours")
       .type("LENGTH");
   command.add_flag("--json", arguments->json, "Print the same as JSON, for programs");
+  command.add_flag(
+      "--report", arguments->report,
+      "Write changes.html into AFTER: its page, with the loops of both and what has become of them");
+  command.add_flag("--overwrite", arguments->overwrite,
+                   "Replace a changes.html that Lacuna did not write, too");
   command.runs([arguments] { run_compare(*arguments); });
 }
 

@@ -2,6 +2,7 @@
 // `lacuna compare`: finds which holes of two results are closed, opened, changed or the same.
 #pragma once
 
+#include "io/report/scene.hpp"
 #include "tools/matching/compare_loops.hpp"
 
 #include <filesystem>
@@ -34,6 +35,10 @@ struct Comparison {
   std::string print_counts() const;
   std::string print_table() const;  // of all but the same holes; empty without any
   nlohmann::ordered_json json() const;
+
+  // Gives the loops of the second result their changes, and adds those that only the first one has. Their ids
+  // come after all ids of the second result.
+  void show_in(io::Scene& scene) const;
 
   ComparedResult before, after;
   std::vector<std::string> warnings;  // lines: what may be wrong, as a side states neither unit nor system

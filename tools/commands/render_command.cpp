@@ -30,7 +30,7 @@ struct RenderArguments {
   std::filesystem::path folder, out;
   std::string view = "oblique", size = "1600x1000";
   std::optional<double> most_height;
-  bool as_it_came = false;
+  bool as_it_came = false, without_ids = false;
   bool overwrite = false;
 };
 
@@ -49,9 +49,9 @@ std::pair<std::size_t, std::size_t> parse_size(const std::string& text) {
 std::optional<double> roof_before(std::optional<std::size_t> loop, const Scene& scene) {
   const std::optional<double> height = roof_height(scene);
   if (!height || !loop) return height;
-  const auto& [ids, measures, first, vertices, all] = scene.loops;
-  for (std::size_t i = first[*loop]; i < first[*loop + 1]; ++i)
-    if (scene.origin.z() + vertices[i].z() > *height) return std::nullopt;
+  const Scene::Loops& loops = scene.loops;
+  for (std::size_t i = loops.first[*loop]; i < loops.first[*loop + 1]; ++i)
+    if (scene.origin.z() + loops.vertices[i].z() > *height) return std::nullopt;
   return height;
 }
 
@@ -69,7 +69,8 @@ void run_render(const RenderArguments& arguments) {
   const PictureSize size{width, height};
   NewFile out(arguments.out, picture_mark(), overwrite);
   PngWriter png(size, out.content());
-  render(scene, view, size, arguments.as_it_came, [&](std::span<const Colour> row) { png.write(row); });
+  const PictureStyle style{.as_it_came = arguments.as_it_came, .has_ids = !arguments.without_ids};
+  render(scene, view, size, style, [&](std::span<const Colour> row) { png.write(row); });
   png.finish();
   out.commit();
   std::cout << "written: " << visible(arguments.out.string()) << "\n";
@@ -106,6 +107,7 @@ void add_render_command(const Command& program) {
       .type("Z");
   command.add_flag("--as-it-came", arguments->as_it_came,
                    "Colours or intensities of the scan, where it has them, not probabilities");
+  command.add_flag("--no-ids", arguments->without_ids, "Without the ids of the loops");
   command.add_flag("--overwrite", arguments->overwrite,
                    "Replace a file that lacuna render did not write, too");
   command.runs([arguments] { run_render(*arguments); });

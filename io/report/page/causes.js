@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why holes are there: names, colours, counts and words of causes. docs/stations.md says what they are.
+// Why holes are there, or on the page of a comparison how loops have changed: names, colours, counts and words. docs/stations.md
+// says what causes are, `lacuna compare` makes changes.
 
 // In the order of the legend, the filter and the sort. The style --cause-NAME has the colour of each: they differ for
 // colour-blind readers, too (Machado, Oliveira, Fernandes 2009), by 0.11 or more in OKLab.
@@ -10,11 +11,20 @@ const kCauses = [
   {name: "no_return", title: "no return"},
   {name: "filtered", title: "filtered"},
 ];
+const kChanges = [
+  {name: "opened", title: "opened"},
+  {name: "closed", title: "closed"},
+  {name: "changed", title: "changed"},
+  {name: "found_now", title: "found now"},
+  {name: "not_found_now", title: "not found now"},
+  {name: "same", title: "same"},
+  {name: "not_comparable", title: "not comparable"},
+];
 const kNoCause = "none";  // of outer curves, and of holes where no station counts
 const kLeastShare = 0.01;  // of a hole's area: smaller ones are not named
 
 function cause_title(name) {
-  const known = kCauses.find((cause) => cause.name === name);
+  const known = [...kCauses, ...kChanges].find((cause) => cause.name === name);
   return known ? known.title : "not known";
 }
 
@@ -32,34 +42,43 @@ function loop_style(loops, index, by_cause) {
   return loops.is_hole[index] ? "--hole" : "--outer";
 }
 
-// Places in kCauses; NaN without a cause.
+// Places among the causes; NaN without a cause.
 function cause_ranks(loops) {
-  const ranks = new Map(kCauses.map(({name}, rank) => [name, rank]));
+  const ranks = new Map(loops.causes.map(({name}, rank) => [name, rank]));
   return Float64Array.from(loops.cause, (name) => (ranks.has(name) ? ranks.get(name) : NaN));
 }
 
-// [name, count] of the causes of these holes (indices), without zeros; kNoCause comes last.
+// [name, count] of the causes of these holes (indices), or of the changes of these loops; without zeros, and kNoCause
+// comes last.
 function cause_counts(loops, indices) {
-  const counts = new Map([...kCauses.map(({name}) => [name, 0]), [kNoCause, 0]]);
+  const counts = new Map([...loops.causes.map(({name}) => [name, 0]), [kNoCause, 0]]);
   for (const i of indices) {
-    if (loops.is_hole[i]) counts.set(loops.cause[i], (counts.get(loops.cause[i]) || 0) + 1);
+    if (loops.is_hole[i] || loops.has_changes) counts.set(loops.cause[i], (counts.get(loops.cause[i]) || 0) + 1);
   }
   return Array.from(counts).filter(([, count]) => count > 0);
 }
 
-// Shows what only scans with stations have, and fills the list of the filter.
+// Shows what only scans with stations have, or comparisons, and fills the list of the filter.
 function connect_causes(loops) {
   document.body.classList.toggle("has-causes", loops.has_causes);
+  document.body.classList.toggle("has-changes", loops.has_changes);
   for (const id of ["cause-select", "loop-colours"]) find(id).hidden = !loops.has_causes;
   const counts = new Map(cause_counts(loops, loops.cause.keys()));
   const option = (value, text) => element("option", {value}, text);
-  find("cause-filter").append(option("any", "Any cause"),
-      ...kCauses.map(({name, title}) => option(name, `${title[0].toUpperCase()}${title.slice(1)} (${format_count(counts.get(name) || 0)})`)),
-      option(kNoCause, "No cause"));
+  const word = loops.cause_word.toLowerCase();
+  find("loop-colouring").querySelector("[value=cause]").textContent = word;
+  find("cause-select").querySelector(".unseen").textContent = loops.cause_word;
+  find("cause-filter").append(option("any", `Any ${word}`),
+      ...loops.causes.map(({name, title}) => option(name, `${title[0].toUpperCase()}${title.slice(1)} (${format_count(counts.get(name) || 0)})`)),
+      ...(loops.has_changes ? [] : [option(kNoCause, "No cause")]));
 }
 
-// Rows of a loop's measures: its cause with the shares of its area, and what hides it.
+// Rows of a loop's measures: its cause with the shares of its area, and what hides it; or its change.
 function cause_rows({loops, stations}, index, decimals) {
+  if (loops.has_changes) {
+    return [["Change", element("span", {}, cause_swatch(loops.cause[index], "dot"), cause_title(loops.cause[index]))],
+            ["Before", loops.earlier[index] || "none"]];
+  }
   if (!loops.has_causes || !loops.is_hole[index]) return [];
   const shares = kCauses.map(({name, title}) => ({title, share: loops.shares[name][index]}))
       .filter(({share}) => share > kLeastShare).sort((a, b) => b.share - a.share);
@@ -78,6 +97,6 @@ function cause_rows({loops, stations}, index, decimals) {
 function cause_legend(loops) {
   const lines = cause_counts(loops, loops.cause.keys()).map(
       ([name]) => element("span", {}, cause_swatch(name, "swatch cause"), cause_title(name)));
-  if (loops.is_hole.some((is_hole) => !is_hole)) lines.push(element("span", {}, cause_swatch(kNoCause, "swatch outer"), "outer curve"));
+  if (!loops.has_changes && loops.is_hole.some((is_hole) => !is_hole)) lines.push(element("span", {}, cause_swatch(kNoCause, "swatch outer"), "outer curve"));
   return lines;
 }

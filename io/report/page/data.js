@@ -85,9 +85,10 @@ function vector_column(values, count) {
   return out;
 }
 
-// `has_causes`: whether the scan has stations, from which causes are known.
-function read_loops(loops, has_causes) {
+// `has_stations`: causes are known from stations. Changes since an earlier result take their place.
+function read_loops(loops, has_stations) {
   const count = loops && loops.id ? loops.id.length : 0;
+  const has_changes = Boolean(loops && loops.change);
   const column = (name) => number_column(loops && loops[name], count);
   return {
     count,
@@ -106,8 +107,12 @@ function read_loops(loops, has_causes) {
     mean_probability: column("mean_probability"),
     centroid: vector_column(loops && loops.centroid, count),
     normal: vector_column(loops && loops.normal, count),
-    has_causes,
-    cause: Array.from({length: count}, (_, i) => (loops.cause && loops.cause[i]) || kNoCause),
+    has_changes,
+    has_causes: has_stations || has_changes,
+    causes: has_changes ? kChanges : kCauses,
+    cause_word: has_changes ? "Change" : "Cause",
+    cause: Array.from({length: count}, (_, i) => (has_changes ? loops.change[i] : loops.cause && loops.cause[i]) || kNoCause),
+    earlier: (loops && loops.earlier) || [],
     shares: Object.fromEntries(kCauses.map(({name}) => [name, column(name)])),
     hidden_by: vector_column(loops && loops.hidden_by, count),
     hidden_from: column("hidden_from"),

@@ -50,7 +50,7 @@ function expose(page) {
     cause: (id) => data.loops.cause[data.loops.id.indexOf(id)],
     shares: (id) => Object.fromEntries(kCauses.map(({name}) => [name, data.loops.shares[name][data.loops.id.indexOf(id)]])),
     causes: () => Array.from(data.loops.cause),
-    colours: () => Object.fromEntries(["view", "hole", "outer", ...kCauses.map(({name}) => cause_style(name).slice(2))].map(
+    colours: () => Object.fromEntries(["view", "hole", "outer", ...data.loops.causes.map(({name}) => cause_style(name).slice(2))].map(
         (name) => [name, css_rgb(style_value(`--${name}`)).map((value) => Math.round(255 * value))])),
     read_pixels: () => view.read_pixels(),
     loop_at: (x, y) => { const at = view.loop_at(x, y); return at < 0 ? null : data.loops.id[at]; },

@@ -141,7 +141,7 @@ function run_facts(run) {
   return made;
 }
 
-// How many holes each cause has; without stations, how to give them.
+// How many holes each cause has, or loops each change; without stations, how to give them.
 function cause_facts({loops}) {
   if (!loops.has_causes) {
     return facts_part("Causes of holes", element("p", {class: "quiet"},
@@ -149,7 +149,7 @@ function cause_facts({loops}) {
   }
   const rows = cause_counts(loops, loops.cause.keys()).map(
       ([name, count]) => [element("span", {}, cause_swatch(name, "dot"), cause_title(name)), format_count(count)]);
-  return facts_part("Causes of holes", rows.length > 0 ? description(rows) : element("p", {class: "quiet"}, "There are no holes."));
+  return facts_part(`${loops.cause_word}s of ${loops.has_changes ? "loops" : "holes"}`, rows.length > 0 ? description(rows) : element("p", {class: "quiet"}, "There are no holes."));
 }
 
 // `columns`: [title, text of a row].

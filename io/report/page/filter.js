@@ -86,7 +86,7 @@ class LoopFilter {
     const parts = [];
     if (this.kind !== "all") parts.push(this.kind === "hole" ? "holes" : "outer curves");
     if (this.mark !== "any") parts.push(`mark: ${mark_title(this.mark).toLowerCase()}`);
-    if (this.cause !== "any") parts.push(`cause: ${cause_title(this.cause)}`);
+    if (this.cause !== "any") parts.push(`${this.loops.cause_word.toLowerCase()}: ${cause_title(this.cause)}`);
     if (this.size > 0) parts.push(`diameter at least ${units.length(this.size)}`);
     if (this.most_size < Infinity) parts.push(`diameter at most ${units.length(this.most_size)}`);
     if (this.confidence > 0) parts.push(`confidence at least ${format_number(this.confidence, 2)}`);

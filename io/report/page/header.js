@@ -27,6 +27,7 @@ function write_header({report}, units) {
   if (missing) parts.push(missing);
   if (is_number(counts.outer)) parts.push(plural(counts.outer, "outer curve", "outer curves"));
   if (is_number(counts.points)) parts.push(plural(counts.points, "point", "points"));
+  if (report.compared) parts.push(`compared with ${report.compared}`);
   if (report.crs) parts.push(crs_name(report.crs));
   find("summary").replaceChildren(...parts.map((part) => element("span", {}, part)));
 }

@@ -28,6 +28,7 @@ class Page {
     this.connect();
     this.apply_marks();
     this.set_theme(this.theme);
+    if (this.view && loops.has_changes) this.set_by_cause(true);
     this.times.parts = performance.now() - begin;
     this.open_link(false);
     if (this.view) this.view.draw();

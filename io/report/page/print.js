@@ -132,7 +132,7 @@ class PrintPages {
       rows.push(["Extent", [0, 1, 2].map((k) => units.length(max[k] - min[k])).join(" × ")]);
     }
     if (loops.has_causes) {
-      rows.push(["Causes", cause_counts(loops, all).map(([cause, count]) => `${cause_title(cause)} ${format_count(count)}`).join(", ") || kMissing]);
+      rows.push([`${loops.cause_word}s`, cause_counts(loops, all).map(([cause, count]) => `${cause_title(cause)} ${format_count(count)}`).join(", ") || kMissing]);
     }
     const origin = [["Unit", units.name || "not stated"], ["CRS", report.crs ? crs_name(report.crs) : "not stated"],
                     ["Method", report.method || kMissing]];
@@ -155,7 +155,7 @@ class PrintPages {
     const columns = [
       ["Id", (i) => String(loops.id[i])], ["Area", (i) => units.area(loops.area[i])],
       ["Diameter", (i) => units.length(loops.diameter[i])], ["Confidence", (i) => format_fraction(loops.confidence[i])],
-      ...(loops.has_causes ? [["Cause", (i) => (loops.cause[i] === kNoCause ? "" : cause_title(loops.cause[i])), "word"]] : []),
+      ...(loops.has_causes ? [[loops.cause_word, (i) => (loops.cause[i] === kNoCause ? "" : cause_title(loops.cause[i])), "word"]] : []),
       ["Mark", (i) => (marks.mark[i] === kNoMark ? "" : mark_title(marks.mark[i])), "word"],
       [`Place x, y, z${units.name ? `, ${units.name}` : ""}`, (i) => table.place(i).join("  ")],
     ];

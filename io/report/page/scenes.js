@@ -47,7 +47,7 @@ class Scenes {
     this.opacities = Object.entries(this.passes).map(([name, {opacity}]) => [name, opacity.value]);
     const rows = Math.max(1, Math.ceil(loops.count / 256));
     this.loop_colours = new THREE.DataTexture(new Uint8Array(1024 * rows), 256, rows, THREE.RGBAFormat);
-    this.passes.hole.loop_colours.value = this.loop_colours;
+    this.passes.hole.loop_colours.value = this.passes.outer.loop_colours.value = this.loop_colours;
     const pick = (name) => this.lines[name].add_pass(this.pick, {width: 8}, true);
     this.picks = [pick("outer"), pick("hole")];
   }
@@ -117,6 +117,7 @@ class Scenes {
     set("hole", "--hole");
     set("outer", this.by_cause ? cause_style(kNoCause) : "--outer");
     this.passes.hole.rows.value = this.by_cause ? this.loop_colours.image.height : 0;
+    this.passes.outer.rows.value = loops.has_changes ? this.passes.hole.rows.value : 0;
     if (this.by_cause) this.write_cause_colours(loops);
     set("hole_casing", "--casing");
     set("outer_casing", "--casing");
@@ -125,8 +126,8 @@ class Scenes {
     this.on_change();
   }
 
-  write_cause_colours({cause}) {
-    const names = [...kCauses.map(({name}) => name), kNoCause];
+  write_cause_colours({cause, causes}) {
+    const names = [...causes.map(({name}) => name), kNoCause];
     const colours = new Map(names.map((name) => [name, css_rgb(style_value(cause_style(name))).map((value) => Math.round(255 * value))]));
     cause.forEach((name, i) => this.loop_colours.image.data.set(colours.get(name) || colours.get(kNoCause), 4 * i));
     this.loop_colours.needsUpdate = true;

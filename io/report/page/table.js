@@ -27,7 +27,8 @@ class LoopTable {
     this.selected = -1;
     this.focused = 0;     // row
     this.scales = {};
-    this.columns = kColumns.filter(({key}) => key !== "cause" || loops.has_causes);
+    this.columns = kColumns.filter(({key}) => key !== "cause" || loops.has_causes)
+        .map((column) => (column.key === "cause" ? {...column, name: loops.cause_word} : column));
     for (const {key, kind} of this.columns) {
       if (kind !== "length" && kind !== "area") continue;
       const most = loops[key].reduce((a, b) => (b > a ? b : a), 0);
@@ -241,9 +242,12 @@ class LoopTable {
     const place = (value) => (Number.isFinite(value) ? String(short_place(value)) : "");
     const names = ["points", "confidence", "prominence", "first_scale", "last_scale", "perimeter", "area", "diameter", "planarity", "mean_probability"];
     // As in holes.csv.
-    const causes = loops.has_causes ? kCauses.map(({name}) => name) : [];
-    const more = loops.has_causes ? ["cause", ...["x", "y", "z"].map((axis) => `hidden_by_${axis}${unit}`)] : [];
-    const cause = (i) => (loops.has_causes ? [loops.cause[i] === kNoCause ? "" : loops.cause[i], ...Array.from(loops.hidden_by.subarray(3 * i, 3 * i + 3), place)] : []);
+    const has_shares = loops.has_causes && !loops.has_changes;
+    const causes = has_shares ? kCauses.map(({name}) => name) : [];
+    const more = [...(loops.has_causes ? [loops.cause_word.toLowerCase()] : []),
+                  ...(has_shares ? ["x", "y", "z"].map((axis) => `hidden_by_${axis}${unit}`) : [])];
+    const cause = (i) => [...(loops.has_causes ? [loops.cause[i] === kNoCause ? "" : loops.cause[i]] : []),
+                          ...(has_shares ? Array.from(loops.hidden_by.subarray(3 * i, 3 * i + 3), place) : [])];
     const units = {first_scale: unit, last_scale: unit, perimeter: unit, area: square, diameter: unit};
     const lines = [["id", "kind", ...names.map((name) => name + (units[name] || "")), ...causes, ...["x", "y", "z"].map((name) => name + unit),
                     "nx", "ny", "nz", ...more, "mark", "note"].join(",")];

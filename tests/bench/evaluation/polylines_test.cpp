@@ -84,4 +84,23 @@ TEST_CASE("a polyline near a true loop finds it, and one elsewhere is false, tho
   CHECK(evaluation.loops.loops[1].verdict == EdgeDecision::kFalse);
 }
 
+TEST_CASE("a list of loops has to follow its curves, and a run's loops, which do, may have long edges") {
+  const ScratchFolder folder;
+  std::string rows,
+      ids;  // 40 pairs of near points, 100 apart: the loop goes through the first of each, then the others
+  for (int pair = 0; pair < 40; ++pair)
+    for (int point = 0; point < 2; ++point) rows += std::to_string(100 * pair + point) + " 0 0\n";
+  for (int point = 0; point < 2; ++point)
+    for (int pair = 0; pair < 40; ++pair) ids += std::to_string(2 * pair + point) + " ";
+  const auto scan = folder.write("scan.xyz", rows);
+  Result result = read_result(folder.write("found.txt", ids + "\n"));
+  const Truth truth = read_truth(folder.write("true.txt", ids + "\n"), {io::ScanInput(scan)}, result);
+  Truth dense = truth;
+  dense.spacing = 1;
+  CHECK_THROWS_WITH(evaluate(result, dense, {}),
+                    Catch::Contains("its points are not in order along a curve"));
+  result.points = dense.positions.size();
+  CHECK_NOTHROW(evaluate(result, dense, {}));
+}
+
 }  // namespace lacuna::evaluation

@@ -2,6 +2,7 @@
 #include "io/report/render.hpp"
 
 #include "engine/run/error.hpp"
+#include "io/report/labels.hpp"
 #include "io/report/roof.hpp"
 #include "io/report/section.hpp"
 
@@ -42,12 +43,13 @@ struct Picture {
   std::vector<Colour> pixels;  // row by row from the top
 };
 
-Picture draw(const Scene& scene, const View& view, PictureSize size, std::size_t band_bytes = kBandBytes) {
+Picture draw(const Scene& scene, const View& view, PictureSize size, std::size_t band_bytes = kBandBytes,
+             PictureStyle style = {}) {
   Picture picture{size.width, size.height, {}};
   const auto take = [&](std::span<const Colour> row) {
     picture.pixels.insert(picture.pixels.end(), row.begin(), row.end());
   };
-  render(scene, view, size, false, take, band_bytes);
+  render(scene, view, size, style, take, band_bytes);
   return picture;
 }
 
@@ -178,6 +180,43 @@ TEST_CASE("a picture is the same in one band and in bands of one row") {
     CHECK(draw(scene, view, {123, 77}, 1).pixels == whole.pixels);
     CHECK(draw(scene, view, {123, 77}, 50'000).pixels == whole.pixels);
   }
+}
+
+// How many pixels are nearly black.
+std::ptrdiff_t count_ink(const Picture& picture) {
+  return std::ranges::count_if(picture.pixels, [](Colour c) { return c[0] < 45 && c[1] < 45 && c[2] < 60; });
+}
+
+TEST_CASE("a picture has the ids of the loops that are seen, the same in bands of one row") {
+  Scene scene = sheet();
+  const PictureStyle style{.as_it_came = false, .has_ids = true};
+  const View view = find_view(scene, "top", 500, 400);
+  const Picture seven = draw(scene, view, {500, 400}, kBandBytes, style);
+  CHECK(count_ink(draw(scene, view, {500, 400})) == 0);
+  CHECK(count_ink(seven) == 11 * 2 * 2);  // dots of a 7
+  CHECK(draw(scene, view, {500, 400}, 1, style).pixels == seven.pixels);
+  scene.loops.ids = {8};
+  CHECK(count_ink(draw(scene, view, {500, 400}, kBandBytes, style)) == 17 * 2 * 2);
+  for (Eigen::Vector3f& vertex : scene.loops.vertices)
+    vertex += Eigen::Vector3f(-10, 0, -5);  // below the sheet
+  CHECK(count_ink(draw(scene, view, {500, 400}, kBandBytes, style)) == 0);
+  CHECK(count_ink(draw(scene, find_view(scene, "8", 500, 400), {500, 400}, kBandBytes, style)) > 0);
+}
+
+TEST_CASE("labels keep apart, within the picture, and stand beside what is too small") {
+  const auto box = [](float x, float y, float half) {
+    const Eigen::Vector2f middle(x, y), to(half, half);
+    return Eigen::AlignedBox2f(middle - to, middle + to);
+  };
+  const std::vector<Label> labels = place_labels(
+      {{1, box(200, 200, 90)}, {2, box(205, 200, 90)}, {3, box(500, 300, 2)}, {4, box(0, 0, 90)}},
+      {600, 400});
+  REQUIRE(labels.size() == 2);
+  CHECK(labels[0].number == 1);
+  CHECK(labels[0].middle == Eigen::Vector2f(200, 200));
+  CHECK(labels[1].number == 3);
+  CHECK(labels[1].middle.x() > 510);
+  CHECK(labels[1].middle.y() == 300);
 }
 
 TEST_CASE("a loop without vertices, since it runs through strays, has no view of its own") {

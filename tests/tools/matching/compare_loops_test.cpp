@@ -162,5 +162,38 @@ TEST_CASE("units and systems that one side alone states are a warning, and two s
                     Contains("only results of one system can be compared"));
 }
 
+TEST_CASE(
+    "the scene of a comparison has the changes of its loops, and the loops that only the first result has") {
+  tools::ComparedResult before = result(1, "m");
+  before.scan.loops = {circle(40, 1), circle(0, 1)};
+  const tools::Comparison comparison(before, result(1, "m"));
+  io::Scene scene;
+  scene.origin = {-5, -5, 0};
+  scene.edge = 35;
+  scene.points.positions = {{5, 5, 0}};
+  scene.loops.ids = {0};
+  scene.loops.all = 1;
+  scene.loops.measures.resize(1);
+  scene.loops.vertices = {{6, 5, 0}, {5, 6, 0}, {4, 5, 0}};
+  scene.loops.first = {0, 3};
+  comparison.show_in(scene);
+  CHECK(scene.compared == "m_");
+  CHECK(scene.loops.ids == std::vector<std::uint64_t>{0, 1});
+  CHECK(scene.loops.changes == std::vector<std::string>{"same", "not_comparable"});
+  CHECK(scene.loops.earlier == std::vector<std::string>{"1", "0"});
+  CHECK(scene.loops.first == std::vector<std::size_t>{0, 3, 63});
+  // All is where it was, and within the cube, which has grown.
+  const auto place = [&](const Eigen::Vector3f& at) {
+    return Eigen::Vector3d(scene.origin + at.cast<double>());
+  };
+  CHECK((place(scene.points.positions[0]) - Eigen::Vector3d(0, 0, 0)).norm() < 1e-5);
+  CHECK((place(scene.loops.vertices[0]) - Eigen::Vector3d(1, 0, 0)).norm() < 1e-5);
+  CHECK((place(scene.loops.vertices[3]) - Eigen::Vector3d(41, 0, 0)).norm() < 1e-5);
+  for (const Eigen::Vector3f& vertex : scene.loops.vertices) {
+    CHECK(vertex.minCoeff() >= 0);
+    CHECK(vertex.maxCoeff() <= scene.edge);
+  }
+}
+
 }  // namespace
 }  // namespace lacuna::matching
