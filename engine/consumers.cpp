@@ -2,10 +2,22 @@
 #include "engine/consumers.hpp"
 
 #include "engine/boundary/candidates.hpp"
+#include "engine/boundary/paper/paper_boundary.hpp"
+#include "engine/boundary/tangential/tangential_boundary.hpp"
 #include "engine/results/orientation_graph.hpp"
 #include "engine/results/point_results.hpp"
 
 namespace lacuna {
+namespace {
+
+// The method that the config names.
+std::unique_ptr<BoundaryMethod> boundary_method(const Tiling& tiling, Job& job) {
+  if (job.config.loops.method == LoopMethod::kPaper)
+    return std::make_unique<paper::PaperBoundary>(tiling, job);
+  return std::make_unique<tangential::TangentialBoundary>(tiling, job);
+}
+
+}  // namespace
 
 Consumers::Consumers(const Level& level, Job& job) : method(boundary_method(level.store.tiling(), job)) {
   all.push_back([this](const EvaluatedTile& tile, TileOutput& output) { method->emit(tile, output); });

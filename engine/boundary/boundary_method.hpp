@@ -7,11 +7,9 @@
 #include "engine/evaluate/tile_outputs.hpp"
 #include "engine/evaluate/totals.hpp"
 #include "engine/loops/loops.hpp"
-#include "engine/run/job.hpp"
 #include "engine/store/row_set.hpp"
 
 #include <cstdint>
-#include <memory>
 
 namespace lacuna {
 
@@ -41,9 +39,6 @@ class BoundaryMethod {
   virtual RowSet boundary_candidates(const TileOutputs& outputs, const RowSet& coherent,
                                      const RowSet& on_loop) const = 0;
 };
-
-// Returns the method that the config names. `tiling` and `job` must outlive it.
-std::unique_ptr<BoundaryMethod> boundary_method(const Tiling& tiling, Job& job);
 
 // Returns an owned point in the form that loops have.
 LoopPoint loop_point_of(const EvaluatedTile& tile, LocalIndex owned);

@@ -130,6 +130,16 @@ std::vector<std::uint8_t> border_of(const TilePoints& points, const Neighbourhoo
   return is_border;
 }
 
+// Returns the bytes that a tile's evaluation takes, with `edges` of the halo.
+std::uint64_t bytes_of_tile(const Tiling& tiling, const Tile& tile, std::uint64_t edges, double eps,
+                            const Job& job) {
+  constexpr std::uint64_t kHaloPointBytes = 120;  // an edge, and its point twice
+  std::uint64_t foreign = edges;
+  for (const std::uint32_t cell : halo_cells(tiling, tile, eps)) foreign += tiling.cells[cell].points;
+  return job.tile_bytes(tile.points) + foreign * kHaloPointBytes +
+         ball_bytes(tiling, tile, eps, most_ball_bytes(job));
+}
+
 }  // namespace
 
 void evaluate_tiles(const Level& level, std::span<const TileIndex> tiles, AppendLists<HaloEdge> halo,
@@ -140,11 +150,7 @@ void evaluate_tiles(const Level& level, std::span<const TileIndex> tiles, Append
   Phase phase(job, "evaluate", points_of(tiles, tiling));
   std::vector<std::uint64_t> needs(tiles.size());
   job.arena.for_each(needs.size(), [&](std::size_t i) {
-    const Tile& tile = tiling.tiles[tiles[i]];
-    std::uint64_t foreign = halo.count(tiles[i]);
-    for (const std::uint32_t cell : halo_cells(tiling, tile, eps)) foreign += tiling.cells[cell].points;
-    needs[i] =
-        job.tile_bytes(tile.points) + foreign * 120 + ball_bytes(tiling, tile, eps, most_ball_bytes(job));
+    needs[i] = bytes_of_tile(tiling, tiling.tiles[tiles[i]], halo.count(tiles[i]), eps, job);
   });
   job.for_each_within(job.memory.tiles, needs, [&](std::size_t i) {
     const TileIndex index = tiles[i];

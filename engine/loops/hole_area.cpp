@@ -6,7 +6,6 @@
 #include "engine/loops/places_within.hpp"
 #include "engine/store/scratch.hpp"
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
@@ -49,13 +48,6 @@ Holes holes_of(const MeasuredLoops& loops, std::span<const std::size_t> selected
   return holes;
 }
 
-// Whether a hole is in the surface of an island of the larger one.
-bool lies_on_island(const LoopMeasures& hole, std::size_t larger, const std::vector<LoopMeasures>& loops) {
-  for (std::int64_t parent = hole.parent; parent >= 0; parent = loops[std::size_t(parent)].parent)
-    if (std::size_t(parent) == larger) return true;
-  return false;
-}
-
 using Polygon = std::span<const std::array<double, 2>>;
 
 Polygon polygon_of(std::span<const LoopPoint> loop, const LoopPlane& plane, Scratch& scratch) {
@@ -69,7 +61,7 @@ Polygon polygon_of(std::span<const LoopPoint> loop, const LoopPlane& plane, Scra
 
 }  // namespace
 
-double measure_hole_area(MeasuredLoops& loops, std::vector<std::size_t>& selected, Job& job) {
+double measure_hole_area(MeasuredLoops& loops, std::span<const std::size_t> selected, Job& job) {
   const Holes holes = holes_of(loops, selected);
   const std::vector<LoopMeasures>& measures = holes.measures;
   const MemoryLedger::Lease placing = job.ledger.take(job.memory.work / 4);
@@ -94,7 +86,6 @@ double measure_hole_area(MeasuredLoops& loops, std::vector<std::size_t>& selecte
       const LoopMeasures& hole = measures[other];
       if (std::tie(hole.area, other) >= std::tie(larger.area, i)) return;
       if (std::abs(hole.normal.dot(larger.normal)) < kLeastCosine) return;
-      if (lies_on_island(hole, holes.chosen[i], loops.measures)) return;
       if (polygon.empty()) polygon = polygon_of(loop, plane, own);
       for (Place& place : places.subspan(kPlaces * other, kPlaces)) {
         if (place.is_within == 0) break;
@@ -106,17 +97,16 @@ double measure_hole_area(MeasuredLoops& loops, std::vector<std::size_t>& selecte
   });
 
   double area = 0;
-  std::erase_if(selected, [&, next = std::size_t{0}](std::size_t loop) mutable {
-    if (next == holes.size() || holes.chosen[next] != loop) return false;
-    const std::span<const Place> own = places.subspan(kPlaces * next++, kPlaces);
-    const auto within = std::ranges::count(own, 1, &Place::is_within);
-    const auto shared = std::ranges::count(own, 1, &Place::is_shared);
-    if (within > 0 && 4 * shared >= 3 * within) return true;
-    LoopMeasures& hole = loops.measures[loop];
-    hole.own_area = within > 0 ? hole.area * double(within - shared) / double(within) : hole.area;
-    area += hole.own_area;
-    return false;
-  });
+  for (std::size_t i = 0; i < holes.size(); ++i) {
+    int within = 0, shared = 0;
+    for (const Place& place : places.subspan(kPlaces * i, kPlaces)) {
+      within += place.is_within;
+      shared += place.is_shared;
+    }
+    double& own = loops.measures[holes.chosen[i]].own_area;
+    own = within > 0 ? measures[i].area * (within - shared) / within : measures[i].area;
+    area += own;
+  }
   return area;
 }
 

@@ -48,7 +48,7 @@ struct Scene {
     std::vector<std::size_t> first;       // of its vertices; one more at the end
     std::vector<Eigen::Vector3f> vertices;
     std::uint64_t all = 0;  // reported by the run
-    // Of each loop in a comparison, else empty: what has become of it, and its ids in the earlier result.
+    // In a comparison, what has become of each loop, and its ids in the earlier result; else empty.
     std::vector<std::string> changes, earlier;
   } loops;
 };

@@ -16,7 +16,7 @@ struct StepWeight {
 constexpr StepWeight kWeights[] = {
     {"survey", 4}, {"bucket", 3},  {"order", 3},   {"thin", 4},    {"halo", 3},  {"evaluate", 29},
     {"loops", 17}, {"levels", 30}, {"track", 1},   {"measure", 0}, {"nest", 0},  {"coherence", 0},
-    {"sample", 4}, {"orient", 4},  {"collect", 1}, {"area", 2},    {"voids", 2}, {"write", 5}};
+    {"sample", 4}, {"orient", 4},  {"collect", 1}, {"area", 4},    {"voids", 1}, {"write", 5}};
 
 double weight_of(std::string_view step) {
   const auto found = std::ranges::find(kWeights, step, &StepWeight::step);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why holes are there, or on the page of a comparison how loops have changed: names, colours, counts and words. docs/stations.md
-// says what causes are, `lacuna compare` makes changes.
+// Why holes are there: names, colours, counts and words of causes (docs/stations.md). On the page of a comparison, the changes of
+// loops take their place (`lacuna compare`).
 
 // In the order of the legend, the filter and the sort. The style --cause-NAME has the colour of each: they differ for
 // colour-blind readers, too (Machado, Oliveira, Fernandes 2009), by 0.11 or more in OKLab.

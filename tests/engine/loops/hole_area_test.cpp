@@ -2,7 +2,6 @@
 // How much surface is missing: places of several holes count once.
 #include "engine/loops/hole_area.hpp"
 
-#include "engine/loops/nest_loops.hpp"
 #include "tests/support/measured_loops.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -18,29 +17,24 @@ using test::square;
 
 constexpr LoopKind kHole = LoopKind::kHole, kOuter = LoopKind::kOuter;
 
-struct Reported {
-  double area;                     // of all of them
-  std::vector<std::size_t> loops;  // that are left
-  std::vector<double> own_areas;   // of these
-};
-
-Reported reported(const std::vector<DrawnLoop>& drawn) {
+MeasuredLoops with_areas(const std::vector<DrawnLoop>& drawn) {
   const test::ScratchFolder scratch;
   NoProgress progress;
   const Config config;
   Job job(config, scratch.path(), progress);
-  MeasuredLoops found = test::measured(drawn, job);
-  nest_loops(found, job);
-  Reported left{0, std::vector<std::size_t>(drawn.size()), {}};
-  std::iota(left.loops.begin(), left.loops.end(), std::size_t{0});
-  left.area = measure_hole_area(found, left.loops, job);
-  for (const std::size_t loop : left.loops) left.own_areas.push_back(found.measures[loop].own_area);
-  CHECK(std::accumulate(left.own_areas.begin(), left.own_areas.end(), 0.0) == Approx(left.area));
-  return left;
+  MeasuredLoops loops = test::measured(drawn, job);
+  std::vector<std::size_t> all(drawn.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const double area = measure_hole_area(loops, all, job);
+  const auto add = [](double sum, const LoopMeasures& loop) { return sum + loop.own_area; };
+  CHECK(std::accumulate(loops.measures.begin(), loops.measures.end(), 0.0, add) == Approx(area));
+  return loops;
 }
 
 double area_of(const std::vector<DrawnLoop>& drawn) {
-  return reported(drawn).area;
+  double area = 0;
+  for (const LoopMeasures& loop : with_areas(drawn).measures) area += loop.own_area;
+  return area;
 }
 
 TEST_CASE("holes beside each other add up, and outer curves do not count") {
@@ -55,22 +49,10 @@ TEST_CASE("a place of several holes counts once") {
 }
 
 TEST_CASE("the own areas of holes add up: a place of several belongs to the largest of them") {
-  const Reported left = reported({square(2, kHole), square(1, kHole, {2, 0, 0}), square(20, kOuter)});
-  REQUIRE(left.loops.size() == 3);
-  CHECK(left.own_areas[0] == Approx(16));
-  CHECK(left.own_areas[1] == Approx(2.0).epsilon(0.15));
-  CHECK(left.own_areas[2] == 0);
-}
-
-TEST_CASE("a hole that lies mostly in a larger one is not reported") {
-  const auto loops_of = [](const std::vector<DrawnLoop>& drawn) { return reported(drawn).loops; };
-  using Loops = std::vector<std::size_t>;
-  CHECK(loops_of({square(1, kHole, {1.4, 0, 0}), square(2, kHole)}) == Loops{1});
-  CHECK(loops_of({square(1, kHole, {2, 0, 0}), square(2, kHole)}) == Loops{0, 1});
-  CHECK(loops_of({square(2, kHole, {0.01, 0, 0.1}), square(2, kHole), square(1, kOuter, {9, 0, 0})}) ==
-        Loops{1, 2});
-  // A lake on an island of a lake is no part of it.
-  CHECK(loops_of({square(9, kHole), square(5, kOuter), square(2, kHole)}) == Loops{0, 1, 2});
+  const auto loops = with_areas({square(2, kHole), square(1, kHole, {2, 0, 0}), square(20, kOuter)}).measures;
+  CHECK(loops[0].own_area == Approx(16));
+  CHECK(loops[1].own_area == Approx(2).epsilon(0.15));
+  CHECK(loops[2].own_area == 0);
 }
 
 TEST_CASE("holes of surfaces above each other, or at right angles, do not overlap") {
