@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole engine against the method done plainly in memory, and against itself under every tiling.
-#include "engine/run/error.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/reference.hpp"
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
-#include <numeric>
-
-#include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
@@ -66,9 +57,8 @@ std::vector<bool> oriented_by_rounding(const reference::Detection& plain) {
     last = first + 1;  // a group of edges as heavy as each other
     while (last < pairs.size() && pairs[last].weight - pairs[last - 1].weight <= kNoise) ++last;
     std::vector<const Pair*> contrary;
-    for (std::size_t i = first; i < last; ++i) {
+    for (std::size_t i = first; i < last; ++i)
       if (root(pairs[i].a) != root(pairs[i].b) && pairs[i].cosine <= kNoise) contrary.push_back(&pairs[i]);
-    }
     for (std::size_t i = first; i < last; ++i) {
       const std::size_t a = root(pairs[i].a), b = root(pairs[i].b);
       if (a == b) continue;
@@ -376,9 +366,8 @@ TEST_CASE(
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Cloud cloud = holed_cloud(seed).joined(hard_cloud(seed).translated({0, 200, 0})).rounded(0x1p-20);
     Cloud usable;  // an unbounded outlier would lose its digits
-    for (const Eigen::Vector3d& p : cloud.positions) {
+    for (const Eigen::Vector3d& p : cloud.positions)
       if (p.allFinite() && p.norm() < 1e5) usable.positions.push_back(p);
-    }
     const Detected here = run_engine(usable, config);
     const Detected there = run_engine(usable.translated({1e6, -1e6, 1e6}), config);
     CHECK(there.loop_ids() == here.loop_ids());
@@ -411,9 +400,8 @@ TEST_CASE("a turned scan has the same loops, where no ties are decided by roundi
     const Cloud cloud = holed_cloud(seed);
     const std::vector<std::vector<PointId>> loops = run_engine(cloud, tiled({}, 300)).loop_ids();
     CHECK(loops.size() >= 2);
-    for (const double degrees : {20.0, 90.0, 171.0}) {
+    for (const double degrees : {20.0, 90.0, 171.0})
       CHECK(run_engine(cloud.rotated({1, 2, -3}, degrees), tiled({}, 300)).loop_ids() == loops);
-    }
   }
 }
 
@@ -458,9 +446,8 @@ TEST_CASE("the order of the points changes no probability, no coherence and no e
     std::vector<std::size_t> order(cloud.size());
     std::iota(order.begin(), order.end(), 0);
     Random random(seed);
-    for (std::size_t i = order.size(); i > 1; --i) {
+    for (std::size_t i = order.size(); i > 1; --i)
       std::swap(order[i - 1], order[static_cast<std::size_t>(random.whole(0, std::int64_t(i) - 1))]);
-    }
     Cloud shuffled;
     for (const std::size_t i : order) shuffled.positions.push_back(cloud.positions[i]);
     const Detected here = run_engine(cloud, tiled({}, 300)), there = run_engine(shuffled, tiled({}, 300));

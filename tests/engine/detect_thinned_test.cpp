@@ -1,17 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs at a resolution: the method on the representatives, with ids and results of the whole input.
-#include "engine/run/error.hpp"
 #include "engine/thin/lattice.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <string>
-#include <vector>
-
-#include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
@@ -57,9 +48,8 @@ TEST_CASE("a run at a resolution finds the loops of the representatives alone, b
 
   // The representatives again, found plainly, as a scan of their own.
   std::map<CellKey, std::vector<std::size_t>> cells;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
+  for (std::size_t i = 0; i < cloud.size(); ++i)
     if (cloud.positions[i].allFinite()) cells[cell_of(cloud.positions[i], resolution)].push_back(i);
-  }
   CHECK(counts.thinned_out == cloud.size() - 50 - cells.size());
   std::vector<std::size_t> chosen;
   for (const auto& [key, members] : cells) {
@@ -107,23 +97,6 @@ TEST_CASE("tiles, threads, memory and batches never show at a resolution") {
   CHECK(run_engine(cloud, limited).bytes() == one_tile);
 }
 
-TEST_CASE("the order of the points does not change the loops at a resolution") {
-  const Cloud cloud = sheet();
-  const auto positions = [](const Detected& detected) {
-    std::vector<std::vector<double>> loops;
-    for (const ReportedLoop& loop : detected.loops) {
-      std::vector<double> sorted;
-      for (const LoopPoint& p : loop.points) sorted.push_back(p.x);
-      std::sort(sorted.begin(), sorted.end());
-      loops.push_back(sorted);
-    }
-    std::sort(loops.begin(), loops.end());
-    return loops;
-  };
-  CHECK(positions(run_engine(cloud, at_resolution(2.5))) ==
-        positions(run_engine(cloud.shuffled(7), at_resolution(2.5))));
-}
-
 TEST_CASE("min_hole sets a fifth of it as the first edge, and leaves smaller loops out") {
   Config config;
   config.scale.min_hole = 30;
@@ -157,12 +130,11 @@ TEST_CASE("a resolution as large as the scan is an error that names its size") {
     return std::string();
   };
   const std::string message = error();
-  CHECK_THAT(message, Catch::StartsWith("a resolution of 200, for holes of 1000, leaves ") &&
-                          Catch::Contains("the scan's size is 1") &&
-                          Catch::EndsWith("allowed: a smaller --min-hole"));
+  CHECK_THAT(message, StartsWith("a resolution of 200, for holes of 1000, leaves ") &&
+                          Contains("the scan's size is 1") && EndsWith("allowed: a smaller --min-hole"));
   config = at_resolution(300);
-  CHECK_THAT(error(), Catch::StartsWith("a resolution of 300 leaves ") &&
-                          Catch::EndsWith("allowed: a smaller --resolution"));
+  CHECK_THAT(error(),
+             StartsWith("a resolution of 300 leaves ") && EndsWith("allowed: a smaller --resolution"));
   config = at_resolution(20);
   CHECK(error().empty());
 }

@@ -6,11 +6,6 @@
 #include "tests/support/detected.hpp"
 #include "tests/support/made_golden.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 namespace {
 

@@ -7,21 +7,10 @@
 #include "tests/support/memory_scan.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <atomic>
-#include <filesystem>
-#include <set>
-#include <stdexcept>
-#include <string>
 #include <system_error>
-
-#include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
-
-using Catch::Matchers::Contains;
-using Catch::Matchers::StartsWith;
-using test::ScratchFolder;
 
 Cloud punched_sheet() {
   return plane(50).punched({15, 14}, 5).punched({34, 33}, 7).jittered(0.3, 5).noisy(0.05, 6);
@@ -154,8 +143,8 @@ class OpenFiles final : public Progress {
   }
   void begin(std::string_view, std::uint64_t) override {
     std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
-      const std::string file = std::filesystem::read_symlink(entry.path(), error).string();
+    for (const auto& entry : fs::directory_iterator("/proc/self/fd")) {
+      const std::string file = fs::read_symlink(entry.path(), error).string();
       if (file.ends_with(" (deleted)") && !inherited_.contains(file)) names.insert(file);
     }
   }

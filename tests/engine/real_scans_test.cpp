@@ -5,10 +5,6 @@
 #include "tests/support/detected.hpp"
 #include "tests/support/golden.hpp"
 
-#include <filesystem>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 using namespace io;
 
@@ -23,7 +19,7 @@ struct Setting {
 constexpr std::int64_t kOneTile = 1'000'000'000;
 constexpr std::uint64_t kLeast = 64 << 20;
 
-std::string bytes_of(const std::filesystem::path& file, const Setting& setting, bool orient) {
+std::string bytes_of(const fs::path& file, const Setting& setting, bool orient) {
   Config config;
   config.normals.orient = orient;
   config.run = {
@@ -47,8 +43,8 @@ TEST_CASE("tiling never shows on real scans", "[.slow]") {
        {"dragon_30scans_793k.ply", &kSome, true},    // registered
        {"vol_total.ply", &kSome, true},              // an aerial survey
        {"balm_23scans_1.7M.ply", &kSome, false}}));  // lidar, of strongly varying density
-  const std::filesystem::path file = *shared / "data" / name;
-  if (!std::filesystem::exists(file)) {
+  const fs::path file = *shared / "data" / name;
+  if (!fs::exists(file)) {
     WARN("skipped: no " << file);
     return;
   }

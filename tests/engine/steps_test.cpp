@@ -5,25 +5,12 @@
 #include "engine/kept_state.hpp"
 #include "engine/parts/parts.hpp"
 #include "engine/pipeline.hpp"
-#include "engine/run/error.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/memory_scan.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <algorithm>
-#include <span>
-#include <string>
-#include <thread>
-#include <vector>
-
-#include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
-
-namespace fs = std::filesystem;
-using test::ScratchFolder;
 
 Cloud scan() {
   return plane(60).punched({18, 20}, 5).jittered(0.3, 5).with_duplicates(200, 1).with_outliers(3, 2, 1);
@@ -70,9 +57,8 @@ TEST_CASE("units of any number of tasks give the result of one process") {
       const std::vector<Step> steps = run.planned(tasks);
       const std::size_t of_levels = method == LoopMethod::kPaper ? 2 : 6;
       CHECK(steps.size() == of_levels + (tasks > 1 ? 3 : 0));
-      for (const Step& step : steps) {
+      for (const Step& step : steps)
         for (std::size_t task = step.tasks; task-- > 0;) CHECK(run.work_on(step, task));
-      }
       const auto state = state_of(run.config.run.workspace);
       REQUIRE(state);
       CHECK(state->levels.front().evaluated == state->levels.front().tiles);
@@ -92,9 +78,8 @@ TEST_CASE("units that are lost, done twice, out of order or at the same time cha
     };
     std::vector<Unit> units;
     for (const Step& step : run.planned(3)) {
-      for (std::size_t task = 0; task < step.tasks; ++task) {
+      for (std::size_t task = 0; task < step.tasks; ++task)
         for (std::int64_t copies = random.whole(0, 2); copies > 0; --copies) units.push_back({step, task});
-      }
     }
     for (std::size_t i = units.size(); i-- > 1;)
       std::swap(units[i], units[static_cast<std::size_t>(random.whole(0, static_cast<std::int64_t>(i)))]);
@@ -167,9 +152,8 @@ TEST_CASE("a planned folder gives a run with other parameters what a fresh run g
       const std::string first = run.expected();
       const std::vector<Step> steps = run.planned(tasks);
       done = (done + 1) % steps.size();
-      for (const Step& step : std::span(steps).first(done)) {
+      for (const Step& step : std::span(steps).first(done))
         for (std::size_t task = 0; task < step.tasks; ++task) run.work_on(step, task);
-      }
       const auto with = [&](Config config) {
         config.run.workspace = run.config.run.workspace;
         std::swap(run.config, config);
@@ -241,7 +225,7 @@ TEST_CASE("names of steps go forth and back, and others are none") {
   for (const char* name : {"", "level", "level-", "level--1", "evaluate-0x", "evaluate-500", "tiles-0"})
     CHECK_FALSE(step_of_name(name, run.config.run.workspace));
   const ScratchFolder without_plan;
-  CHECK_THROWS_WITH(step_of_name("evaluate-0", without_plan.path()), Catch::Contains("has no plan"));
+  CHECK_THROWS_WITH(step_of_name("evaluate-0", without_plan.path()), Contains("has no plan"));
 }
 
 }  // namespace

@@ -4,18 +4,9 @@
 #include "tests/io/mutation.hpp"
 #include "tests/support/draws.hpp"
 
-#include <cstring>
-#include <ctime>
-#include <optional>
-#include <set>
-#include <stdexcept>
-
-#include <catch2/catch.hpp>
 #include <sys/resource.h>
 
 namespace lacuna::test {
-using namespace io;
-
 namespace {
 
 void require(bool holds, const char* what) {
@@ -42,7 +33,7 @@ double value_of(const std::byte* row, const Property& property) {
 }
 
 // One line that names the file and gives a reason, without control characters.
-void check_message(const std::string& message, const std::filesystem::path& file) {
+void check_message(const std::string& message, const fs::path& file) {
   constexpr std::size_t kLongestReason = 1000;
   INFO("the message: " << message);
   const std::string begin = file.string() + ": ";
@@ -71,7 +62,7 @@ constexpr std::clock_t kLongest = (kIsSanitized ? 60 : 5) * CLOCKS_PER_SEC;  // 
 std::optional<std::vector<Point>> read_broken(const WholeFile& whole, const ScratchFolder& folder,
                                               const std::string& bytes, std::size_t max_rows,
                                               bool keeps_points) {
-  const std::filesystem::path file = folder.write(whole.name, bytes);
+  const fs::path file = folder.write(whole.name, bytes);
   const std::clock_t begin = std::clock();
   const std::uint64_t before = most_megabytes_so_far();
   std::optional<std::vector<Point>> points(std::in_place);
@@ -86,7 +77,7 @@ std::optional<std::vector<Point>> read_broken(const WholeFile& whole, const Scra
   } catch (const std::exception& other) {
     wrong = other.what();
   }
-  std::filesystem::remove(file);  // a new file is written faster than an old one anew, which ext4 flushes
+  fs::remove(file);  // a new file is written faster than an old one anew, which ext4 flushes
   CHECK(wrong == "");
   CHECK(std::clock() - begin < kLongest);
   if (!kIsSanitized) CHECK(most_megabytes_so_far() - before <= whole.megabytes);
@@ -131,7 +122,7 @@ void check_changes(const WholeFile& whole, const ScratchFolder& folder, std::uin
 
 }  // namespace
 
-void read_scan(const std::filesystem::path& file, std::size_t max_rows, std::uint64_t most_points,
+void read_scan(const fs::path& file, std::size_t max_rows, std::uint64_t most_points,
                const PointVisitor& visit) {
   const auto reader = open_scan(file, {});
   const RowLayout& layout = reader->layout();

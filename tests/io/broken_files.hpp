@@ -7,14 +7,6 @@
 
 #include "tests/io/io_support.hpp"
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <string>
-#include <vector>
-
 namespace lacuna::test {
 
 using Point = std::array<double, 3>;
@@ -22,12 +14,12 @@ using PointVisitor = std::function<void(const Point&)>;
 
 // Reads a file and hands on its points, in batches of at most `max_rows`. Throws `Error`, or std::logic_error
 // where the reader contradicts itself.
-using Reading = std::function<void(const std::filesystem::path& file, std::size_t max_rows,
-                                   std::uint64_t most_points, const PointVisitor& visit)>;
+using Reading = std::function<void(const fs::path& file, std::size_t max_rows, std::uint64_t most_points,
+                                   const PointVisitor& visit)>;
 
 // By `open_scan`. The rows are packed and have x, y and z, properties differ in name, and batches have the
 // bytes of their rows. The number of rows is the expected one, never more than `most_points`.
-void read_scan(const std::filesystem::path& file, std::size_t max_rows, std::uint64_t most_points,
+void read_scan(const fs::path& file, std::size_t max_rows, std::uint64_t most_points,
                const PointVisitor& visit);
 
 // A file that can be read, with as much in it as its format has.

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/io/io_support.hpp"
 
-#include <catch2/catch.hpp>
 #include <unistd.h>
 
 namespace lacuna::test {
-using namespace io;
-using Catch::Matchers::Contains;
 
 TEST_CASE("what cannot be opened is an error that names it", "[io]") {
   const ScratchFolder folder;
-  const auto refused = [](const std::filesystem::path& file, const std::string& reason) {
+  const auto refused = [](const fs::path& file, const std::string& reason) {
     CHECK_THAT(read_error(file), Contains(file.string() + ": ") && Contains(reason));
   };
   refused(folder / "none.ply", "cannot be opened: No such file");
@@ -18,7 +15,7 @@ TEST_CASE("what cannot be opened is an error that names it", "[io]") {
   refused("/dev/zero", "not a regular file");
   refused(folder.write("empty.ply", ""), "byte 0: the file is empty");
   const auto locked = folder.write("locked.ply", "1 2 3\n");
-  std::filesystem::permissions(locked, std::filesystem::perms::none);
+  fs::permissions(locked, fs::perms::none);
   if (::geteuid() != 0) refused(locked, "Permission denied");
 }
 

@@ -2,24 +2,10 @@
 // The vocabulary of the tests of io/: files drawn as bytes, rows as numbers.
 #pragma once
 
-#include "engine/run/error.hpp"
 #include "io/formats.hpp"
 #include "io/rows/scalar.hpp"
 #include "io/rows/scan_reader.hpp"
 #include "tests/support/drawn_files.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cstring>
-#include <filesystem>
-#include <functional>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
-#include <catch2/catch.hpp>
 
 namespace lacuna::test {
 
@@ -61,7 +47,7 @@ struct Table {
   }
 };
 
-inline Table read_table(const std::filesystem::path& file, std::size_t max_rows = 1000,
+inline Table read_table(const fs::path& file, std::size_t max_rows = 1000,
                         const io::ReadOptions& options = {}) {
   const auto reader = io::open_scan(file, options);
   const io::RowLayout& layout = reader->layout();
@@ -96,7 +82,7 @@ std::string error_of(Job&& job) {
   return {};
 }
 
-inline std::string read_error(const std::filesystem::path& file, const io::ReadOptions& options = {}) {
+inline std::string read_error(const fs::path& file, const io::ReadOptions& options = {}) {
   return error_of([&] { read_table(file, 1000, options); });
 }
 
@@ -112,7 +98,7 @@ void check_reasons(const std::vector<Wrong>& cases, const Refuse& refuse) {
   for (const Wrong& wrong : cases) {
     INFO(wrong.content.substr(0, 300));
     const std::string reason = refuse(wrong.content);
-    CHECK_THAT(reason, Catch::Matchers::Contains(wrong.part));
+    CHECK_THAT(reason, Contains(wrong.part));
     CHECK(reason.find('\n') == reason.npos);
   }
 }
@@ -123,13 +109,13 @@ inline void check_refused(const std::string& name, const std::vector<Wrong>& cas
   const ScratchFolder folder;
   check_reasons(cases, [&](const std::string& content) {
     const std::string reason = read_error(folder.write(name, before + content));
-    CHECK_THAT(reason, Catch::Matchers::Contains(name + ": "));
+    CHECK_THAT(reason, Contains(name + ": "));
     return reason;
   });
 }
 
 // Requires that a file has these rows, whatever the batches that it is read in. row_at(i): row i.
-inline void check_rows(const std::filesystem::path& file, std::size_t rows,
+inline void check_rows(const fs::path& file, std::size_t rows,
                        const std::function<std::vector<double>(double)>& row_at) {
   for (const std::size_t max_rows : {1u, 999u, 65'536u, 1'000'000u}) {
     const Table table = read_table(file, max_rows);

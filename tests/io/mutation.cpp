@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/io/mutation.hpp"
 
-#include <algorithm>
-#include <array>
-#include <random>
-#include <string_view>
-#include <vector>
-
 namespace lacuna::test {
 namespace {
 
@@ -120,9 +114,8 @@ class Mutation {
   // Places of characters that numbers have.
   std::vector<std::size_t> digits() const {
     std::vector<std::size_t> places;
-    for (std::size_t i = 0; i < bytes_.size(); ++i) {
+    for (std::size_t i = 0; i < bytes_.size(); ++i)
       if (bytes_[i] >= '0' && bytes_[i] <= '9') places.push_back(i);
-    }
     return places;
   }
 

@@ -2,8 +2,7 @@
 // Files changed at random, the same for the same seed.
 #pragma once
 
-#include <cstdint>
-#include <string>
+#include "tests/support/test.hpp"
 
 namespace lacuna::test {
 

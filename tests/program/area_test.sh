@@ -122,11 +122,9 @@ for rule in anps:1 spacing2:2; do
   grep -q "^  voids .* circles of 4 or more without points, by the rule $rule$" ruled.txt
 done
 
-for rule in 4m anps:1m 400cm; do
-  "$program" check holes.xyz --columns "x y z" --unit m --area holes.geojson --except holes.except.geojson --area-tile 20 \
-    --void-rule $rule --out ruled >ruled.txt 2>ruled.err || true
-  cmp holes/voids.csv ruled/voids.csv
-done
+"$program" check holes.xyz --columns "x y z" --unit m --area holes.geojson --except holes.except.geojson --area-tile 20 \
+  --void-rule anps:100cm --out ruled >ruled.txt 2>ruled.err || true
+cmp holes/voids.csv ruled/voids.csv
 "$program" check holes.xyz --columns "x y z" --unit ft --area holes.geojson --void-rule anps:1 --quiet >ruled.txt 2>ruled.err || true
 grep -q "warning: void_rule = anps:1: the spacing is taken in ft, so that voids have 1.22 m; standards are in metres" ruled.err
 
@@ -248,7 +246,6 @@ outline 1 river.xyz open 4731
 outline 1 bay.txt open 4731
 outline 1 pond.txt hole 4731
 outline 0 corner.txt "" 2999
-"$program" detect river.xyz --out detected --quiet
 "$program" detect river.xyz --out detected >detected.txt 2>detected.err
 grep -q "^  plan *from above, about 1[3-6].* % of it is uncovered, and the widest void has about 1[0-3].* (estimates); lacuna check shows them" detected.txt
 "$program" detect whole.txt --out detected >detected.txt 2>detected.err
@@ -463,9 +460,7 @@ for command in check detect; do
   refuse "holes.xyz: cannot be read as GeoPackage" "$command" "${some[@]}" --area holes.xyz --void-rule 4
   refuse "void_rule = 1e-6: the area has .* cells of an eighth of this size, more than .* allowed: a size of .* or more" "$command" "${some[@]}" \
     --area holes.geojson --void-rule 1e-6
-  for rule in 0 -1 nan 4q anps:QL9 anps: anps spacing3:1; do
-    refuse "void_rule = \"$rule\"; allowed: a length above 0, or" "$command" "${some[@]}" --area holes.geojson --void-rule=$rule
-  done
+  refuse "void_rule = \"anps:QL9\"; allowed: a length above 0, or" "$command" "${some[@]}" --area holes.geojson --void-rule anps:QL9
   refuse "void_rule = 4m is a length in m, and the scan states no unit" "$command" "${some[@]}" --area holes.geojson --void-rule 4m
   refuse "area_tile is less than the void size, 4.0" "$command" "${some[@]}" --area holes.geojson --void-rule 4 --area-tile 3
 done
@@ -473,23 +468,21 @@ mkfifo pipe.geojson
 for options in "--area pipe.geojson" "--area holes.geojson --except pipe.geojson" "--area holes.geojson --classes pipe.geojson"; do
   refuse "pipe.geojson: is not a regular file; a file of polygons is needed" check "${some[@]}" --void-rule 4 $options
 done
-# A view may have no end. Its features are those of a table, or rows without one.
-for rows in "n.i % 2 = 0" "n.i < 0"; do
-  cp some.gpkg view.gpkg
-  python3 - "$rows" <<'END'
-import sqlite3, sys
+# A view may have no end.
+cp some.gpkg view.gpkg
+python3 - <<'END'
+import sqlite3
 with sqlite3.connect("view.gpkg") as file:
     file.execute("CREATE VIEW endless AS WITH n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) "
-                 "SELECT n.i AS fid, some.geom AS geom FROM n, some WHERE " + sys.argv[1])
+                 "SELECT n.i AS fid, some.geom AS geom FROM n, some WHERE n.i < 0")
     file.execute("INSERT INTO gpkg_contents SELECT 'endless', data_type, 'endless', '', last_change, NULL, NULL, NULL, NULL, "
                  "srs_id FROM gpkg_contents WHERE table_name = 'some'")
     file.execute("INSERT INTO gpkg_geometry_columns SELECT 'endless', 'geom', geometry_type_name, srs_id, z, m "
                  "FROM gpkg_geometry_columns WHERE table_name = 'some'")
 END
-  refuse "view.gpkg: layer endless is no table, but a view, which may have no end; .ogr2ogr" check "${some[@]}" \
-    --area view.gpkg --void-rule 4
-done
-# A polygon of a table or of a Shapefile that does not fit in memory is refused before it is read.
+refuse "view.gpkg: layer endless is no table, but a view, which may have no end; .ogr2ogr" check "${some[@]}" \
+  --area view.gpkg --void-rule 4
+# A polygon of a table or of a Shapefile that does not fit in memory is refused before it is read (memory_test: of GeoJSON).
 python3 - <<'END'
 import json, math
 corners = 600_000
@@ -498,7 +491,7 @@ json.dump({"type": "Polygon", "coordinates": [ring + ring[:1]]}, open("coast.geo
 END
 ogr2ogr -f GPKG -a_srs EPSG:25832 coast.gpkg coast.geojson
 ogr2ogr -f "ESRI Shapefile" -a_srs EPSG:25832 coast.shp coast.geojson
-for file in coast.geojson coast.gpkg coast.shp; do
+for file in coast.gpkg coast.shp; do
   refuse "$file: .* corners of polygons, .* of them in one, take more than the 42 MiB that the memory limit leaves .* allowed: 550502 in one" \
     check "${some[@]}" --area $file --void-rule 4 --memory-limit 112MiB
 done
@@ -524,10 +517,8 @@ refuse "a check of an area needs it" check "${some[@]}"
 refuse "void_rule = 0.3: the points are too sparse for an outline of the scan; allowed: a larger size" check whole.txt --void-rule 0.3
 refuse "earth.txt: its places are geocentric, as of EPSG:4978, and --area needs a plan; .*EPSG:32632" check earth.txt \
   --columns "x y z" "${on[@]}"
-for system in EPSG:4978 EPSG:4936; do
-  refuse "is geocentric, and --area needs a plan; .*EPSG:32632" check earth.txt --columns "x y z" --crs $system "${on[@]}"
-  refuse "is geocentric, and --coverage needs a plan" detect earth.txt --columns "x y z" --crs $system --coverage 1 --out refused
-done
+refuse "is geocentric, and --area needs a plan; .*EPSG:32632" check earth.txt --columns "x y z" --crs EPSG:4936 "${on[@]}"
+refuse "is geocentric, and --coverage needs a plan" detect earth.txt --columns "x y z" --crs EPSG:4978 --coverage 1 --out refused
 refuse "utm.holes.json: its coordinates, such as 5.*, are read as degrees by RFC 7946, .*a GeoPackage" check utm.xyz \
   --columns "x y z" --crs EPSG:25832 --area utm.holes.json --void-rule 4
 refuse "memory_limit = 64MiB is too little for files for GIS" check west.txt "${on[@]}" --memory-limit 64MiB

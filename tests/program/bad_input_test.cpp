@@ -3,41 +3,25 @@
 // half-written.
 #include "tests/io/io_support.hpp"
 #include "tests/support/clouds.hpp"
+#include "tests/support/json.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/skip.hpp"
 #include "tests/support/small_disk.hpp"
 
-#include <cmath>
-#include <filesystem>
-
-#include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace lacuna {
+namespace lacuna::test {
 namespace {
 
-namespace fs = std::filesystem;
-using Catch::Matchers::Contains;
-using test::check_failure;
-using test::count_entries;
-using test::ProgramResult;
-using test::run_program;
-using test::ScratchFolder;
-using test::SmallDisk;
-using test::with;
-using test::Words;
-
 std::string header(const std::string& count) {
-  return test::ply_header("element vertex " + count + "\n" + test::kXyz, "binary_little_endian");
+  return ply_header("element vertex " + count + "\n" + kXyz, "binary_little_endian");
 }
 
 std::string binary_ply(const Cloud& cloud) {
-  test::Bytes bytes;
-  for (const Eigen::Vector3d& p : cloud.positions) {
+  Bytes bytes;
+  for (const Eigen::Vector3d& p : cloud.positions)
     for (const double coordinate : p) bytes << static_cast<float>(coordinate);
-  }
   return header(std::to_string(cloud.size())) + bytes.str();
 }
 
@@ -88,24 +72,22 @@ TEST_CASE("few points, equal points and collinear ones have results") {
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const fs::path out = scratch / std::to_string(i);
     const std::string file = scratch.write("scan.ply", binary_ply(scans[i].first));
-    for (const std::string tile_points : {"1", "1000"}) {
-      const ProgramResult result = detect_quietly(file, out,
-                                                  {"--points", "--points-normals", "--orient-normals",
-                                                   "--tile-points", tile_points, "--threads", "3"});
-      INFO("scan " << i << ": " << result.err);
-      REQUIRE(result.exit_code == 0);
-      CHECK(test::read_json(out / "holes.json").at("counts").at("points") == scans[i].first.size());
-      CHECK(test::read_json(out / "holes.json").at("counts").at("dropped") >= scans[i].second);
-      CHECK(count_entries(out) == 7);
-    }
+    const ProgramResult result = detect_quietly(
+        file, out,
+        {"--points", "--points-normals", "--orient-normals", "--tile-points", "1", "--threads", "3"});
+    INFO("scan " << i << ": " << result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK(read_json(out / "holes.json").at("counts").at("points") == scans[i].first.size());
+    CHECK(read_json(out / "holes.json").at("counts").at("dropped") >= scans[i].second);
+    CHECK(count_entries(out) == 7);
   }
 }
 
 // Another user, as which files can be out of reach even when the tests run as root.
 ProgramResult run_as_nobody(const Words& arguments) {
   const Words program = with({LACUNA_PROGRAM}, arguments);
-  if (geteuid() != 0) return test::run_command(program);
-  return test::run_command(with({"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"}, program));
+  if (geteuid() != 0) return run_command(program);
+  return run_command(with({"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"}, program));
 }
 
 TEST_CASE("without permission to read or to write there is one line that names the place") {
@@ -120,7 +102,7 @@ TEST_CASE("without permission to read or to write there is one line that names t
     return run_as_nobody(with({"detect", scan, "--out", out, "--quiet"}, more));
   };
   if (run_as_nobody({"--version"}).exit_code != 0) {
-    test::skip("cannot run the program as another user");
+    skip("cannot run the program as another user");
     return;
   }
   REQUIRE(detect((root / "out").string()).exit_code == 0);
@@ -145,10 +127,10 @@ TEST_CASE("a disk that is too small for a GeoPackage ends the check of an area w
   const std::string area =
       scratch.write("area.json", R"({"type":"Polygon","coordinates":[[[2,2],[38,2],[38,38],[2,38],[2,2]]]})");
   std::size_t failed = 0;
-  for (int kib = 16; kib <= 128; kib += 8) {
+  for (int kib = 16; kib <= 128; kib += 16) {
     const SmallDisk disk(scratch / "disk", std::to_string(kib) + "k");
     if (!disk.mounted()) {
-      test::skip("cannot mount a small disk");
+      skip("cannot mount a small disk");
       return;
     }
     const ProgramResult result = run_program({"check", scan, "--area", area, "--void-rule", "4", "--out",
@@ -170,7 +152,7 @@ TEST_CASE("a disk that is full, in whatever phase, ends the run with one line an
        {"8k", "64k", "256k", "512k", "1m", "1536k", "2m", "2560k", "3m", "4m", "64m"}) {
     const SmallDisk disk(scratch / "disk", size);
     if (!disk.mounted()) {
-      test::skip("cannot mount a small disk");
+      skip("cannot mount a small disk");
       return;
     }
     INFO("workspace on a disk of " << size);
@@ -213,7 +195,7 @@ TEST_CASE("a disk that cannot hold the points is said once they are counted, bef
   const std::string scan = scratch.write("scan.ply", binary_ply(plane(300).jittered(0.2, 1)));
   const SmallDisk disk(scratch / "disk", "1m");  // 90,000 points take 1.4 MiB
   if (!disk.mounted()) {
-    test::skip("cannot mount a small disk");
+    skip("cannot mount a small disk");
     return;
   }
   const fs::path out = scratch / "out";
@@ -229,14 +211,14 @@ TEST_CASE("the disk that info names is enough for the run, and less than its lea
   const ScratchFolder scratch;
   const std::string scan =
       scratch.write("scan.ply", binary_ply(plane(300).punched({150, 150}, 8).jittered(0.2, 1)));
-  const auto needs = nlohmann::json::parse(run_program({"info", scan, "--json"}).out).at("temporary_bytes");
+  const auto needs = json_of(run_program({"info", scan, "--json"}).out).at("temporary_bytes");
   const auto runs_on = [&](double bytes, const Words& options) {
     const SmallDisk disk(scratch / "disk", std::to_string(static_cast<std::uint64_t>(bytes)));
     const Words more = with({"--memory-limit", "64MiB", "--scratch", disk.path().string()}, options);
     return disk.mounted() && detect_quietly(scan, scratch / "out", more).exit_code == 0;
   };
   if (!SmallDisk(scratch / "disk", "1m").mounted()) {
-    test::skip("cannot mount a small disk");
+    skip("cannot mount a small disk");
     return;
   }
   const auto least = needs.at("least").get<double>(), most = needs.at("most").get<double>();
@@ -246,4 +228,4 @@ TEST_CASE("the disk that info names is enough for the run, and less than its lea
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::test

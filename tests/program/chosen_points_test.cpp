@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Poses and filters, from the command line to the report.
 #include "tests/support/clouds.hpp"
+#include "tests/support/json.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
-
-namespace lacuna {
+namespace lacuna::test {
 namespace {
 
 using nlohmann::json;
-using test::ScratchFolder;
 
 std::string rows_of(const Cloud& cloud, int classification) {
   std::string rows = cloud.text();
@@ -25,7 +22,7 @@ TEST_CASE("scans in their own coordinates with poses, and filters, give the loop
   const Cloud right = plane(30).punched({20, 9}, 3).translated({30, 0, 1});
   const std::string header = "x y z Classification\n";
   const auto whole = scratch.write("whole.csv", header + rows_of(left, 2) + rows_of(right, 2));
-  const json expected = test::read_json(test::detect(whole, scratch / "whole") / "holes.json");
+  const json expected = read_json(detect(whole, scratch / "whole") / "holes.json");
   REQUIRE(expected["counts"]["holes"] == 2);
 
   // The right part has its origin elsewhere; points of class 7 fill its hole, points at 0 0 0 have no return.
@@ -34,10 +31,10 @@ TEST_CASE("scans in their own coordinates with poses, and filters, give the loop
                                  rows_of(plane(8).translated({30 - 512 + 17, 1024 + 6, 1}), 7) +
                                  "0 0 0 2\n0 0 0 2\n");
   const auto list = scratch.write("list.txt", "left.csv\nright.csv pose=512 -1024 0 0 0 0 1\n");
-  const json found = test::read_json(
-      test::detect("@" + list, scratch / "posed",
-                   {"--where", "Classification == 2 or z > 100", "--drop-origin", "--keep-noise"}) /
-      "holes.json");
+  const json found =
+      read_json(detect("@" + list, scratch / "posed",
+                       {"--where", "Classification == 2 or z > 100", "--drop-origin", "--keep-noise"}) /
+                "holes.json");
   CHECK(found["loops"] == expected["loops"]);
   CHECK(found["counts"]["filtered_out"]["where"] == 64);
   CHECK(found["counts"]["filtered_out"]["origin"] == 2);
@@ -46,4 +43,4 @@ TEST_CASE("scans in their own coordinates with poses, and filters, give the loop
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::test

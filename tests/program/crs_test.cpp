@@ -1,28 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The coordinate reference system and the unit of a scan, as its files name them and as the user states them.
 #include "tests/io/io_support.hpp"
-#include "tests/io/las/las_file.hpp"
 #include "tests/support/clouds.hpp"
+#include "tests/support/json.hpp"
+#include "tests/support/las_file.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <filesystem>
-
-#include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
-
-namespace lacuna {
+namespace lacuna::test {
 namespace {
-
-namespace fs = std::filesystem;
-using Catch::Matchers::Contains;
-using Catch::Matchers::StartsWith;
-using test::check_failure;
-using test::ProgramResult;
-using test::read_json;
-using test::run_program;
-using test::ScratchFolder;
-using test::with;
-using test::Words;
 
 constexpr const char* kUtm = "ETRS89 / UTM zone 32N";
 
@@ -32,12 +17,12 @@ std::string sheet_text() {
 }
 
 std::string degrees_las() {
-  test::LasFile las;
+  LasFile las;
   las.records = {
-      test::las_record("LASF_Projection", 2112,
-                       "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],"
-                       "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]")};
-  for (int i = 0; i < 100; ++i) las.points.push_back(test::las_point(20, i % 10, i / 10, 0));
+      las_record("LASF_Projection", 2112,
+                 "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],"
+                 "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]")};
+  for (int i = 0; i < 100; ++i) las.points.push_back(las_point(20, i % 10, i / 10, 0));
   las.scale = {1e-6, 1e-6, 0.01};
   las.offset = {9, 48, 100};
   return las.bytes();
@@ -45,11 +30,11 @@ std::string degrees_las() {
 
 // Keys of GeoTIFF in a LAS file: a projected system by its code, without one for the unit.
 std::string coded_las(std::uint16_t code) {
-  test::Bytes keys;
+  Bytes keys;
   for (const int number : {1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, int{code}})
     keys << static_cast<std::uint16_t>(number);
-  return test::LasFile{.points = {test::las_point(20, 0, 0, 0)},
-                       .records = {test::las_record("LASF_Projection", 34735, keys.str())}}
+  return LasFile{.points = {las_point(20, 0, 0, 0)},
+                 .records = {las_record("LASF_Projection", 34735, keys.str())}}
       .bytes();
 }
 
@@ -76,7 +61,7 @@ TEST_CASE("the unit of a system that a file names by its code alone is the unit 
     const std::string scan = scratch.write("a.las", coded_las(code));
     const ProgramResult info = run_program({"info", scan, "--json"});
     REQUIRE(info.exit_code == 0);
-    return nlohmann::json::parse(info.out)["unit"];
+    return json_of(info.out)["unit"];
   };
   CHECK(unit_of(25832) == "m");
   CHECK(unit_of(2992) == "ft");     // NAD83 / Oregon GIC Lambert (ft)
@@ -90,7 +75,7 @@ TEST_CASE("a scan in degrees is refused before the work with the ways out, and i
   check_failure(run_program({"detect", scan, "--out", out}), 1, "`pdal translate");
   CHECK_FALSE(fs::exists(out));
   CHECK_THAT(run_program({"info", scan}).out, Contains("unit        degrees"));
-  CHECK(nlohmann::json::parse(run_program({"info", scan, "--json"}).out)["files"][0]["unit"] == "degree");
+  CHECK(json_of(run_program({"info", scan, "--json"}).out)["files"][0]["unit"] == "degree");
   const ProgramResult stated = run_program({"detect", scan, "--out", out, "--crs", "EPSG:25832"});
   CHECK(stated.exit_code == 0);
   CHECK_THAT(stated.err, Contains("WGS 84; the stated one holds, " + std::string(kUtm)));
@@ -119,7 +104,7 @@ TEST_CASE("the option --crs states the system and the unit of any file, in every
   CHECK(read_json(scratch / "out" / "run.json")["crs"] == text);
   CHECK(read_json(scratch / "out" / "run.json")["unit"] == "m");
   CHECK_THAT(output, Contains("crs          " + std::string(kUtm)) && Contains(" m²"));
-  CHECK_THAT(test::read_file(scratch / "out" / "report.html"), Contains(kUtm) && Contains("\"unit\":\"m\""));
+  CHECK_THAT(read_file(scratch / "out" / "report.html"), Contains(kUtm) && Contains("\"unit\":\"m\""));
   CHECK_THAT(run_program({"info", scan, "--crs", "EPSG:25832"}).out,
              Contains("crs           " + std::string(kUtm)) && Contains("unit          m\n"));
 
@@ -153,11 +138,11 @@ TEST_CASE("a code and well-known text of one system are the same for a scan of s
   const ScratchFolder scratch;
   const std::string scan = scratch.write("sheet.xyz", sheet_text());
   const auto las_of = [&](const std::string& name, const std::string& crs) {
-    test::LasFile las;
-    for (int i = 0; i < 100; ++i) las.points.push_back(test::las_point(20, i % 10, i / 10, 0));
-    test::detect(scan, scratch / name, {"--crs", crs});
+    LasFile las;
+    for (int i = 0; i < 100; ++i) las.points.push_back(las_point(20, i % 10, i / 10, 0));
+    detect(scan, scratch / name, {"--crs", crs});
     const std::string text = read_json(scratch / name / "holes.json").at("crs");
-    las.records = {test::las_record("LASF_Projection", 2112, text)};
+    las.records = {las_record("LASF_Projection", 2112, text)};
     return scratch.write(name + ".las", las.bytes());
   };
   const std::string text = las_of("text", "EPSG:25832"), other = las_of("other", "EPSG:25833");
@@ -176,4 +161,4 @@ TEST_CASE("a code and well-known text of one system are the same for a scan of s
   CHECK(detect({text, other}).second.empty());
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::test

@@ -4,19 +4,8 @@
 #include "tests/support/open_files.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <csignal>
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include <catch2/catch.hpp>
-
-namespace lacuna {
+namespace lacuna::test {
 namespace {
-
-namespace fs = std::filesystem;
-using test::ProgramResult;
-using test::ScratchFolder;
 
 // A scan and how to run it so that its lists do not fit in memory.
 struct Run {
@@ -33,31 +22,32 @@ struct Run {
 };
 
 TEST_CASE("a file of the workspace that is cut short during the run ends it with one line that names it") {
-  for (const std::string file : {"points", "halo", "sites", "results", "outputs"}) {
+  // A column, lists of records and lists of bytes.
+  for (const std::string file : {"points", "halo", "outputs"}) {
     INFO(file);
     const Run run;
     bool was_cut = false;
-    const ProgramResult result = test::run_program_beside(
-        run.arguments, [&](pid_t program) { was_cut |= test::cut_open_file(program, file); });
+    const ProgramResult result =
+        run_program_beside(run.arguments, [&](pid_t program) { was_cut |= cut_open_file(program, file); });
     CHECK(was_cut);
-    test::check_failure(result, 1, "/" + file + ": the file was cut short");
+    check_failure(result, 1, "/" + file + ": the file was cut short");
     CHECK_FALSE(fs::exists(run.out));
   }
 }
 
 TEST_CASE("a killed run leaves no file but marks, and no folder of results") {
   const Run run;
-  const ProgramResult result = test::run_program_beside(run.arguments, [](pid_t program) {
-    if (test::has_open(program, "halo")) kill(program, SIGKILL);
+  const ProgramResult result = run_program_beside(run.arguments, [](pid_t program) {
+    if (has_open(program, "halo")) kill(program, SIGKILL);
   });
   REQUIRE(result.exit_code == 128 + SIGKILL);
   CHECK_FALSE(fs::exists(run.out));
   std::size_t folders = 0, files = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(test::temporary_of(run.out)))
+  for (const auto& entry : fs::recursive_directory_iterator(temporary_of(run.out)))
     ++(entry.is_directory() ? folders : files);
   CHECK(folders == 2);  // for results and for temporary files
   CHECK(files == 2);    // the marks of these
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::test

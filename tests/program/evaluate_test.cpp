@@ -3,50 +3,26 @@
 // neither.
 #include "tests/support/clouds.hpp"
 #include "tests/support/drawn_files.hpp"
+#include "tests/support/json.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <algorithm>
-#include <array>
-#include <filesystem>
-#include <map>
-
-#include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
-
-namespace lacuna {
+namespace lacuna::test {
 namespace {
-
-namespace fs = std::filesystem;
-using Catch::Matchers::Contains;
-using Catch::Matchers::StartsWith;
-using test::check_failure;
-using test::ProgramResult;
-using test::run_bench;
-using test::run_program;
-using test::ScratchFolder;
-using test::with;
-using test::Words;
 
 nlohmann::json evaluate(const Words& arguments) {
   const ProgramResult result = run_bench(with(with({"evaluate"}, arguments), {"--json"}));
   INFO(result.err);
   REQUIRE(result.exit_code == 0);
-  return nlohmann::json::parse(result.out);
+  return json_of(result.out);
 }
 
 // A plane with three holes and its result.
 struct Made {
   ScratchFolder folder;
-  std::string scan = (folder / "made.ply").string();
+  std::string scan =
+      synth("surface", folder / "made.ply", {"--points", "5000", "--holes", "3", "--hole-radius", "5", "7"});
   std::string truth = (folder / "made.loops.txt").string();
-  std::string out = (folder / "out").string();
-
-  Made() {
-    REQUIRE(
-        run_bench({"synth", "surface", scan, "--points", "5000", "--holes", "3", "--hole-radius", "5", "7"})
-            .exit_code == 0);
-    REQUIRE(run_program({"detect", scan, "--out", out, "--quiet"}).exit_code == 0);
-  }
+  std::string out = detect(scan, folder / "out").string();
 };
 
 // Points of a grid, a unit apart, with numbers as ids. Gaps are squares of n points.
@@ -84,7 +60,7 @@ struct Grid {
 };
 
 const std::string kSquare =
-    test::ply_header(test::vertices(5) + test::kFace) + "0 0 0\n1 0 0\n1 1 0\n0 1 0\n9 9 9\n4 0 1 2 3\n";
+    ply_header(vertices(5) + kFace) + "0 0 0\n1 0 0\n1 1 0\n0 1 0\n9 9 9\n4 0 1 2 3\n";
 
 }  // namespace
 
@@ -197,9 +173,8 @@ TEST_CASE("loops around gaps in the points of a surface are counted apart") {
                     other = grid.around(19, 4, 6, 6);
   const std::string truth = folder.write("true.txt", hole + "\n" + other + "\n");
   const std::string found = folder.write("found.txt", hole + other + "\n" + gap + "\n");
-  const std::string surface =
-      folder.write("surface.ply", test::ply_header(test::vertices(4) + test::kFace) +
-                                      "-9 15 0\n49 15 0\n49 49 0\n-9 49 0\n4 0 1 2 3\n");
+  const std::string surface = folder.write(
+      "surface.ply", ply_header(vertices(4) + kFace) + "-9 15 0\n49 15 0\n49 49 0\n-9 49 0\n4 0 1 2 3\n");
   const Words words = {found, truth, "--scan", scan, "--tolerance", "1"};
   const auto without = evaluate(words);
   CHECK((without.at("joined") == 1 && without.at("unsampled") == 0 && without.at("false") == 1));
@@ -248,7 +223,7 @@ TEST_CASE("what cannot be evaluated is refused in one line with exit code 1") {
   refused({made.out, square}, "is of a scan of");
   refused({made.out + "/loops.ply", square}, "but the scan has 5 points");
   refused({made.truth, square, "--scan", made.scan}, "no --scan is allowed");
-  made.folder.write("far.ply", test::read_file(made.scan));
+  made.folder.write("far.ply", read_file(made.scan));
   refused({made.truth, made.folder.write("far.loops.txt", "1 2 999999\n")}, "id 999999");
   for (const auto& [holes, reason] :
        {std::pair{"{\"counts\": ", "is not JSON"},
@@ -259,4 +234,4 @@ TEST_CASE("what cannot be evaluated is refused in one line with exit code 1") {
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::test

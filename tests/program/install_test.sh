@@ -96,6 +96,8 @@ export PKG_CONFIG_PATH=$libraries/pkgconfig
 prints_the_same() {
   [[ $("$@") == "$found" ]] || fail "the example prints something else: $*"
 }
+read -ra flags < <(pkg-config --cflags lacuna)
+g++ -std=c++20 -c docs/example/find_holes.cpp "${flags[@]}" -o "$work/find_holes.o" || fail "pkg-config's flags compile no example"
 
 # The shared library needs none of the packages that it is made of. It exports the public interface alone.
 if grep --quiet 'LACUNA_SHARED:BOOL=ON' "$build_folder/CMakeCache.txt"; then
@@ -105,13 +107,11 @@ if grep --quiet 'LACUNA_SHARED:BOOL=ON' "$build_folder/CMakeCache.txt"; then
   (($(wc -l <"$work/symbols") <= 100)) || fail "the shared library exports $(wc -l <"$work/symbols") names"
 
   mkdir "$work/user"
-  cp docs/example/{find_holes.cpp,plane_with_hole.hpp} "$work/user"
   cat >"$work/user/CMakeLists.txt" <<'END'
 cmake_minimum_required(VERSION 3.25)
 project(user LANGUAGES CXX)
 find_package(lacuna 0.1 REQUIRED COMPONENTS shared)
 link_libraries(lacuna::shared)
-add_executable(find_holes find_holes.cpp)
 add_executable(user user.cpp)
 END
   cat >"$work/user/user.cpp" <<'END'
@@ -152,16 +152,13 @@ END
   cmake -S "$work/user" -B "$work/user/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON \
     -DCMAKE_DISABLE_FIND_PACKAGE_spdlog=ON >"$work/log" 2>&1 || { cat "$work/log"; fail "the shared library is not found"; }
   cmake --build "$work/user/build" >"$work/log" 2>&1 || { cat "$work/log"; fail "nothing can be linked with the shared library"; }
-  prints_the_same "$work/user/build/find_holes"
   said=$("$work/user/build/user" "$work/plane.ply")
   [[ $said == "usage, error, 7, m" ]] || fail "across the shared library's border: $said"
-  read -ra flags < <(pkg-config --cflags --libs lacuna)
-  g++ -std=c++20 docs/example/find_holes.cpp "${flags[@]}" -o "$work/by_flags" ||
-    fail "pkg-config's flags build no example"
+  read -ra flags < <(pkg-config --libs lacuna)
+  g++ "$work/find_holes.o" "${flags[@]}" -o "$work/by_flags" || fail "pkg-config's flags link no example"
   prints_the_same env LD_LIBRARY_PATH="$libraries" "$work/by_flags"
   rm "$libraries"/liblacuna.so*
 fi
-read -ra flags < <(pkg-config --static --cflags --libs lacuna)
-g++ -std=c++20 docs/example/find_holes.cpp "${flags[@]}" -o "$work/by_flags" ||
-  fail "pkg-config's flags for the static library build no example"
+read -ra flags < <(pkg-config --static --libs lacuna)
+g++ "$work/find_holes.o" "${flags[@]}" -o "$work/by_flags" || fail "pkg-config's flags for the static library link no example"
 prints_the_same "$work/by_flags"

@@ -1,26 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs with --local-coordinates, and every command that reads their results.
 #include "tests/support/clouds.hpp"
+#include "tests/support/json.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <string>
-#include <vector>
-
-#include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
-
-namespace lacuna {
+namespace lacuna::test {
 namespace {
 
-namespace fs = std::filesystem;
-using Catch::Matchers::Contains;
 using nlohmann::json;
-using test::element;
-using test::read_file;
-using test::run_program;
-using test::ScratchFolder;
-using test::with;
-using test::Words;
 
 // At UTM. Their coordinates are multiples of 1/1024, so that local floats are exact.
 Cloud exact_sheet() {
@@ -37,7 +24,7 @@ void succeed(const Words& words) {
 
 // What the page shows, but for the parameters and the times of the run.
 json shown(const fs::path& out) {
-  json report = json::parse(element(read_file(out / "report.html"), "report"));
+  json report = json_of(element(read_file(out / "report.html"), "report"));
   for (const char* key : {"changed", "parameters", "run", "title", "inputs"}) report.erase(key);
   return report;
 }
@@ -46,11 +33,10 @@ TEST_CASE("pages, pictures and evaluations of local coordinates are those of the
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.txt", exact_sheet().text());
   const fs::path plain = scratch / "plain", local = scratch / "local";
-  test::detect(scan, plain, {"--report", "--points", "--points-format", "ply"});
-  test::detect(scan, local, {"--report", "--points", "--points-format", "ply", "--local-coordinates"});
-  CHECK(test::read_json(local / "holes.json").at("offset") == json{500'030, 5'400'030, 300});
-  CHECK(test::read_json(local / "holes.json").at("loops") ==
-        test::read_json(plain / "holes.json").at("loops"));
+  detect(scan, plain, {"--report", "--points", "--points-format", "ply"});
+  detect(scan, local, {"--report", "--points", "--points-format", "ply", "--local-coordinates"});
+  CHECK(read_json(local / "holes.json").at("offset") == json{500'030, 5'400'030, 300});
+  CHECK(read_json(local / "holes.json").at("loops") == read_json(plain / "holes.json").at("loops"));
   CHECK(read_file(local / "holes.csv") == read_file(plain / "holes.csv"));
 
   for (const fs::path& out : {plain, local}) {
@@ -69,7 +55,7 @@ TEST_CASE("pages, pictures and evaluations of local coordinates are those of the
     CHECK((read_file(local / picture) == read_file(plain / picture)));
   CHECK((read_file(local / "top.png") != read_file(local / "low.png")));
 
-  const json holes = test::read_json(plain / "holes.json");
+  const json holes = read_json(plain / "holes.json");
   std::string truth;
   for (const json& loop : holes.at("loops")) {
     for (const json& id : loop.at("ids")) truth += id.dump() + " ";
@@ -77,10 +63,10 @@ TEST_CASE("pages, pictures and evaluations of local coordinates are those of the
   }
   const std::string truth_file = scratch.write("truth.txt", truth);
   const auto evaluated = [&](const std::string& result, const Words& more) {
-    const auto run = test::run_bench(with({"evaluate", result, truth_file, "--json"}, more));
+    const auto run = run_bench(with({"evaluate", result, truth_file, "--json"}, more));
     INFO(run.err);
     REQUIRE(run.exit_code == 0);
-    json found = json::parse(run.out);
+    json found = json_of(run.out);
     found.erase("result");
     return found.dump();
   };
@@ -93,4 +79,4 @@ TEST_CASE("pages, pictures and evaluations of local coordinates are those of the
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::test

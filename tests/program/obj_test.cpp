@@ -3,36 +3,22 @@
 // run.
 #include "bench/evaluation/mesh_reader.hpp"
 #include "tests/io/io_support.hpp"
+#include "tests/support/json.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <algorithm>
-#include <array>
-#include <map>
-#include <sstream>
-#include <string>
-#include <vector>
-
-#include <catch2/catch.hpp>
-#include <Eigen/Geometry>
-#include <nlohmann/json.hpp>
-
-namespace lacuna {
+namespace lacuna::test {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
-using test::read_file;
-using test::Words;
 
 // Writes a sheet with four holes at coordinates as of UTM, with all digits of a double.
-std::string write_earth_sheet(const test::ScratchFolder& scratch) {
-  const std::string surface = (scratch / "surface.ply").string();
-  REQUIRE(test::run_bench({"synth", "surface", surface, "--points", "12000", "--holes", "4", "--hole-radius",
-                           "3", "6", "--order", "random"})
-              .exit_code == 0);
+std::string write_earth_sheet(const ScratchFolder& scratch) {
+  const std::string surface =
+      synth("surface", scratch / "surface.ply",
+            {"--points", "12000", "--holes", "4", "--hole-radius", "3", "6", "--order", "random"});
   std::ostringstream text;
   text.precision(17);
-  for (const auto& row : test::read_table(surface).rows)
+  for (const auto& row : read_table(surface).rows)
     text << row[0] + 500'000.1 << ' ' << row[1] + 5'400'000.1 << ' ' << row[2] << '\n';
   return scratch.write("earth.txt", text.str());
 }
@@ -115,9 +101,9 @@ std::vector<Eigen::Vector3d> coordinates(const json& loop) {
 }  // namespace
 
 TEST_CASE("OBJ has the loops and measures of holes.json, with all digits on Earth", "[results]") {
-  const test::ScratchFolder scratch;
-  const fs::path out = test::detect(write_earth_sheet(scratch), scratch / "out", {"--obj"});
-  const json loops = test::read_json(out / "holes.json").at("loops");
+  const ScratchFolder scratch;
+  const fs::path out = detect(write_earth_sheet(scratch), scratch / "out", {"--obj"});
+  const json loops = read_json(out / "holes.json").at("loops");
   const Obj obj = read_obj(out / "loops.obj");
   REQUIRE(loops.size() == 5);
   REQUIRE(obj.objects.size() == 5);
@@ -145,13 +131,13 @@ TEST_CASE("OBJ has the loops and measures of holes.json, with all digits on Eart
 
 TEST_CASE("each hole has its lid in OBJ, PLY and CSV, with all digits on Earth, and outer curves have none",
           "[results]") {
-  const test::ScratchFolder scratch;
+  const ScratchFolder scratch;
   const std::string scan = write_earth_sheet(scratch);
-  const fs::path out = test::detect(scan, scratch / "out", {"--lids"});
-  const json loops = test::read_json(out / "holes.json").at("loops");
+  const fs::path out = detect(scan, scratch / "out", {"--lids"});
+  const json loops = read_json(out / "holes.json").at("loops");
   const Obj obj = read_obj(out / "lids.obj");
   const std::vector<Words> rows = read_csv(out / "lids.csv", "loop,triangles,lid_area,reason");
-  const test::Table ply = test::read_table(out / "lids.ply");
+  const Table ply = read_table(out / "lids.ply");
   CHECK(ply.names == Words{"x", "y", "z", "scalar_loop"});
 
   std::size_t at = 0, first = 0;
@@ -184,26 +170,25 @@ TEST_CASE("each hole has its lid in OBJ, PLY and CSV, with all digits on Earth, 
     CHECK(Eigen::Map<const Eigen::Vector3d>(ply.rows[i].data()) == obj.vertices[i]);
   CHECK(evaluation::read_triangles(out / "lids.ply") == triangles);
   // meshio 5 reads no faces with more than their list.
-  CHECK_THAT(read_file(out / "lids.ply"),
-             Catch::Contains("property list uchar int vertex_indices\nend_header"));
+  CHECK_THAT(read_file(out / "lids.ply"), Contains("property list uchar int vertex_indices\nend_header"));
 
   // Relative to the offset that the header states, which the reader adds.
-  test::detect(scan, out, {"--lids", "--local-coordinates"});
-  CHECK_THAT(read_file(out / "lids.ply").substr(0, 200), Catch::Contains("\ncomment lacuna offset "));
-  const test::Table local = test::read_table(out / "lids.ply");
+  detect(scan, out, {"--lids", "--local-coordinates"});
+  CHECK_THAT(read_file(out / "lids.ply").substr(0, 200), Contains("\ncomment lacuna offset "));
+  const Table local = read_table(out / "lids.ply");
   REQUIRE(local.rows.size() == obj.vertices.size());
   for (std::size_t i = 0; i < local.rows.size(); ++i)
     CHECK((Eigen::Map<const Eigen::Vector3d>(local.rows[i].data()) - obj.vertices[i]).norm() < 1e-4);
 }
 
 TEST_CASE("a scan without holes has empty lids and an empty OBJ", "[results]") {
-  const test::ScratchFolder scratch;
+  const ScratchFolder scratch;
   const std::string scan = scratch.write("few.xyz", "0 0 0\n1 0 0\n0 1 0\n");
-  const fs::path out = test::detect(scan, scratch / "out", {"--lids", "--obj"});
+  const fs::path out = detect(scan, scratch / "out", {"--lids", "--obj"});
   CHECK(read_obj(out / "lids.obj").objects.empty());
   CHECK(read_obj(out / "loops.obj").objects.empty());
   CHECK(evaluation::read_triangles(out / "lids.ply").empty());
   CHECK(read_csv(out / "lids.csv", "loop,triangles,lid_area,reason").empty());
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::test

@@ -4,31 +4,16 @@
 #include "io/options/options.hpp"
 #include "io/rows/vectors.hpp"
 #include "io/scan/file_scan.hpp"
-#include "tests/io/las/las_file.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/draws.hpp"
+#include "tests/support/json.hpp"
+#include "tests/support/las_file.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <algorithm>
-#include <filesystem>
-#include <iterator>
-#include <map>
 #include <regex>
-#include <set>
-#include <sstream>
-#include <tuple>
 
-#include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
-
-namespace lacuna {
+namespace lacuna::test {
 namespace {
-
-namespace fs = std::filesystem;
-using Catch::Matchers::Contains;
-using test::run_program;
-using test::ScratchFolder;
-using test::Words;
 
 // Another value than the default, for all but flags and the method.
 const std::map<std::string_view, std::string_view> kOtherValues = {
@@ -93,22 +78,21 @@ struct Scan {
 // noise is in LAS, since the classes of text are labels.
 Scan made_scan() {
   Cloud cloud = plane(32).punched({9, 9}, 2).punched({21, 20}, 5).jittered(0.5, 1).noisy(0.12, 2);
-  for (const int degrees : {40, 60, 80, 100, 120}) {
+  for (const int degrees : {40, 60, 80, 100, 120})
     cloud = cloud.joined(crease(14, degrees).jittered(0.4, 3).translated({60, 2.0 * degrees, 0}));
-  }
   std::ostringstream text;
   text.precision(17);
   text << "x y z classification return_number number_of_returns withheld\n0 0 0 2 1 1 0\n";
-  test::LasFile noise{.scale = {1e-6, 1e-6, 1e-6}, .offset = {0, 0, 0}};
+  LasFile noise{.scale = {1e-6, 1e-6, 1e-6}, .offset = {0, 0, 0}};
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const auto is_within = [&](double x, double y, double radius) {
       return (cloud.positions[i].head<2>() - Eigen::Vector2d(x, y)).norm() < radius;
     };
     if (is_within(21, 20, 6)) {
       const Eigen::Vector3i steps = (cloud.positions[i] * 1e6).cast<int>();
-      noise.points.push_back(test::las_point(20, steps.x(), steps.y(), steps.z()));
-      test::put(noise.points.back(), 14, std::uint8_t{9});  // the only return
-      test::put(noise.points.back(), 15, std::uint8_t{7});
+      noise.points.push_back(las_point(20, steps.x(), steps.y(), steps.z()));
+      put(noise.points.back(), 14, std::uint8_t{9});  // the only return
+      put(noise.points.back(), 15, std::uint8_t{7});
       continue;
     }
     text << cloud.positions[i].transpose() << (i % 7 == 0 ? " 6" : " 2") << (i % 5 == 0 ? " 2 2" : " 1 1")
@@ -129,7 +113,7 @@ class Runs {
   // holes.json with their system and unit, and the names of the others.
   std::string results(const io::FilesConfig& config) {
     const std::string file = scratch_.write("c.toml", print_config(config));
-    return bytes_of(test::detect(scan_, scratch_ / ("out-" + std::to_string(runs_++)), {"--config", file}));
+    return bytes_of(detect(scan_, scratch_ / ("out-" + std::to_string(runs_++)), {"--config", file}));
   }
 
   // Returns the same of a run that goes on in the kept folder, or its error.
@@ -157,15 +141,14 @@ class Runs {
   static std::string bytes_of(const fs::path& out) {
     std::string bytes;
     std::set<fs::path> files;
-    for (const auto& entry : fs::recursive_directory_iterator(out)) {
+    for (const auto& entry : fs::recursive_directory_iterator(out))
       if (entry.is_regular_file()) files.insert(entry.path());
-    }
     for (const fs::path& file : files) {
       const std::string name = file.filename().string();
       bytes += name;
-      if (name != "holes.json" && name != "run.json" && name != "report.html") bytes += test::read_file(file);
+      if (name != "holes.json" && name != "run.json" && name != "report.html") bytes += read_file(file);
     }
-    const auto holes = test::read_json(out / "holes.json");
+    const auto holes = read_json(out / "holes.json");
     for (const char* key : {"crs", "unit", "loops"}) bytes += holes[key].dump();
     fs::remove_all(out);
     return bytes;
@@ -185,8 +168,6 @@ void set_other(const Parameter& parameter, const std::string& workspace) {
     parameter.set(kOtherValues.at(parameter.key));
   }
 }
-
-}  // namespace
 
 TEST_CASE("a parameter changes the results unless what it needs is missing or it is about the run",
           "[.slow]") {
@@ -231,12 +212,9 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
   }
 }
 
-namespace {
-
 // Runs in a kept folder, then again with one parameter changed, and back. Each run gives the results of a
-// fresh one, or is refused. `is_tried` chooses the parameters.
-template <class IsTried>
-void check_kept_runs(const io::FilesConfig& config, const IsTried& is_tried) {
+// fresh one, or is refused.
+void check_kept_runs(const io::FilesConfig& config) {
   Scan scan = made_scan();
   std::string& text = scan.text;
   for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos; at += 9) text.insert(at, " 0 0.6 1");
@@ -248,8 +226,7 @@ void check_kept_runs(const io::FilesConfig& config, const IsTried& is_tried) {
     io::FilesConfig changed = config;
     const Parameter parameter = parameters(changed)[i];
     const std::string_view passed[] = {"workspace", "recursive", "skip_damaged", "unit_z", "area"};
-    const bool is_passed = std::find(std::begin(passed), std::end(passed), parameter.key) != std::end(passed);
-    if (is_passed || !is_tried(parameter)) continue;
+    if (std::find(std::begin(passed), std::end(passed), parameter.key) != std::end(passed)) continue;
     if (parameter.key == "method") {
       changed.loops.method =
           config.loops.method == LoopMethod::kPaper ? LoopMethod::kTangential : LoopMethod::kPaper;
@@ -268,16 +245,6 @@ void check_kept_runs(const io::FilesConfig& config, const IsTried& is_tried) {
   }
 }
 
-}  // namespace
-
-TEST_CASE("a kept run with another parameter of the method gives the results of a fresh run", "[.slow]") {
-  io::FilesConfig config;
-  config.scale.min_hole = 4;
-  config.normals.use = NormalsUse::kGiven;  // they do not fit
-  const std::set<std::string_view> sections = {"normals", "criteria", "coherence", "loops", "output"};
-  check_kept_runs(config, [&](const Parameter& parameter) { return sections.contains(parameter.section); });
-}
-
 TEST_CASE("a kept run with any other parameter gives the results of a fresh run", "[.slow]") {
   std::vector<io::FilesConfig> configs(3);
   configs[1].loops.method = LoopMethod::kPaper;
@@ -285,7 +252,7 @@ TEST_CASE("a kept run with any other parameter gives the results of a fresh run"
   configs[2].scale.min_hole = 4;
   for (io::FilesConfig& config : configs) {
     config.normals.use = NormalsUse::kGiven;  // they do not fit
-    check_kept_runs(config, [](const Parameter&) { return true; });
+    check_kept_runs(config);
   }
 }
 
@@ -333,8 +300,6 @@ TEST_CASE("a config file's value without effect has its warning, unless it is th
   CHECK(runs.warnings({"--config", runs.write(print_config(io::FilesConfig{}))}).empty());
 }
 
-namespace {
-
 constexpr const char* kCommands[] = {"detect",  "info",     "check",         "report", "render",
                                      "compare", "stations", "find-stations", "plan",   "work",
                                      "finish",  "status",   "clean"};
@@ -355,11 +320,9 @@ std::set<std::string> offered_by(const std::string& command) {
 class Sweep {
  public:
   Sweep() {
-    const std::string made = (scratch_ / "plant.ply").string();
-    REQUIRE(
-        test::run_bench({"synth", "scan", made, "--scene", "plant", "--stations", "1", "--points", "6000"})
-            .exit_code == 0);
-    io::FileScan scan({made}, {});
+    io::FileScan scan(
+        {synth("scan", scratch_ / "plant.ply", {"--scene", "plant", "--stations", "1", "--points", "6000"})},
+        {});
     PointBatch batch;
     std::vector<Eigen::Vector3d> sweep;
     for (scan.rewind(); scan.next(batch);)
@@ -367,18 +330,18 @@ class Sweep {
     write("plain.txt", sweep, " 1 1 0\n", "");
     write("origin.txt", sweep, " 1 1 0\n", "0 0 0 2 1 1 0\n");
     write("withheld.txt", sweep, " 1 1 1\n", "");
-    test::LasFile las{.scale = {1e-4, 1e-4, 1e-4}, .offset = {0, 0, 0}};
+    LasFile las{.scale = {1e-4, 1e-4, 1e-4}, .offset = {0, 0, 0}};
     for (const Eigen::Vector3d& position : sweep) {
       const Eigen::Vector3i steps = (position * 1e4).cast<int>();
-      las.points.push_back(test::las_point(20, steps.x(), steps.y(), steps.z()));
-      test::put(las.points.back(), 14, std::uint8_t{9});  // the only return
-      test::put(las.points.back(), 15, std::uint8_t{7});
+      las.points.push_back(las_point(20, steps.x(), steps.y(), steps.z()));
+      put(las.points.back(), 14, std::uint8_t{9});  // the only return
+      put(las.points.back(), 15, std::uint8_t{7});
     }
     const std::string bytes = las.bytes();
     scratch_.write("noise.las", bytes);
     scratch_.write("damaged.las", bytes.substr(0, bytes.size() / 2));
     std::string other = bytes;
-    test::put(other, 107, std::uint32_t{5});  // points, by the header
+    put(other, 107, std::uint32_t{5});  // points, by the header
     scratch_.write("other.las", other);
     fs::create_directories(scratch_ / "folder/inside");
     scratch_.write("folder/a.txt", "0 0 0\n1 0 0\n0 1 0\n");
@@ -398,10 +361,10 @@ class Sweep {
   std::string outcome(const Words& scans, const std::string& command, const Words& options) const {
     Words words{command};
     for (const std::string& scan : scans) words.push_back(file(scan));
-    const test::ProgramResult run = run_program(test::with(words, options));
+    const ProgramResult run = run_program(with(words, options));
     const fs::path voids = scratch_ / "out/voids.json";
     std::string text = std::to_string(run.exit_code) + run.out + run.err;
-    if (fs::exists(voids)) text += test::read_file(voids);
+    if (fs::exists(voids)) text += read_file(voids);
     fs::remove_all(scratch_ / "out");
     return text;
   }
@@ -421,8 +384,6 @@ class Sweep {
   ScratchFolder scratch_;
 };
 
-}  // namespace
-
 TEST_CASE("each command refuses the parameters that it does not offer, and a run offers all") {
   io::FilesConfig config;
   std::map<std::string, std::set<std::string>> offered;
@@ -439,7 +400,7 @@ TEST_CASE("each command refuses the parameters that it does not offer, and a run
       CHECK_FALSE(offered[command].contains(option));
     while (offered[kCommands[next % std::size(kCommands)]].contains(option)) ++next;
     const std::string command = kCommands[next++ % std::size(kCommands)];
-    test::check_failure(run_program({command, option}), 2, "unknown option " + option);
+    check_failure(run_program({command, option}), 2, "unknown option " + option);
   }
   const std::string help = run_program({"check", "--help"}).out;
   for (const char* option :
@@ -476,9 +437,9 @@ TEST_CASE("each parameter that info, check or find-stations offers changes what 
       Words options = needed.contains(parameter.key) ? needed.at(parameter.key) : Words();
       if (command == "check") {
         Words area{"--out", sweep.file("out")};
-        if (parameter.key != "area") area = test::with(area, {"--area", sweep.file("area.geojson")});
-        if (parameter.key != "void_rule") area = test::with(area, {"--void-rule", "3"});
-        options = test::with(options, area);
+        if (parameter.key != "area") area = with(area, {"--area", sweep.file("area.geojson")});
+        if (parameter.key != "void_rule") area = with(area, {"--void-rule", "3"});
+        options = with(options, area);
       }
       Words changed = options;
       changed.push_back(option);
@@ -514,4 +475,5 @@ TEST_CASE("a config file serves all commands: keys that one does not read are ch
   CHECK_THAT(info("[selection]\nmin_confidence = 7\n"), Contains("min_confidence = 7"));
 }
 
-}  // namespace lacuna
+}  // namespace
+}  // namespace lacuna::test

@@ -1,29 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // `lacuna-bench make` and `lacuna-bench score` as the author of another program calls them.
 #include "tests/support/drawn_files.hpp"
+#include "tests/support/json.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <algorithm>
-#include <filesystem>
-#include <iterator>
-#include <random>
-#include <sstream>
-#include <string>
-#include <vector>
-
-#include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
-
-namespace lacuna {
+namespace lacuna::test {
 namespace {
-
-namespace fs = std::filesystem;
-using Catch::Matchers::Contains;
-using test::check_failure;
-using test::read_file;
-using test::run_bench;
-using test::ScratchFolder;
-using test::with;
 
 // A plane with three holes and a sphere without any, and a folder for the answers of a program.
 struct Clouds {
@@ -36,15 +18,15 @@ struct Clouds {
     synth("surface-plane", {"--points", "5000", "--holes", "3", "--hole-radius", "5", "7"});
     synth("closed-sphere", {"--kind", "sphere", "--points", "3000", "--holes", "0"});
   }
-  void synth(const std::string& name, const test::Words& options) const {
-    REQUIRE(run_bench(with({"synth", "surface", clouds + "/" + name + ".ply"}, options)).exit_code == 0);
+  void synth(const std::string& name, const Words& options) const {
+    test::synth("surface", clouds + "/" + name + ".ply", options);
   }
   std::string truth(const std::string& name) const { return read_file(clouds + "/" + name + ".loops.txt"); }
   void answer(const std::string& name, const std::string& loops) const {
     folder.write("results/" + name + ".txt", loops);
   }
-  std::string score(const test::Words& options = {}) const {
-    const test::ProgramResult result = run_bench(with({"score", clouds, results}, options));
+  std::string score(const Words& options = {}) const {
+    const ProgramResult result = run_bench(with({"score", clouds, results}, options));
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
     return result.out;
@@ -85,7 +67,7 @@ TEST_CASE("a true loop that is found twice is found once, and the second loop is
   const std::string text = made.score();
   CHECK(row(text, "per hole", "surface") == "surface 1 3 of 3 1 of 1 8 0");
   CHECK(row(text, "per area", "surface") == "surface 1.000 0.333");
-  const auto all = nlohmann::json::parse(made.score({"--json"})).at("all");
+  const auto all = json_of(made.score({"--json"})).at("all");
   CHECK(all.at("false") == 8);
   CHECK(all.at("repeated") == 8);
 }
@@ -93,7 +75,7 @@ TEST_CASE("a true loop that is found twice is found once, and the second loop is
 TEST_CASE("the JSON of a score has every number of the tables, by group and in all") {
   const Clouds made;
   made.answer("surface-plane", made.truth("surface-plane"));
-  const auto root = nlohmann::json::parse(made.score({"--json"}));
+  const auto root = json_of(made.score({"--json"}));
   CHECK(root.at("clouds") == made.clouds);
   CHECK(root.at("tolerance") == 2);
   CHECK(root.at("without_result").dump() == R"(["closed-sphere"])");
@@ -109,7 +91,7 @@ TEST_CASE("the JSON of a score has every number of the tables, by group and in a
   CHECK(all.at("areas").at("completeness") == 1);
   CHECK(all.at("points").at("flagged") == all.at("points").at("true"));
   for (const char* kind : {"all", "median"}) CHECK(all.at("points").at(kind).at("f1") == 1);
-  CHECK(nlohmann::json::parse(made.score({"--json", "--each"})).at("groups").contains("surface-plane"));
+  CHECK(json_of(made.score({"--json", "--each"})).at("groups").contains("surface-plane"));
 }
 
 TEST_CASE("an empty answer finds nothing, and has nothing that is false") {
@@ -139,10 +121,9 @@ TEST_CASE("a loop through random points is false, on a surface and on a closed m
   const Clouds made;
   made.answer("surface-plane", made.truth("surface-plane"));
   made.answer("closed-sphere", "5 1200 2400 17 900 2100 333 1500\n");
-  made.folder.write(
-      "clouds/solid-tetrahedron.ply",
-      test::ply_header(test::vertices(4) + "element face 4\nproperty list uchar int vertex_indices\n") +
-          "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  made.folder.write("clouds/solid-tetrahedron.ply",
+                    ply_header(vertices(4) + "element face 4\nproperty list uchar int vertex_indices\n") +
+                        "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
   made.answer("solid-tetrahedron", "0 1 2\n");
   const std::string text = made.score();
   CHECK(row(text, "per hole", "closed") == "closed 1 0 of 0 0 of 0 1 0");
@@ -155,9 +136,8 @@ TEST_CASE("a loop whose points are in no order is refused in one line that names
   const Clouds made;
   std::istringstream lines(made.truth("surface-plane"));
   std::vector<std::string> loops;
-  for (std::string line; std::getline(lines, line);) {
+  for (std::string line; std::getline(lines, line);)
     if (!line.starts_with('#')) loops.push_back(line);
-  }
   const auto is_shorter = [](const std::string& a, const std::string& b) { return a.size() < b.size(); };
   std::sort(loops.begin(), loops.end(), is_shorter);
   std::istringstream words(loops.back());  // the outer curve
@@ -203,7 +183,7 @@ TEST_CASE("a set has noise and closed surfaces, and its own truth scores all of 
 
 TEST_CASE("a set has the bytes of its seed, another seed makes other points, and the line says which") {
   const ScratchFolder folder;
-  const auto make = [&](const std::string& name, const test::Words& options) {
+  const auto make = [&](const std::string& name, const Words& options) {
     return run_bench(with({"make", "surfaces", (folder / name).string()}, options)).out;
   };
   CHECK_THAT(make("default", {}), Contains("(seed 1)"));
@@ -218,4 +198,4 @@ TEST_CASE("a set has the bytes of its seed, another seed makes other points, and
   }
 }
 
-}  // namespace lacuna
+}  // namespace lacuna::test

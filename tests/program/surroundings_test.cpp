@@ -2,52 +2,31 @@
 // What the system, the terminal and other programs may do to a run.
 #include "engine/store/temporary_folder.hpp"
 #include "tests/support/drawn_files.hpp"
+#include "tests/support/json.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/sheet.hpp"
 #include "tests/support/skip.hpp"
 
-#include <chrono>
-#include <csignal>
-#include <ctime>
-#include <filesystem>
-#include <functional>
-#include <optional>
-#include <thread>
-
-#include <catch2/catch.hpp>
 #include <fcntl.h>
-#include <nlohmann/json.hpp>
 #include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace lacuna {
+namespace lacuna::test {
 namespace {
-
-namespace fs = std::filesystem;
-using Catch::Matchers::Contains;
-using Catch::Matchers::StartsWith;
-using test::check_failure;
-using test::count_entries;
-using test::ProgramResult;
-using test::run_program;
-using test::ScratchFolder;
-using test::sheet;
-using test::with;
-using test::Words;
 
 // The program, run by a shell after `before`.
 ProgramResult run_in_shell(const std::string& before, const Words& arguments,
                            const std::string& redirections = "") {
   const std::string script = before + "exec \"$0\" \"$@\" " + redirections;
-  return test::run_command(with({"bash", "-c", script, LACUNA_PROGRAM}, arguments));
+  return run_command(with({"bash", "-c", script, LACUNA_PROGRAM}, arguments));
 }
 
 TEST_CASE("messages never go into a file, whichever standard descriptors are closed") {
   const ScratchFolder scratch;
-  const std::string scan = scratch.write("scan.xyz", sheet(150));
+  const std::string scan = scratch.write("scan.xyz", sheet(60));
   const auto detect = [&](const std::string& out, const std::string& redirections) {
     return run_in_shell("",
                         {"detect", scan, "--points", "--points-format", "ply", "--out",
@@ -55,12 +34,12 @@ TEST_CASE("messages never go into a file, whichever standard descriptors are clo
                         redirections);
   };
   REQUIRE(detect("open", "").exit_code == 0);
-  const std::string points = test::read_file(scratch / "open" / "points.ply");
+  const std::string points = read_file(scratch / "open" / "points.ply");
   for (const std::string closed : {"2>&-", "<&- 2>&-", "<&- >&- 2>&-", "<&-"}) {
     INFO(closed);
     const ProgramResult result = detect("out" + closed, closed);
     CHECK(result.exit_code == (Contains(">&- ").match(closed) ? 1 : 0));  // without stdout, no summary
-    CHECK(test::read_file(scratch / ("out" + closed) / "points.ply") == points);
+    CHECK(read_file(scratch / ("out" + closed) / "points.ply") == points);
     CHECK(count_entries(scratch / ("out" + closed)) == 7);
   }
 }
@@ -101,9 +80,8 @@ class Blocked {
   std::optional<int> wait(std::chrono::milliseconds most) {
     for (const auto end = std::chrono::steady_clock::now() + most; std::chrono::steady_clock::now() < end;) {
       int status = 0;
-      if (waitpid(child_, &status, WNOHANG) == child_) {
+      if (waitpid(child_, &status, WNOHANG) == child_)
         return exit_code_ = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-      }
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     return std::nullopt;
@@ -123,7 +101,7 @@ TEST_CASE("a signal ends the run while nobody takes its messages") {
       INFO("signal " << signal << ", " << style);
       const fs::path out = scratch / (style + std::to_string(signal));
       Blocked run({LACUNA_PROGRAM, "detect", scan, "--out", out.string(), "--progress", style});
-      const auto has_workspace = [&] { return !test::temporary_of(out).empty(); };
+      const auto has_workspace = [&] { return !temporary_of(out).empty(); };
       for (int i = 0; i < 3000 && !has_workspace(); ++i)
         REQUIRE_FALSE(run.wait(std::chrono::milliseconds(10)));
       REQUIRE_FALSE(run.wait(std::chrono::seconds(1)));  // by now it is blocked
@@ -170,15 +148,14 @@ TEST_CASE("a folder that cannot be removed after a run is named, and the results
   fs::path held;
   bool is_held = true;
   const auto hold = [&](pid_t) {  // what is mounted cannot be removed
-    if (!held.empty() || test::temporary_of(out).empty()) return;
-    held = test::temporary_of(out) / "held";
+    if (!held.empty() || temporary_of(out).empty()) return;
+    held = temporary_of(out) / "held";
     fs::create_directory(held);
     is_held = ::mount("tmpfs", held.c_str(), "tmpfs", 0, "size=4k") == 0;
   };
-  const ProgramResult result =
-      test::run_program_beside({"detect", scan, "--out", out.string(), "--quiet"}, hold);
+  const ProgramResult result = run_program_beside({"detect", scan, "--out", out.string(), "--quiet"}, hold);
   if (!is_held) {
-    test::skip("cannot mount a folder");
+    skip("cannot mount a folder");
     return;
   }
   REQUIRE_FALSE(held.empty());
@@ -186,7 +163,7 @@ TEST_CASE("a folder that cannot be removed after a run is named, and the results
   CHECK(result.exit_code == 0);
   CHECK_THAT(result.err, StartsWith("lacuna: warning: " + held.parent_path().string()) &&
                              Contains("is not needed any more, but cannot be removed: "));
-  CHECK(test::count_lines(result.err) == 1);
+  CHECK(count_lines(result.err) == 1);
   CHECK(count_entries(out) == 6);
 }
 
@@ -208,7 +185,7 @@ TEST_CASE("threads that cannot be started are an error of one line") {
                          "-c",
                          limit + "exec \"$0\" \"$@\"",
                          LACUNA_PROGRAM};
-    return test::run_command(with(words, arguments));
+    return run_command(with(words, arguments));
   };
   if (geteuid() != 0 || run("", {"--version"}).exit_code != 0) {
     WARN("cannot run the program as another user: skipped");
@@ -221,7 +198,7 @@ TEST_CASE("threads that cannot be started are an error of one line") {
     check_failure(run("ulimit -u " + limit + "; ",
                       {"detect", scan, "--out", out.string(), "--quiet", "--threads", "8"}),
                   1, "thread");
-    CHECK(test::names_of(scratch / "open") == Words{"scan.xyz"});
+    CHECK(names_of(scratch / "open") == Words{"scan.xyz"});
   }
 }
 
@@ -254,7 +231,7 @@ TEST_CASE("a name of thousands of bytes is shortened in the line of its error") 
 TEST_CASE("a file that comes to earlier results after the last look goes to the new ones") {
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.xyz", sheet(30));
-  const fs::path out = test::detect(scan, scratch / "out");
+  const fs::path out = detect(scan, scratch / "out");
   // The kernel exchanges the folders late.
   const std::string script =
       "strace -f -qq -o /dev/null -e trace=renameat2 -e inject=renameat2:delay_enter=2000000 "
@@ -262,8 +239,7 @@ TEST_CASE("a file that comes to earlier results after the last look goes to the 
       "until ls \"$3\"/.out.lacuna-*/results/.lacuna > /dev/null 2>&1; do kill -0 $! || exit 77; done; "
       "sleep 1; echo mine > \"$2/notes\"; mkdir \"$2/empty\"; wait $!";
   const auto run = [&] {
-    return test::run_command(
-        {"bash", "-c", script, LACUNA_PROGRAM, scan, out.string(), scratch.path().string()});
+    return run_command({"bash", "-c", script, LACUNA_PROGRAM, scan, out.string(), scratch.path().string()});
   };
   ProgramResult result = run();
   for (int again = 0; again < 3 && result.exit_code == 1; ++again) {  // it came before the last look
@@ -271,9 +247,9 @@ TEST_CASE("a file that comes to earlier results after the last look goes to the 
     fs::remove(out / "empty");
     result = run();
   }
-  if (result.exit_code > 1) return test::skip("cannot trace a program");
+  if (result.exit_code > 1) return skip("cannot trace a program");
   CHECK_THAT(result.err, Contains("out/notes: came while the results took their place; it is kept"));
-  CHECK(test::read_file(out / "notes") == "mine\n");
+  CHECK(read_file(out / "notes") == "mine\n");
   CHECK(fs::exists(out / "empty"));
   CHECK(fs::exists(out / "holes.json"));
   CHECK(scratch.names() == Words{"out", "scan.xyz"});
@@ -297,14 +273,14 @@ TEST_CASE("an input that is replaced during a run ends it, and leaves nothing") 
   for (const auto& change : changes) {
     const std::string scan = scratch.write("scan.xyz", text);
     const auto change_when_read = [&] {
-      const bool is_read = fs::exists(test::temporary_of(out) / "results");
+      const bool is_read = fs::exists(temporary_of(out) / "results");
       if (is_read) change(scan);
       return is_read;
     };
     // SIGCONT changes nothing.
-    check_failure(test::run_program_until({"detect", scan, "--out", out.string(), "--quiet"}, SIGCONT,
-                                          change_when_read),
-                  1, "scan.xyz: has changed during the run (");
+    check_failure(
+        run_program_until({"detect", scan, "--out", out.string(), "--quiet"}, SIGCONT, change_when_read), 1,
+        "scan.xyz: has changed during the run (");
     CHECK_FALSE(fs::exists(out));
   }
 }
@@ -332,8 +308,8 @@ TEST_CASE("control characters of files and their names never reach the terminal,
     CHECK_THAT(result.out + result.err, Contains(letters));
   };
   fs::create_directory(scratch / evil);
-  const std::string scan = scratch.write(
-      evil + "/scan\nof.ply", test::ascii_ply("1 2 3 4\n", test::kXyz + "property float " + evil + "\n"));
+  const std::string scan =
+      scratch.write(evil + "/scan\nof.ply", ascii_ply("1 2 3 4\n", kXyz + "property float " + evil + "\n"));
   const ProgramResult info = run_program({"info", scan});
   CHECK(info.exit_code == 0);
   is_clean(info);
@@ -345,16 +321,15 @@ TEST_CASE("control characters of files and their names never reach the terminal,
   is_clean(run_program({"info", scan, "--" + evil}));
   const std::string key = "[criteria]\n\"\\u001b\\u009b\\u0007 " + letters + "\" = 1\n";
   is_clean(run_program({"detect", "--print-config", "--config", scratch.write("key.toml", key)}));
-  is_clean(
-      test::run_bench({"synth", "surface", (scratch / evil / "made.ply").string(), "--points", "20000"}));
+  is_clean(run_bench({"synth", "surface", (scratch / evil / "made.ply").string(), "--points", "20000"}));
 
   // What other programs read keeps the name.
-  const std::string header = test::read_file(scratch / evil / "out" / "holes.json");
+  const std::string header = read_file(scratch / evil / "out" / "holes.json");
   const std::string name = std::string("\033]0;pwned\a\177\xc2\x9b") + "2J\xef\xbf\xbd" + "3J_" + letters;
   const ProgramResult json = run_program({"info", scan, "--json"});
   is_clean(json);
-  CHECK(nlohmann::json::parse(json.out).at("files").at(0).at("properties").at(3).at("name") == name);
-  CHECK(nlohmann::json::parse(header).at("inputs").at(0).at("properties").contains(name));
+  CHECK(json_of(json.out).at("files").at(0).at("properties").at(3).at("name") == name);
+  CHECK(json_of(header).at("inputs").at(0).at("properties").contains(name));
 }
 
 double cpu_seconds_of_children() {
@@ -366,24 +341,24 @@ double cpu_seconds_of_children() {
 TEST_CASE("nine thousand columns take a moment, and forty thousand are refused") {
   const ScratchFolder scratch;
   const auto scans_of = [&](int columns) {
-    std::string properties = test::kXyz, names = "x y z", row = "1 2 3";
+    std::string properties = kXyz, names = "x y z", row = "1 2 3";
     for (int i = 0; i < columns; ++i) {
       properties += "property char p" + std::to_string(i) + "\n";
       names += " c" + std::to_string(i);
       row += " 4";
     }
     row += "\n";
-    return std::vector{scratch.write("wide.ply", test::ascii_ply(row + row, properties)),
+    return std::vector{scratch.write("wide.ply", ascii_ply(row + row, properties)),
                        scratch.write("wide.xyz", names + "\n" + row + row)};
   };
   for (const std::string& scan : scans_of(40'000)) check_failure(run_program({"info", scan}), 1, "10,000");
   for (const std::string& scan : scans_of(9'000)) {
     const double before = cpu_seconds_of_children();
     CHECK(run_program({"info", scan}).exit_code == 0);
-    test::detect(scan, scratch / "out", {"--points"});
+    detect(scan, scratch / "out", {"--points"});
     CHECK(cpu_seconds_of_children() - before < 2);
   }
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::test

@@ -3,32 +3,15 @@
 #include "tests/support/run_program.hpp"
 #include "tests/support/sheet.hpp"
 
-#include <csignal>
-#include <filesystem>
-#include <sstream>
-#include <string>
-#include <vector>
-
-#include <catch2/catch.hpp>
-
-namespace lacuna {
+namespace lacuna::test {
 namespace {
-
-namespace fs = std::filesystem;
-using Catch::Matchers::Contains;
-using test::check_failure;
-using test::ProgramResult;
-using test::run_program;
-using test::ScratchFolder;
-using test::with;
-using test::Words;
 
 struct Shared {
   ScratchFolder folder;
   std::string workspace = (folder / "work space").string();
 
   Shared() {
-    folder.write("a.txt", test::sheet(300));
+    folder.write("a.txt", sheet(200));
     folder.write("b.txt", "0 0 9\n0 1 9\n1 0 9\n");
     folder.write("c.txt", "x y z nx ny nz\n2 2 7 0 0 1\n3 3 7 0 0 1\n900 3 7 0 0 1\n");
     folder.write("all.list", "c.txt\na.txt\nb.txt pose=1 0 0 5 0 1 0 0 0 0 1 0\n");
@@ -65,11 +48,10 @@ TEST_CASE("plan, work and finish give the files of detect") {
       run_program({"finish", run.workspace, "--out", (run.folder / "out").string(), "--quiet"});
   INFO(finished.err);
   REQUIRE(finished.exit_code == 0);
-  const fs::path alone =
-      test::detect(run.list(), run.folder / "alone",
-                   {"--points", "--points-normals", "--k", "14", "--bounds", "0,0,290,290"});
+  const fs::path alone = detect(run.list(), run.folder / "alone",
+                                {"--points", "--points-normals", "--k", "14", "--bounds", "0,0,290,290"});
   CHECK(fs::exists(alone / "points" / "a.csv"));
-  test::check_same_results(run.folder / "out", alone);
+  check_same_results(run.folder / "out", alone);
 }
 
 TEST_CASE("a plan says in a table what its tasks are, and wrong units are refused") {
@@ -88,8 +70,7 @@ TEST_CASE("a plan says in a table what its tasks are, and wrong units are refuse
   run.folder.write("b.txt", "0 0 8\n0 1 9\n1 0 9\n");
   check_failure(work({"--step", "level-0"}), 1, "was planned for another run: \"input: ");
   // Another part in its place names no input: a run of no files would have no holes.
-  std::filesystem::rename(std::filesystem::path(run.workspace) / "plan.lacuna",
-                          std::filesystem::path(run.workspace) / "run.lacuna");
+  fs::rename(fs::path(run.workspace) / "plan.lacuna", fs::path(run.workspace) / "run.lacuna");
   check_failure(run_program({"finish", run.workspace, "--out", (run.folder / "out").string()}), 1,
                 "not the workspace of a run");
 }
@@ -100,7 +81,7 @@ TEST_CASE("a task that ends after its workspace was cleaned fails, and its part 
   const fs::path workspace = run.workspace;
   bool is_cleaned = false;
   const ProgramResult late =
-      test::run_program_beside({"work", run.workspace, "--step", "evaluate-0", "--quiet"}, [&](pid_t task) {
+      run_program_beside({"work", run.workspace, "--step", "evaluate-0", "--quiet"}, [&](pid_t task) {
         if (is_cleaned || !fs::exists(workspace / "level-0-0.lacuna")) return;
         ::kill(task, SIGSTOP);  // so that it does not end before
         is_cleaned = run_program({"clean", run.workspace}).exit_code == 0;
@@ -114,4 +95,4 @@ TEST_CASE("a task that ends after its workspace was cleaned fails, and its part 
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::test

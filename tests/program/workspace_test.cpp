@@ -6,36 +6,18 @@
 #include "tests/support/skip.hpp"
 #include "tests/support/small_disk.hpp"
 
-#include <cmath>
-#include <csignal>
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include <catch2/catch.hpp>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
 
-namespace lacuna {
+namespace lacuna::test {
 namespace {
-
-namespace fs = std::filesystem;
-using Catch::Matchers::Contains;
-using Catch::Matchers::EndsWith;
-using test::check_failure;
-using test::count_entries;
-using test::ProgramResult;
-using test::run_program;
-using test::ScratchFolder;
-using test::with;
-using test::Words;
 
 struct Run {
   ScratchFolder folder;
-  int side = static_cast<int>(std::sqrt(static_cast<double>(draws(90'000))));
+  int side = static_cast<int>(std::sqrt(static_cast<double>(draws(40'000))));
   int points = side * side;
-  std::string scan = folder.write("scan.txt", test::sheet(side));
+  std::string scan = folder.write("scan.txt", sheet(side));
   fs::path workspace = folder / "workspace";
 
   Words arguments(const fs::path& out, const Words& more) const {
@@ -49,7 +31,7 @@ struct Run {
   void check_results() const {
     const fs::path without = folder / "without";
     if (!fs::exists(without)) REQUIRE(run_program(arguments(without, {})).exit_code == 0);
-    test::check_same_results(folder / "out", without);
+    check_same_results(folder / "out", without);
   }
 };
 
@@ -60,7 +42,7 @@ TEST_CASE("a run that is killed at any moment goes on to the same results") {
     const auto has_entries = [&] {
       return fs::exists(run.workspace) && count_entries(run.workspace) >= entries;
     };
-    const ProgramResult stopped = test::run_program_until(run.kept(), SIGKILL, has_entries);
+    const ProgramResult stopped = run_program_until(run.kept(), SIGKILL, has_entries);
     killed += stopped.exit_code == 128 + SIGKILL;
     if (entries % 3 != 0) continue;  // others are killed once more before they end
     const ProgramResult done = run_program(run.kept());
@@ -77,7 +59,7 @@ TEST_CASE("a run that is killed at any moment goes on to the same results") {
 TEST_CASE("a signal says how to go on, and what is done stays") {
   const Run run;
   const auto has_level = [&] { return fs::exists(run.workspace / "level-0-0.lacuna"); };
-  const ProgramResult stopped = test::run_program_until(run.kept(), SIGTERM, has_level);
+  const ProgramResult stopped = run_program_until(run.kept(), SIGTERM, has_level);
   REQUIRE(stopped.exit_code == 128 + SIGTERM);
   CHECK_THAT(stopped.err, EndsWith("; the same command goes on from " + run.workspace.string() + "\n"));
   CHECK(fs::exists(run.workspace / "level-0-0.lacuna"));
@@ -91,9 +73,9 @@ TEST_CASE("a workspace on a full disk is an error, and its parts are used elsewh
   const Run run;
   std::size_t failed = 0;
   for (const int bytes_a_point : {1, 12, 35, 70, 105, 140, 175, 233, 291, 350}) {
-    const test::SmallDisk disk(run.folder / "disk", std::to_string(bytes_a_point * run.points));
+    const SmallDisk disk(run.folder / "disk", std::to_string(bytes_a_point * run.points));
     if (!disk.mounted()) {
-      test::skip("cannot mount a small disk");
+      skip("cannot mount a small disk");
       return;
     }
     INFO(bytes_a_point << " bytes a point");
@@ -114,24 +96,24 @@ TEST_CASE("a workspace on a full disk is an error, and its parts are used elsewh
   CHECK(failed >= 4);
 }
 
-TEST_CASE("another run at the same time is refused; with another input, what differs is made again") {
-  const Run run;
+TEST_CASE("another run at the same time is refused, and with another input, what differs is made again") {
+  const Run run{.side = 60};
   REQUIRE(run_program(run.kept()).exit_code == 0);
   const int other = ::open(run.workspace.c_str(), O_RDONLY | O_DIRECTORY);
   REQUIRE(::flock(other, LOCK_EX) == 0);
   check_failure(run_program(run.kept()), 1, "workspace: another run is at work there");
   ::close(other);
-  run.folder.write("scan.txt", test::sheet(run.side - 1));
+  run.folder.write("scan.txt", sheet(run.side - 1));
   REQUIRE(run_program(run.kept()).exit_code == 0);
   run.check_results();
   Words told = run.kept();
   std::erase(told, "--quiet");
-  run.folder.write("scan.txt", test::sheet(run.side - 2));
+  run.folder.write("scan.txt", sheet(run.side - 2));
   CHECK_THAT(run_program(told).err, Contains("level-0 is made again: \"input: "));
 }
 
 TEST_CASE("clean removes a workspace, but no file of others") {
-  const Run run;
+  const Run run{.side = 40};
   REQUIRE(run_program(run.kept()).exit_code == 0);
   run.folder.write("workspace/notes.txt", "x");
   const ProgramResult cleaned = run_program({"clean", run.workspace.string()});
@@ -152,4 +134,4 @@ TEST_CASE("clean removes a workspace, but no file of others") {
 }
 
 }  // namespace
-}  // namespace lacuna
+}  // namespace lacuna::test

@@ -84,9 +84,8 @@ Cloud Cloud::jittered(double amount, std::uint64_t seed) const {
 Cloud Cloud::noisy(double amount, std::uint64_t seed) const {
   Random random(seed);
   Cloud result = *this;
-  for (Vector3d& p : result.positions) {
+  for (Vector3d& p : result.positions)
     for (double& coordinate : p) coordinate += amount * random.normal();
-  }
   return result;
 }
 
@@ -124,9 +123,8 @@ Cloud Cloud::shuffled(std::uint64_t seed) const {
 
 Cloud Cloud::rounded(double step) const {
   Cloud result = *this;
-  for (Vector3d& p : result.positions) {
+  for (Vector3d& p : result.positions)
     for (double& coordinate : p) coordinate = std::nearbyint(coordinate / step) * step;
-  }
   return result;
 }
 
@@ -152,9 +150,8 @@ Cloud Cloud::with_duplicates(std::size_t count, std::uint64_t seed) const {
 Cloud Cloud::with_outliers(std::size_t count, double distance, std::uint64_t seed) const {
   Random random(seed);
   Eigen::AlignedBox3d box;
-  for (const Vector3d& p : positions) {
+  for (const Vector3d& p : positions)
     if (p.allFinite()) box.extend(p);
-  }
   Cloud result = *this;
   for (std::size_t n = 0; n < count && !box.isEmpty(); ++n) {
     const double reach = random.uniform(0.2, 1) * distance * (box.diagonal().norm() + 1);
@@ -206,9 +203,8 @@ Cloud Cloud::with_random_normals(std::uint64_t seed) const {
 
 Cloud plane(int n) {
   Cloud cloud;
-  for (int y = 0; y < n; ++y) {
+  for (int y = 0; y < n; ++y)
     for (int x = 0; x < n; ++x) cloud.positions.emplace_back(x, y, 0);
-  }
   return cloud;
 }
 
@@ -244,9 +240,8 @@ Cloud open_cylinder(int nu, int nv) {
 Cloud crease(int n, double degrees) {
   const double c = std::cos(degrees * pi / 180), s = std::sin(degrees * pi / 180);
   Cloud cloud = plane(n);
-  for (const Vector3d& p : plane(n).positions) {
+  for (const Vector3d& p : plane(n).positions)
     if (p.x() > 0) cloud.positions.emplace_back(p.x() * c, p.y(), p.x() * s);
-  }
   return cloud;
 }
 
@@ -307,9 +302,7 @@ Cloud hard_cloud(std::uint64_t seed) {
   cloud = cloud.joined(coincident(2000).translated({8, 8, 8}));
   cloud = cloud.joined(sphere(60).scaled(2).translated({8, 8, 8}));
   // Islands of fewer points than the wanted neighbours.
-  for (int count : {1, 2, 3, 5, 9}) {
-    cloud = cloud.joined(sphere(count).translated({-20. * count, 70, 0}));
-  }
+  for (int count : {1, 2, 3, 5, 9}) cloud = cloud.joined(sphere(count).translated({-20. * count, 70, 0}));
   cloud = cloud.joined(line(30).translated({0, 50, 0}));
   return cloud.with_outliers(6, 50, random.next()).with_unusable(20, random.next()).shuffled(random.next());
 }
@@ -375,9 +368,8 @@ Config random_config(std::uint64_t seed, double spacing) {
   config.normals.use = NormalsUse::kGiven;  // random ones do not fit
   if (varied()) config.neighbourhood.k = random.whole(1, 30);
   if (random.chance(0.3)) config.neighbourhood.eps = random.uniform(0.5, 4) * spacing;
-  if (config.neighbourhood.eps == 0 && random.chance(0.15)) {
+  if (config.neighbourhood.eps == 0 && random.chance(0.15))
     config.neighbourhood.eps_fraction = random.uniform(0.001, 0.05);
-  }
   if (varied()) config.normals.crease_threshold = random.uniform();
   config.normals.orient = varied();
   if (varied()) config.criteria.sigma = random.uniform(0.2, 3);

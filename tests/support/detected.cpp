@@ -3,7 +3,6 @@
 
 #include "engine/criteria/criteria.hpp"
 #include "tests/support/memory_scan.hpp"
-#include "tests/support/scratch_folder.hpp"
 
 #include <utility>
 
@@ -95,7 +94,7 @@ Detected run_engine(PointSource& scan, Config config) {
 
 Detected run_engine(PointSource& scan, Config config, Progress& progress) {
   config.results.points = true;
-  const test::ScratchFolder temporary;
+  const ScratchFolder temporary;
   const std::unique_ptr<Detection> detection = detect(scan, config, temporary.path(), progress);
   Detected detected{.summary = detection->summary};
   detection->for_each_result_block([&](PointId, std::span<const PointResult> block) {

@@ -4,10 +4,7 @@
 
 #include "engine/pipeline.hpp"
 #include "tests/support/clouds.hpp"
-
-#include <memory>
-#include <string>
-#include <vector>
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 

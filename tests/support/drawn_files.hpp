@@ -2,8 +2,7 @@
 // Small files of points, drawn as text.
 #pragma once
 
-#include <algorithm>
-#include <string>
+#include "tests/support/test.hpp"
 
 namespace lacuna::test {
 

@@ -2,9 +2,7 @@
 // Slow tests that draw many cases draw fewer where LACUNA_DRAWN_SHARE is set, by `tools/check.sh`.
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
-#include <cstdlib>
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 

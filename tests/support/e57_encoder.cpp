@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/e57_encoder.hpp"
 
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cstdio>
-#include <cstring>
-
 namespace lacuna::test {
 namespace {
 
@@ -42,9 +36,8 @@ std::string packed(std::int64_t minimum, std::int64_t maximum, const std::vector
   std::size_t at = 0;
   for (const std::int64_t value : values) {
     const std::uint64_t stored = static_cast<std::uint64_t>(value) - static_cast<std::uint64_t>(minimum);
-    for (std::size_t bit = 0; bit < bits; ++bit, ++at) {
+    for (std::size_t bit = 0; bit < bits; ++bit, ++at)
       if (stored >> bit & 1) bytes[at / 8] = static_cast<char>(bytes[at / 8] | 1 << at % 8);
-    }
   }
   return bytes;
 }
@@ -142,9 +135,8 @@ std::string e57_pose(const std::vector<double>& quaternion, const std::vector<do
   const auto structure = [](const std::string& name, const std::string& parts,
                             const std::vector<double>& values) {
     std::string xml = "<" + name + " type=\"Structure\">";
-    for (std::size_t i = 0; i < values.size(); ++i) {
+    for (std::size_t i = 0; i < values.size(); ++i)
       xml += std::string("<") + parts[i] + " type=\"Float\">" + digits(values[i]) + "</" + parts[i] + ">";
-    }
     return xml + "</" + name + ">";
   };
   return "<pose type=\"Structure\">" + structure("rotation", "wxyz", quaternion) +
@@ -176,9 +168,8 @@ std::string encode_e57(const std::vector<E57TestScan>& scans, const E57FileForm&
                       raw(std::uint64_t{physical(xml_at, form.page_bytes)}) + raw(std::uint64_t{xml.size()}) +
                       raw(std::uint64_t{form.page_bytes}));
   std::string file;
-  for (std::size_t page = 0; page < pages; ++page) {
+  for (std::size_t page = 0; page < pages; ++page)
     file += logical.substr(page * data_bytes, data_bytes) + std::string(4, '\0');
-  }
   repair_e57_checksums(file, form.page_bytes);
   return file;
 }
@@ -187,9 +178,8 @@ void repair_e57_checksums(std::string& file, std::size_t page_bytes) {
   static const std::array<std::uint32_t, 256> kTable = checksum_table();
   for (std::size_t end = page_bytes; end <= file.size(); end += page_bytes) {
     std::uint32_t checksum = ~0u;
-    for (std::size_t i = end - page_bytes; i < end - 4; ++i) {
+    for (std::size_t i = end - page_bytes; i < end - 4; ++i)
       checksum = checksum >> 8 ^ kTable[(checksum ^ static_cast<unsigned char>(file[i])) & 255];
-    }
     checksum = ~checksum;
     for (std::size_t i = 0; i < 4; ++i) file[end - 4 + i] = static_cast<char>(checksum >> (24 - 8 * i));
   }

@@ -3,10 +3,7 @@
 // reader.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <vector>
+#include "tests/support/test.hpp"
 
 namespace lacuna::test {
 

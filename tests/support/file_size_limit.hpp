@@ -2,8 +2,7 @@
 // A disk that is full, for one process.
 #pragma once
 
-#include <csignal>
-#include <stdexcept>
+#include "tests/support/test.hpp"
 
 #include <sys/resource.h>
 

@@ -4,23 +4,13 @@
 #include "io/scan/file_scan.hpp"
 #include "tests/support/skip.hpp"
 
-#include <algorithm>
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
-#include <memory>
-#include <sstream>
-#include <stdexcept>
-
 namespace lacuna {
 using namespace io;
 
-std::optional<std::filesystem::path> shared_folder() {
+std::optional<fs::path> shared_folder() {
   const char* named = std::getenv("LACUNA_SHARED");
-  const std::filesystem::path folder =
-      named ? std::filesystem::path(named)
-            : std::filesystem::path(LACUNA_SOURCE_DIR).parent_path() / "shared";
-  if (!std::filesystem::is_directory(folder)) {
+  const fs::path folder = named ? fs::path(named) : fs::path(LACUNA_SOURCE_DIR).parent_path() / "shared";
+  if (!fs::is_directory(folder)) {
     test::skip(folder.string() + " is not there");
     return std::nullopt;
   }
@@ -41,8 +31,7 @@ std::vector<GoldenSetting> golden_settings() {
           {"aerial.k15", "golden/aerial.ply", k15}};
 }
 
-std::vector<GoldenPoint> read_golden_points(const std::filesystem::path& shared,
-                                            const GoldenSetting& setting) {
+std::vector<GoldenPoint> read_golden_points(const fs::path& shared, const GoldenSetting& setting) {
   const std::string file = (shared / "golden" / (setting.name + ".points.csv.gz")).string();
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(("gzip -dc '" + file + "'").c_str(), "r"), pclose);
   if (!pipe) throw std::runtime_error("cannot run gzip");
@@ -63,7 +52,7 @@ std::vector<GoldenPoint> read_golden_points(const std::filesystem::path& shared,
   return points;
 }
 
-GoldenLoops read_golden_loops(const std::filesystem::path& shared, const GoldenSetting& setting) {
+GoldenLoops read_golden_loops(const fs::path& shared, const GoldenSetting& setting) {
   std::ifstream file(shared / "golden" / (setting.name + ".loops.txt"));
   if (!file) throw std::runtime_error(setting.name + ": no golden loops");
   GoldenLoops loops;
@@ -86,7 +75,7 @@ GoldenLoops in_golden_form(const std::vector<std::vector<PointId>>& loops) {
   return golden;
 }
 
-Cloud read_cloud(const std::filesystem::path& file) {
+Cloud read_cloud(const fs::path& file) {
   FileScan scan({file}, {});
   Cloud cloud;
   for (PointBatch batch; scan.next(batch);) {

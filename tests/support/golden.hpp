@@ -6,18 +6,13 @@
 #include "engine/config/config.hpp"
 #include "engine/model/ids.hpp"
 #include "tests/support/clouds.hpp"
-
-#include <cstdint>
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 
 // $LACUNA_SHARED, else `shared` next to the source folder. Where that is no folder: none, and the running
 // test case is skipped.
-std::optional<std::filesystem::path> shared_folder();
+std::optional<fs::path> shared_folder();
 
 struct GoldenPoint {
   double angle = 0, halfdisc = 0, shape = 0, probability = 0;
@@ -35,13 +30,12 @@ struct GoldenSetting {
 // All seven.
 std::vector<GoldenSetting> golden_settings();
 
-std::vector<GoldenPoint> read_golden_points(const std::filesystem::path& shared,
-                                            const GoldenSetting& setting);
-GoldenLoops read_golden_loops(const std::filesystem::path& shared, const GoldenSetting& setting);
+std::vector<GoldenPoint> read_golden_points(const fs::path& shared, const GoldenSetting& setting);
+GoldenLoops read_golden_loops(const fs::path& shared, const GoldenSetting& setting);
 
 GoldenLoops in_golden_form(const std::vector<std::vector<PointId>>& loops);
 
 // A scan in any format of io/, with its normals if it has them.
-Cloud read_cloud(const std::filesystem::path& file);
+Cloud read_cloud(const fs::path& file);
 
 }  // namespace lacuna

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/hostile.hpp"
 
-#include <cmath>
-#include <numbers>
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 

@@ -3,13 +3,8 @@
 #pragma once
 
 #include "engine/simd/targets.hpp"
+#include "tests/support/test.hpp"
 
-#include <cstdint>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <catch2/catch.hpp>
 #include <hwy/highway.h>
 
 namespace lacuna {

@@ -4,11 +4,7 @@
 #pragma once
 
 #include "io/laz/laz.hpp"
-
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
+#include "tests/support/las_file.hpp"
 
 namespace lacuna::test {
 
@@ -26,5 +22,18 @@ LazBytes laz_chunk(const io::laz::Layout& layout, std::span<const std::byte> rec
 // table. `chunk_points` are the points of each chunk, together all of `records`.
 LazBytes laz_point_data(const io::laz::Layout& layout, std::span<const std::byte> records,
                         std::span<const std::uint64_t> chunk_points, std::uint64_t offset);
+
+std::string text_of(std::span<const std::byte> bytes);
+
+// What is before the points of a file: its header and records, with that of the layout.
+std::string laz_head(LasFile las, const io::laz::Layout& layout);
+
+// The points of a file behind its head, one record after the other. Those of compressor 1 are one chunk
+// without a table.
+std::string laz_points(const io::laz::Layout& layout, const std::string& records,
+                       const std::vector<std::uint64_t>& chunk_points, std::size_t offset);
+
+std::string laz_file(const LasFile& las, const io::laz::Layout& layout,
+                     const std::vector<std::uint64_t>& chunk_points);
 
 }  // namespace lacuna::test

@@ -3,10 +3,7 @@
 #pragma once
 
 #include "engine/model/loop.hpp"
-
-#include <cstdint>
-
-#include <Eigen/Core>
+#include "tests/support/test.hpp"
 
 namespace lacuna::test {
 

@@ -4,11 +4,7 @@
 
 #include "engine/loops/measure_loops.hpp"
 #include "engine/run/job.hpp"
-
-#include <span>
-#include <vector>
-
-#include <Eigen/Core>
+#include "tests/support/test.hpp"
 
 namespace lacuna::test {
 

@@ -4,9 +4,7 @@
 
 #include "engine/model/points.hpp"
 #include "tests/support/clouds.hpp"
-
-#include <string>
-#include <vector>
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/open_files.hpp"
 
-#include <cstdint>
-#include <filesystem>
-#include <optional>
+#include "tests/support/test.hpp"
 
 #include <unistd.h>
 
 namespace lacuna::test {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct OpenFile {
   fs::path entry;  // leads to the file though it has no name

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/processes.hpp"
 
-#include <exception>
-#include <stdexcept>
-
 #include <sys/wait.h>
 #include <unistd.h>
 

@@ -2,8 +2,7 @@
 // Processes that a test forks.
 #pragma once
 
-#include <cstddef>
-#include <functional>
+#include "tests/support/test.hpp"
 
 namespace lacuna::test {
 

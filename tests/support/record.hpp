@@ -2,9 +2,9 @@
 // What tests put into stores: two numbers, ordered by key.
 #pragma once
 
+#include "tests/support/test.hpp"
+
 #include <compare>
-#include <cstddef>
-#include <cstdint>
 
 #include <malloc.h>
 

@@ -1,23 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/run_program.hpp"
 
-#include <algorithm>
-#include <chrono>
-#include <csignal>
-#include <fstream>
-#include <string>
-#include <thread>
-
-#include <catch2/catch.hpp>
 #include <fcntl.h>
-#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
 
 namespace lacuna::test {
 namespace {
 
-void redirect(const std::filesystem::path& file, int descriptor) {
+void redirect(const fs::path& file, int descriptor) {
   const int opened = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   if (opened < 0 || dup2(opened, descriptor) < 0) _exit(125);
 }
@@ -35,8 +26,8 @@ std::uint64_t peak_resident(pid_t process) {
 
 ProgramResult run(std::vector<std::string> words, const std::function<void(pid_t)>& meanwhile) {
   const ScratchFolder scratch;
-  const std::filesystem::path out = scratch / "out";
-  const std::filesystem::path err = scratch / "err";
+  const fs::path out = scratch / "out";
+  const fs::path err = scratch / "err";
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -78,8 +69,7 @@ ProgramResult run_bench(const Words& arguments) {
   return run_program(arguments, Program::kBench);
 }
 
-std::filesystem::path detect(const std::string& scan, const std::filesystem::path& out,
-                             const Words& options) {
+fs::path detect(const std::string& scan, const fs::path& out, const Words& options) {
   const ProgramResult result = run_program(with({"detect", scan, "--out", out.string(), "--quiet"}, options));
   INFO(result.err);
   REQUIRE(result.exit_code == 0);
@@ -103,6 +93,13 @@ ProgramResult run_program_beside(const Words& arguments, const std::function<voi
              meanwhile);
 }
 
+std::string synth(const std::string& kind, const fs::path& file, const Words& options) {
+  const ProgramResult result = run_bench(with({"synth", kind, file.string()}, options));
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  return file.string();
+}
+
 ProgramResult run_command(const Words& words) {
   return run(words, [](pid_t) {});
 }
@@ -115,25 +112,20 @@ void check_failure(const ProgramResult& result, int exit_code, const std::string
   INFO(result.err);
   CHECK(result.exit_code == exit_code);
   CHECK(result.out.empty());
-  CHECK_THAT(result.err, Catch::Matchers::StartsWith("lacuna: error: ") ||
-                             Catch::Matchers::StartsWith("lacuna-bench: error: "));
-  CHECK_THAT(result.err, Catch::Matchers::Contains(named));
+  CHECK_THAT(result.err, StartsWith("lacuna: error: ") || StartsWith("lacuna-bench: error: "));
+  CHECK_THAT(result.err, Contains(named));
   CHECK(count_lines(result.err) == 1);
 }
 
-void check_same_results(const std::filesystem::path& folder, const std::filesystem::path& expected) {
+void check_same_results(const fs::path& folder, const fs::path& expected) {
   for (const char* name : {"holes.json", "holes.csv", "loops.ply", "boundary.ply", "sample.ply"})
-    CHECK(std::filesystem::exists(expected / name));
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(expected)) {
-    const std::filesystem::path name = entry.path().lexically_relative(expected);
+    CHECK(fs::exists(expected / name));
+  for (const auto& entry : fs::recursive_directory_iterator(expected)) {
+    const fs::path name = entry.path().lexically_relative(expected);
     if (name == "run.json" || !entry.is_regular_file()) continue;
     INFO(name);
     CHECK((read_file(folder / name) == read_file(entry.path())));
   }
-}
-
-nlohmann::json read_json(const std::filesystem::path& file) {
-  return nlohmann::json::parse(read_file(file));
 }
 
 std::string element(const std::string& page, const std::string& id) {

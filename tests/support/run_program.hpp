@@ -2,15 +2,8 @@
 // Runs `lacuna` and `lacuna-bench` as a user would, and catches what they print.
 #pragma once
 
-#include "tests/support/scratch_folder.hpp"
+#include "tests/support/test.hpp"
 
-#include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <string>
-#include <vector>
-
-#include <nlohmann/json_fwd.hpp>
 #include <sys/types.h>
 
 namespace lacuna::test {
@@ -34,8 +27,10 @@ ProgramResult run_bench(const Words& arguments);  // lacuna-bench
 
 // Runs `lacuna detect SCAN --out OUT --quiet` with more options, and requires that it succeeds. Returns
 // `out`.
-std::filesystem::path detect(const std::string& scan, const std::filesystem::path& out,
-                             const Words& options = {});
+fs::path detect(const std::string& scan, const fs::path& out, const Words& options = {});
+
+// Runs `lacuna-bench synth KIND FILE`, of a surface or a scan, and requires that it succeeds. Returns `file`.
+std::string synth(const std::string& kind, const fs::path& file, const Words& options = {});
 
 // Any command, searched for in PATH; exit code 126 if there is none.
 ProgramResult run_command(const Words& words);
@@ -55,10 +50,7 @@ std::size_t count_lines(const std::string& text);
 void check_failure(const ProgramResult& result, int exit_code, const std::string& named);
 
 // Checks that a folder has all files of the results in `expected`, with the same bytes. run.json may differ.
-void check_same_results(const std::filesystem::path& folder, const std::filesystem::path& expected);
-
-// The content of a result in JSON.
-nlohmann::json read_json(const std::filesystem::path& file);
+void check_same_results(const fs::path& folder, const fs::path& expected);
 
 // The text of an element of a report's page that is a script.
 std::string element(const std::string& page, const std::string& id);

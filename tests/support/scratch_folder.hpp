@@ -2,7 +2,6 @@
 // A folder of its own for a test, and files in it.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>

@@ -2,8 +2,7 @@
 // A small scan as text.
 #pragma once
 
-#include <sstream>
-#include <string>
+#include "tests/support/test.hpp"
 
 namespace lacuna::test {
 

@@ -2,9 +2,7 @@
 // A disk that is soon full.
 #pragma once
 
-#include <filesystem>
-#include <string>
-#include <utility>
+#include "tests/support/test.hpp"
 
 #include <sys/mount.h>
 
@@ -13,19 +11,19 @@ namespace lacuna::test {
 // A disk of a few hundred KiB. Not there where the tests may not mount one.
 class SmallDisk {
  public:
-  SmallDisk(std::filesystem::path at, const std::string& size) : at_(std::move(at)) {
-    std::filesystem::create_directory(at_);
+  SmallDisk(fs::path at, const std::string& size) : at_(std::move(at)) {
+    fs::create_directory(at_);
     mounted_ = ::mount("tmpfs", at_.c_str(), "tmpfs", 0, ("size=" + size).c_str()) == 0;
   }
   ~SmallDisk() {
     if (mounted_) ::umount(at_.c_str());
-    std::filesystem::remove(at_);
+    fs::remove(at_);
   }
   bool mounted() const { return mounted_; }
-  const std::filesystem::path& path() const { return at_; }
+  const fs::path& path() const { return at_; }
 
  private:
-  std::filesystem::path at_;
+  fs::path at_;
   bool mounted_;
 };
 

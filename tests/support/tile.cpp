@@ -3,11 +3,7 @@
 
 #include "engine/bucket/z_curve.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cassert>
-#include <map>
-#include <utility>
 
 namespace lacuna {
 
@@ -61,9 +57,8 @@ TilePoints part_tile(const Cloud& cloud, const std::vector<bool>& owns, std::siz
         nearest.push_back({squared_distance(points.positions[p], points.positions[q]), points.ids[p], p});
     }
     std::sort(nearest.begin(), nearest.end());
-    for (std::size_t i = 0; i < std::min(k, nearest.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(k, nearest.size()); ++i)
       if (points.is_owned(nearest[i].index)) linked[nearest[i].index].push_back(q);
-    }
   }
   for (const std::vector<LocalIndex>& row : linked) {
     points.linked.indices.insert(points.linked.indices.end(), row.begin(), row.end());

@@ -4,9 +4,7 @@
 
 #include "engine/model/neighbourhoods.hpp"
 #include "tests/support/clouds.hpp"
-
-#include <cstddef>
-#include <vector>
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 

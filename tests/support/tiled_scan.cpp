@@ -6,10 +6,6 @@
 #include "engine/parts/level_form.hpp"
 #include "tests/support/memory_scan.hpp"
 
-#include <memory>
-#include <numeric>
-#include <utility>
-
 namespace lacuna {
 namespace {
 

@@ -9,11 +9,7 @@
 #include "engine/survey/survey_scan.hpp"
 #include "engine/thin/level.hpp"
 #include "tests/support/clouds.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <cstdint>
-#include <map>
-#include <vector>
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 
@@ -35,7 +31,7 @@ struct TiledScan {
   TileIndex tile_of(Row row) const { return store.tiling().tile_of_row(row); }
   LocalIndex local(Row row) const;  // in its tile
 
-  test::ScratchFolder folder;
+  ScratchFolder folder;
   Config config;
   NoProgress quiet;
   Job job;

@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/run/folders.hpp"
 
-#include "engine/run/error.hpp"
 #include "tests/support/processes.hpp"
-#include "tests/support/scratch_folder.hpp"
 #include "tools/run/folder_lock.hpp"
 
-#include <catch2/catch.hpp>
 #include <sys/resource.h>
 
 namespace lacuna::test {
 using namespace tools;
 
 namespace {
-
-namespace fs = std::filesystem;
-using Catch::Matchers::Contains;
-using Names = std::vector<std::string>;
 
 // As long as it lives, this process can open no more files.
 class NoMoreFiles {

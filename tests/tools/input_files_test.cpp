@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/run/input_files.hpp"
 
-#include "engine/run/error.hpp"
 #include "tests/io/io_support.hpp"
-#include "tests/io/las/las_file.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <filesystem>
-
-#include <catch2/catch.hpp>
+#include "tests/support/las_file.hpp"
 
 namespace lacuna::tools {
 using namespace io;
 
 namespace {
 
-namespace fs = std::filesystem;
-using Catch::Matchers::Contains;
 using Paths = std::vector<fs::path>;
 
 Paths files_of(const std::vector<fs::path>& given) {
@@ -32,12 +24,12 @@ fs::path as_list(const std::string& file) {
 }
 
 void check_list_refused(const std::string& lines, const std::string& part) {
-  const test::ScratchFolder scratch;
+  const ScratchFolder scratch;
   CHECK_THROWS_WITH(expand_inputs({as_list(scratch.write("list.txt", lines))}, {}), Contains(part));
 }
 
 TEST_CASE("a folder stands for its scans by name, a list for the files in it, all else for itself") {
-  const test::ScratchFolder scratch;
+  const ScratchFolder scratch;
   fs::create_directories(scratch / "in" / "deeper");
   const fs::path in = scratch / "in";
   const std::string rows = "1 2 3\n4 5 6\n";
@@ -57,7 +49,7 @@ TEST_CASE("a folder stands for its scans by name, a list for the files in it, al
 }
 
 TEST_CASE("results in a folder are no scans, unless they are named") {
-  const test::ScratchFolder scratch;
+  const ScratchFolder scratch;
   fs::create_directory(scratch / "holes");
   const auto scan = scratch.write("a.ply", test::ascii_ply("")),
              loops = scratch.write("holes/loops.ply", test::ascii_ply(""));
@@ -69,8 +61,8 @@ TEST_CASE("results in a folder are no scans, unless they are named") {
   CHECK_THROWS_WITH(files_of({scratch / "holes"}), Contains("no scan file in this folder"));
 }
 
-TEST_CASE("text with binary scans is not read; options read deeper folders and leave out damaged files") {
-  const test::ScratchFolder scratch;
+TEST_CASE("text with binary scans is not read, and options read deeper folders and leave out damaged files") {
+  const ScratchFolder scratch;
   fs::create_directories(scratch / "in" / "deeper");
   const std::string ply = test::ascii_ply("");
   const auto a = scratch.write("in/a.ply", ply), deep = scratch.write("in/deeper/b.ply", ply);
@@ -82,25 +74,24 @@ TEST_CASE("text with binary scans is not read; options read deeper folders and l
   REQUIRE(inputs.size() == 2);
   CHECK(inputs[0].file == a);
   CHECK(inputs[1].file == deep);
-  CHECK_THROWS_WITH(expand_inputs({broken}, config), Catch::Matchers::Contains("no other file is left"));
+  CHECK_THROWS_WITH(expand_inputs({broken}, config), Contains("no other file is left"));
 }
 
 TEST_CASE("a file whose own count is trusted is not damaged") {
-  const test::ScratchFolder scratch;
+  const ScratchFolder scratch;
   test::LasFile las{.points = {test::las_point(20, 1, 2, 3), test::las_point(20, 4, 5, 6)}};
   std::string bytes = las.bytes();
   test::put(bytes, 107, std::uint32_t{1});
   const auto file = scratch.write("a.las", bytes);
   FilesConfig config;
   config.input.skip_damaged = true;
-  CHECK_THROWS_WITH(expand_inputs({file}, config),
-                    Catch::Matchers::Contains("the header counts 1 points, but 2 whole ones"));
+  CHECK_THROWS_WITH(expand_inputs({file}, config), Contains("the header counts 1 points, but 2 whole ones"));
   config.input.trust = Trust::kFile;
   CHECK(expand_inputs({file}, config).size() == 1);
 }
 
 TEST_CASE("a pose follows a name in a list, as numbers or as the file that holds them") {
-  const test::ScratchFolder scratch;
+  const ScratchFolder scratch;
   scratch.write("turned.xf", "0 -1 0 1\n1 0 0 2\n0 0 1 3\n0 0 0 1\n");
   const auto list =
       scratch.write("list.txt", "a b.xyz pose=turned.xf\nc.xyz\tpose=4 5 6 0 0 0 1\nd.xyz\npose=e.xyz\n");
@@ -118,7 +109,7 @@ TEST_CASE("a pose follows a name in a list, as numbers or as the file that holds
 }
 
 TEST_CASE("a pose in a list may be the viewpoint of a PCD, whose scanner stands there then") {
-  const test::ScratchFolder scratch;
+  const ScratchFolder scratch;
   std::string pcd = test::ascii_pcd("1 2 3\n4 5 6\n", "10 20 30");
   pcd.replace(pcd.find(" 1 0 0 0"), 8, " 0.70710678 0 0 0.70710678");  // a quarter turn around z
   scratch.write("a.pcd", pcd);
@@ -135,17 +126,16 @@ TEST_CASE("a pose in a list may be the viewpoint of a PCD, whose scanner stands 
 }
 
 TEST_CASE("a folder without a scan, an empty list and one that is missing are errors that name them") {
-  const test::ScratchFolder scratch;
+  const ScratchFolder scratch;
   fs::create_directory(scratch / "none");
-  CHECK_THROWS_WITH(expand_inputs({scratch / "none"}),
-                    Catch::Matchers::Contains("none: no scan file in this folder"));
+  CHECK_THROWS_WITH(expand_inputs({scratch / "none"}), Contains("none: no scan file in this folder"));
   check_list_refused("# nothing\n", "names no file");
   CHECK_THROWS_WITH(expand_inputs({"@missing.txt"}), Contains("missing.txt: cannot be opened"));
 }
 
 // An EPT folder of tiles of two points, each in its file of the hierarchy.
 struct Ept {
-  test::ScratchFolder scratch;
+  ScratchFolder scratch;
   fs::path folder = scratch / "ept";
 
   Ept() {

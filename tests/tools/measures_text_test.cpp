@@ -2,10 +2,9 @@
 #include "tools/console/measures_text.hpp"
 
 #include "engine/run/disk_space.hpp"
+#include "tests/support/test.hpp"
 #include "tools/commands/summary.hpp"
 #include "tools/console/terminal.hpp"
-
-#include <catch2/catch.hpp>
 
 namespace lacuna::tools {
 namespace {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/console/progress.hpp"
 
+#include "tests/support/test.hpp"
 #include "tools/run/run_steps.hpp"
-
-#include <catch2/catch.hpp>
 
 namespace lacuna::tools {
 namespace {
@@ -32,8 +31,7 @@ TEST_CASE("the share of the run and its time left follow the step, and the bar i
   CHECK(*progress.run_seconds_left() == Approx(225));
   CHECK(progress_text(progress) ==
         "evaluate: 40 %, 1.60 M points/s, 3.00 s left; run: 25 %, 1:15 min, 3:45 min left");
-  CHECK_THAT(progress_bar(progress, 100),
-             Catch::Matchers::StartsWith("lacuna  [==        ]  evaluate: 40 %"));
+  CHECK_THAT(progress_bar(progress, 100), StartsWith("lacuna  [==        ]  evaluate: 40 %"));
   CHECK(progress_json(progress) ==
         R"({"step": "evaluate", "share": 0.400, "seconds": 2.000, "seconds_left": 3.000, "points": 3200000, )"
         R"("run_share": 0.250, "run_seconds": 75.000, "run_seconds_left": 225.000})");

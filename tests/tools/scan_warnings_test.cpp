@@ -3,29 +3,17 @@
 
 #include "io/stations/own_frames.hpp"
 #include "tests/io/io_support.hpp"
-#include "tests/io/las/las_file.hpp"
 #include "tests/io/results/fake_detection.hpp"
 #include "tests/support/drawn_files.hpp"
 #include "tests/support/e57_encoder.hpp"
-#include "tests/support/scratch_folder.hpp"
+#include "tests/support/las_file.hpp"
 #include "tools/run/coordinate_steps.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::test {
-using namespace io;
 using namespace tools;
 
 namespace {
 
-using Catch::Matchers::Contains;
-using Catch::Matchers::StartsWith;
 using Strings = std::vector<std::string>;
 
 const std::string kUtm = "PROJCS[\"UTM 32N\",GEOGCS[\"ETRS89\",UNIT[\"degree\",0.01745]],UNIT[\"metre\",1]]";
@@ -44,8 +32,6 @@ std::string e57(const std::string& crs) {
       crs.empty() ? "" : "<coordinateMetadata type=\"String\"><![CDATA[" + crs + "]]></coordinateMetadata>";
   return encode_e57({scan}, {.root = root});
 }
-
-}  // namespace
 
 TEST_CASE("a file with another coordinate reference system than the first is a warning that names both") {
   const ScratchFolder folder;
@@ -226,8 +212,6 @@ TEST_CASE("what seems to be up, where it is not z, is a warning with the pose th
   }
 }
 
-namespace {
-
 // 100 x 100 points of a plane, 0.05 apart on average, whose coordinates are rounded to these steps (0: not).
 FakeDetection rounded_plane(const Eigen::Vector3d& steps, const Eigen::Vector3d& slope,
                             double distance = 0.08) {
@@ -252,8 +236,6 @@ std::string steps_of(const FakeDetection& found, bool is_single = false) {
   const ExplainedDetection detection = found;
   return steps_warning(detection, is_single);
 }
-
-}  // namespace
 
 TEST_CASE("coordinates in steps wider than the spacing are a warning, whatever the axis and the format") {
   const Eigen::Vector3d slope(0.3, 0.1, 0);
@@ -303,8 +285,6 @@ TEST_CASE("files that lie in the axes of their own scanners are a warning, and r
   CHECK_FALSE(own_frames(ExplainedDetection(own), std::vector<std::uint64_t>{80'000}));
 }
 
-namespace {
-
 // LAS of format 0, with a point of each of these classes.
 std::string las_of_classes(const std::vector<int>& classes) {
   LasFile las;
@@ -326,14 +306,11 @@ Strings warnings_of_filters(const std::string& file, const InputConfig& config) 
   Eigen::AlignedBox3d bounds;
   scan.rewind();
   for (PointBatch batch; scan.next(batch);) {
-    for (const Eigen::Vector3d& position : batch.positions) {
+    for (const Eigen::Vector3d& position : batch.positions)
       if (position.allFinite()) bounds.extend(position);
-    }
   }
   return filter_warnings(scan, config, bounds);
 }
-
-}  // namespace
 
 TEST_CASE("files around 0 0 0 whose viewpoints are elsewhere are a warning") {
   const ScratchFolder folder;
@@ -467,4 +444,5 @@ TEST_CASE(
   CHECK(ply("0 0 0", "1000 2000 3\n0 0 0\n").empty());  // it drops a point
 }
 
+}  // namespace
 }  // namespace lacuna::test

@@ -2,8 +2,7 @@
 #include "tools/console/visible_text.hpp"
 
 #include "engine/run/utf8.hpp"
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna::tools {
 namespace {

@@ -2,15 +2,9 @@
 #include "bench/evaluation/hole_width.hpp"
 
 #include "tests/support/clouds.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna::evaluation {
-
 namespace {
 
 // The points of a grid, a unit apart, around a square: from its lower left corner, counterclockwise.

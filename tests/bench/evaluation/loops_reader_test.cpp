@@ -3,10 +3,6 @@
 
 #include "tests/io/io_support.hpp"
 
-#include <sstream>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::test {
 using namespace evaluation;
 
@@ -72,7 +68,7 @@ TEST_CASE("a line that begins with a mark is neither a loop nor a name", "[io]")
   CHECK(read_marked(folder.write("none.txt", "1 2 3\n"), kStepMark).empty());
   CHECK(read_marked(folder.write("a.ply", loops_ply("0 0 0 5 0\n")), kStepMark).empty());
   CHECK_THAT(error_of([&] { read_marked(folder.write("b.txt", "1 2\n#step 3 x\n"), kStepMark); }),
-             Catch::Matchers::Contains("line 2: 'x' is not a point id"));
+             Contains("line 2: 'x' is not a point id"));
 }
 
 TEST_CASE("loops as text that are no ids are reported with their line", "[io]") {
@@ -80,8 +76,8 @@ TEST_CASE("loops as text that are no ids are reported with their line", "[io]") 
   check_loops_refused("a.txt", {{"# ids\n1 2 3\n4 5 -6\n", "a.txt: line 3: '-6' is not a point id"},
                                 {"1 2 3 # a hole\n", "line 1: '#'"},
                                 {std::string("\1\2\0\xff", 4), "line 1: '???"}});
-  CHECK_THAT(error_of([&] { read_loops(folder / "missing.txt"); }), Catch::Contains("cannot be opened"));
-  CHECK_THAT(error_of([&] { read_loops(folder.path()); }), Catch::Contains("is a folder"));
+  CHECK_THAT(error_of([&] { read_loops(folder / "missing.txt"); }), Contains("cannot be opened"));
+  CHECK_THAT(error_of([&] { read_loops(folder.path()); }), Contains("is a folder"));
 }
 
 TEST_CASE("loops.ply has its loops one after the other", "[io]") {

@@ -4,13 +4,7 @@
 #include "tests/support/clouds.hpp"
 #include "tests/tools/matching/drawn.hpp"
 
-#include <algorithm>
-#include <numeric>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::evaluation {
-
 namespace {
 
 using Ids = std::vector<std::uint64_t>;
@@ -127,9 +121,8 @@ TEST_CASE("the order of triangles and of their corners does not change loops") {
     std::reverse(triangles.begin(), triangles.end());
     for (Triangle& triangle : triangles) std::rotate(triangle.begin(), triangle.begin() + 1, triangle.end());
     // The last time every triangle is seen from its other side.
-    for (Triangle& triangle : triangles) {
+    for (Triangle& triangle : triangles)
       if (turn == 2) std::swap(triangle[0], triangle[1]);
-    }
     const auto loops = mesh_boundary(triangles, stand_ins(positions), positions);
     REQUIRE(loops.size() == expected.size());
     std::size_t again = 0;

@@ -3,10 +3,7 @@
 
 #include "tests/io/broken_files.hpp"
 
-#include <catch2/catch.hpp>
-
 namespace lacuna::test {
-using namespace io;
 using namespace evaluation;
 
 namespace {
@@ -54,14 +51,12 @@ const std::string kCrowdedAscii = ply_header(kCrowded) + four_rows() +
 
 const Triangles kCrowdedTriangles = {{0, 1, 2}, {0, 2, 3}, {3, 2, 1}};
 
-void visit_triangles(const std::filesystem::path& file, std::size_t, std::uint64_t most,
-                     const PointVisitor& visit) {
+void visit_triangles(const fs::path& file, std::size_t, std::uint64_t most, const PointVisitor& visit) {
   const Triangles triangles = read_triangles(file);
   if (triangles.size() > most) throw std::logic_error("more triangles than the file can hold");
   for (const Triangle& corners : triangles) {
-    for (const std::uint64_t corner : corners) {
+    for (const std::uint64_t corner : corners)
       if (corner > most) throw std::logic_error("a corner is no vertex");
-    }
     visit({double(corners[0]), double(corners[1]), double(corners[2])});
   }
 }

@@ -2,14 +2,7 @@
 #include "bench/evaluation/outline.hpp"
 
 #include "tests/support/clouds.hpp"
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <vector>
-
-#include <catch2/catch.hpp>
-#include <Eigen/Geometry>
+#include "tests/support/test.hpp"
 
 namespace lacuna::evaluation {
 namespace {

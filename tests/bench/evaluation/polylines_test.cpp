@@ -4,15 +4,8 @@
 #include "bench/evaluation/evaluation.hpp"
 #include "tests/io/io_support.hpp"
 
-#include <array>
-#include <string>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::evaluation {
 namespace {
-
-using test::ScratchFolder;
 
 // A PLY of so many vertices, with edges.
 std::string ply(const std::string& vertices, std::size_t count, const std::string& edges) {
@@ -47,17 +40,15 @@ TEST_CASE("lines that are no closed loops are refused in one line that names the
       [&](const std::string& edges) {
         return test::error_of([&] { read_polylines(folder.write("a.ply", ply(zeros(5), 5, edges))); });
       });
-  CHECK_THROWS_WITH(has_polylines(folder.write("b.ply", test::ascii_ply(""))),
-                    Catch::Contains("has no loops"));
+  CHECK_THROWS_WITH(has_polylines(folder.write("b.ply", test::ascii_ply(""))), Contains("has no loops"));
 }
 
 TEST_CASE("a polyline near a true loop finds it, and one elsewhere is false, though no vertex is a point") {
   const ScratchFolder folder;
   // A sheet of 30 x 30 points, a unit apart. The true loop is the square from (10, 10) to (14, 14).
   std::string rows;
-  for (int y = 0; y < 30; ++y) {
+  for (int y = 0; y < 30; ++y)
     for (int x = 0; x < 30; ++x) rows += std::to_string(x) + " " + std::to_string(y) + " 0\n";
-  }
   const auto scan = folder.write("scan.xyz", rows);
   std::string truth_row, vertices, edges;
   std::vector<std::array<int, 2>> square;

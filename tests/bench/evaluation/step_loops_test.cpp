@@ -3,10 +3,7 @@
 
 #include "tests/tools/matching/drawn.hpp"
 
-#include <catch2/catch.hpp>
-
 namespace lacuna::evaluation {
-
 namespace {
 
 LoopAccuracy match(const Drawing& drawing, const std::vector<LoopIds>& loops,

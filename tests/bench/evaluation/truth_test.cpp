@@ -6,12 +6,7 @@
 #include "tools/matching/edge_tree.hpp"
 #include "tools/matching/true_loops.hpp"
 
-#include <limits>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::evaluation {
-
 namespace {
 
 using Ids = std::vector<std::uint64_t>;

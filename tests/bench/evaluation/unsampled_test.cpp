@@ -2,13 +2,8 @@
 #include "bench/evaluation/unsampled.hpp"
 
 #include "tests/support/clouds.hpp"
+#include "tests/support/test.hpp"
 #include "tools/matching/true_loops.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include <catch2/catch.hpp>
 
 namespace lacuna::evaluation {
 using namespace matching;

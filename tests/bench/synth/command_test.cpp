@@ -2,10 +2,6 @@
 #include "tests/bench/synth/made.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <sstream>
-
-#include <catch2/catch.hpp>
-
 using namespace lacuna;
 using namespace lacuna::synth;
 

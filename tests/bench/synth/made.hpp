@@ -4,28 +4,13 @@
 
 #include "bench/synth/scan.hpp"
 #include "bench/synth/surface.hpp"
-#include "engine/run/error.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <sstream>
-#include <string>
-#include <vector>
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna::synth {
 
 using Position = std::array<float, 3>;
 
 using test::read_file;
-using test::ScratchFolder;
 
 inline std::uint64_t fnv1a(const std::string& bytes) {
   std::uint64_t hash = 0xcbf29ce484222325u;
@@ -51,7 +36,7 @@ void check_refused(const ScratchFolder& folder, Options options, Summary (*write
 
 // The rows of a PLY as bytes, all of `stride`; fails the test when header and size disagree.
 // Rows have `stride` bytes, and those of moving scanners a time behind them.
-inline std::vector<std::string> rows_of(const std::filesystem::path& file, std::size_t stride) {
+inline std::vector<std::string> rows_of(const fs::path& file, std::size_t stride) {
   const std::string bytes = read_file(file);
   const std::size_t body = bytes.find("end_header\n") + 11;
   const std::size_t count = std::stoull(bytes.substr(bytes.find("element vertex ") + 15));
@@ -69,14 +54,14 @@ T scalar(const std::string& row, std::size_t offset) {
   return value;
 }
 
-inline std::vector<Position> positions_of(const std::filesystem::path& file, std::size_t stride = 12) {
+inline std::vector<Position> positions_of(const fs::path& file, std::size_t stride = 12) {
   std::vector<Position> positions;
   for (const std::string& row : rows_of(file, stride))
     positions.push_back({scalar<float>(row, 0), scalar<float>(row, 4), scalar<float>(row, 8)});
   return positions;
 }
 
-inline std::vector<std::vector<std::uint64_t>> loops_of(const std::filesystem::path& file) {
+inline std::vector<std::vector<std::uint64_t>> loops_of(const fs::path& file) {
   std::ifstream in(file);
   std::vector<std::vector<std::uint64_t>> loops;
   for (std::string line; std::getline(in, line);) {
@@ -97,7 +82,7 @@ inline std::string without_steps(const std::string& truth) {
 }
 
 // What the comment before each loop says.
-inline std::vector<std::string> names_of(const std::filesystem::path& file) {
+inline std::vector<std::string> names_of(const fs::path& file) {
   std::ifstream in(file);
   std::vector<std::string> names;
   std::string line;

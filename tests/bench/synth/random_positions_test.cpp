@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/bench/synth/made.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <set>
-
-#include <catch2/catch.hpp>
-
 using namespace lacuna;
 using namespace lacuna::synth;
 

@@ -3,10 +3,6 @@
 #include "bench/synth/trig.hpp"
 #include "tests/bench/synth/made.hpp"
 
-#include <cmath>
-
-#include <catch2/catch.hpp>
-
 using namespace lacuna;
 using namespace lacuna::synth;
 

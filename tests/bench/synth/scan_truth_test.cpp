@@ -6,11 +6,6 @@
 #include "bench/synth/vec3.hpp"
 #include "tests/bench/synth/made.hpp"
 
-#include <algorithm>
-#include <set>
-
-#include <catch2/catch.hpp>
-
 using namespace lacuna;
 using namespace lacuna::synth;
 

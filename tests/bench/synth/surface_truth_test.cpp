@@ -2,12 +2,6 @@
 #include "bench/synth/permutation.hpp"
 #include "tests/bench/synth/made.hpp"
 
-#include <algorithm>
-#include <map>
-#include <set>
-
-#include <catch2/catch.hpp>
-
 using namespace lacuna;
 using namespace lacuna::synth;
 

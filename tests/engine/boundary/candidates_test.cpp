@@ -3,10 +3,6 @@
 
 #include "tests/support/tiled_scan.hpp"
 
-#include <algorithm>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 namespace {
 
@@ -29,9 +25,8 @@ std::vector<Row> coherent_plainly(const std::vector<Candidate>& candidates, cons
     }
   }
   std::vector<Row> left;
-  for (const Row row : rows) {
+  for (const Row row : rows)
     if (on[row]) left.push_back(row);
-  }
   return left;
 }
 
@@ -50,9 +45,8 @@ std::vector<Row> coherent(std::vector<Candidate> candidates, TiledScan& scan) {
   }
   const RowSet boundary = coherent_candidates(outputs, scan.store.tiling(), scan.job);
   std::vector<Row> left;
-  for (const Row row : all_rows(scan)) {
+  for (const Row row : all_rows(scan))
     if (boundary.contains(row)) left.push_back(row);
-  }
   return left;
 }
 

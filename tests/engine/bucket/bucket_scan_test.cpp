@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/bucket/bucket_scan.hpp"
 
-#include "engine/run/error.hpp"
 #include "tests/support/memory_scan.hpp"
 #include "tests/support/tile.hpp"
 #include "tests/support/tiled_scan.hpp"
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-
-#include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
 
 std::vector<PointId> finite_ids(const Cloud& cloud) {
   std::vector<PointId> ids;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
+  for (std::size_t i = 0; i < cloud.size(); ++i)
     if (cloud.positions[i].allFinite()) ids.push_back(PointId{i});
-  }
   return ids;
 }
 
@@ -177,7 +169,7 @@ TEST_CASE("an input that changes between the two readings is an error") {
   Cloud finer = before;
   finer.positions[7].x() += 1e-12;
   for (const Cloud& after : {fewer, before.joined(line(1)), elsewhere, crowded, finer})
-    CHECK_THROWS_WITH(changed(after), Catch::Contains("the input changed while it was read"));
+    CHECK_THROWS_WITH(changed(after), Contains("the input changed while it was read"));
 }
 
 }  // namespace

@@ -3,11 +3,7 @@
 #include "engine/bucket/cell_index.hpp"
 
 #include "tests/support/clouds.hpp"
-
-#include <algorithm>
-#include <cmath>
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 namespace {
@@ -27,9 +23,8 @@ TEST_CASE("the cells of many positions are those of each, rounded down, whatever
                               CellGrid{-10, 1, {5.4e9, -1e12, 3}}}) {
     std::vector<Eigen::Vector3d> positions;
     for (const double x : hard) positions.emplace_back(x, -x, std::ldexp(x, grid.finest));
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < 1000; ++i)
       positions.emplace_back(random.uniform(-1e4, 1e4), random.uniform(-1, 1), random.uniform(-1e10, 1e10));
-    }
     std::vector<CellCoord> cells(positions.size());
     grid.cells_of(positions, cells);
     std::size_t wrong = 0;

@@ -2,11 +2,7 @@
 #include "engine/bucket/order_tile.hpp"
 
 #include "tests/support/clouds.hpp"
-
-#include <algorithm>
-#include <cmath>
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 namespace {

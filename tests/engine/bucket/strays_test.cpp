@@ -6,12 +6,6 @@
 #include "tests/support/detected.hpp"
 #include "tests/support/tiled_scan.hpp"
 
-#include <algorithm>
-#include <set>
-#include <vector>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 namespace {
 

@@ -5,24 +5,15 @@
 #include "engine/survey/survey.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/memory_scan.hpp"
-#include "tests/support/scratch_folder.hpp"
 #include "tests/support/tile.hpp"
 #include "tests/support/tiled_scan.hpp"
-
-#include <algorithm>
-#include <map>
-#include <set>
-#include <utility>
-#include <vector>
-
-#include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
 
 SurveyedScan survey(const Cloud& cloud, std::uint64_t memory = 1 << 30, std::size_t batch = 1000,
                     bool expected = true) {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   Survey survey(memory, expected ? cloud.size() : 0, folder / "cells");
   MemoryScan scan(cloud, batch);
   for (PointBatch points; scan.next(points);) survey.add(points);
@@ -37,9 +28,8 @@ std::map<CellCoord, std::uint64_t> counts_of(const std::vector<CountedCell>& cel
 
 std::map<CellCoord, std::uint64_t> counted_plainly(const Cloud& cloud, const CellGrid& grid) {
   std::map<CellCoord, std::uint64_t> counts;
-  for (const Eigen::Vector3d& p : cloud.positions) {
+  for (const Eigen::Vector3d& p : cloud.positions)
     if (p.allFinite()) ++counts[grid.cell_of(p)];
-  }
   return counts;
 }
 
@@ -130,7 +120,7 @@ TEST_CASE("surveys of parts of a scan add up to the survey of the scan, in whate
   const Cloud cloud = scattered(20'000, 6).with_outliers(40, 30, 2).with_unusable(10, 1).shuffled(3);
   for (const std::size_t parts : {1, 2, 7}) {
     for (const std::uint64_t memory : {std::uint64_t{1} << 30, std::uint64_t{1} << 20}) {
-      const test::ScratchFolder folder;
+      const ScratchFolder folder;
       Survey merged(1 << 30, cloud.size(), folder / "merged");
       MemoryScan scan(cloud);
       PointBatch first;
@@ -357,9 +347,8 @@ TEST_CASE("the reach of a cell is no less than the distance to the k-th neighbou
         std::uint32_t cell = 0;
         while (std::find(points[cell].begin(), points[cell].end(), p) == points[cell].end()) ++cell;
         std::vector<double> others;
-        for (std::size_t j = 0; j < distinct.size(); ++j) {
+        for (std::size_t j = 0; j < distinct.size(); ++j)
           if (j != i) others.push_back(squared_distance(p, distinct.positions[j]));
-        }
         const double bound = reach[cell];
         if (others.size() < k) {
           too_short += bound != std::numeric_limits<double>::infinity();
@@ -382,9 +371,8 @@ TEST_CASE("the reach is infinite where the scan has no more than k points, finit
 
 TEST_CASE("the reach in an even plane is a few spacings") {
   const Tiling tiling = tiling_of(plane(100), 1'000'000);
-  for (std::uint32_t c = 0; c < tiling.cells.size(); ++c) {
+  for (std::uint32_t c = 0; c < tiling.cells.size(); ++c)
     if (std::sqrt(squared_distance_bound(tiling, c, 15)) > 30) FAIL_CHECK("a reach of more than 30 spacings");
-  }
 }
 
 TEST_CASE("cells near a box are those of a search through all") {

@@ -2,21 +2,16 @@
 #include "engine/config/config.hpp"
 
 #include "engine/config/config_file.hpp"
-#include "engine/run/error.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 namespace {
-
-using Catch::Matchers::Contains;
 
 TEST_CASE("the engine's config reads back as itself, and knows no parameter of files") {
   Config config;
   config.neighbourhood.k = 20;
   config.results = {.points = true, .sample_points = 7};
-  const test::ScratchFolder scratch;
+  const ScratchFolder scratch;
   Config again;
   read_config(scratch.write("c.toml", print_config(config)), again);
   CHECK(print_config(again) == print_config(config));

@@ -6,15 +6,6 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/instruction_sets.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <numbers>
-#include <vector>
-
-#include <catch2/catch.hpp>
-#include <Eigen/Core>
-
 namespace lacuna {
 namespace {
 

@@ -4,31 +4,22 @@
 #include "tests/io/io_support.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <sstream>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 using namespace io;
 
 namespace {
 
-using Catch::Matchers::Contains;
-
 // Two faces that join at right angles in the line x = 0.
 std::string folded_sheet() {
   std::ostringstream text;
   text << "x y z\n";
-  for (int x = -20; x <= 20; ++x) {
+  for (int x = -20; x <= 20; ++x)
     for (int y = 0; y <= 20; ++y) text << x << ' ' << y << ' ' << std::abs(x) << '\n';
-  }
   return text.str();
 }
 
 TEST_CASE("one more line in the table is one more criterion: its weight, its part of Pi and its column") {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   const auto scan = folder.write("folded.xyz", folded_sheet());
   const auto detect = [&](const char* program, const std::string& out, const std::vector<std::string>& more) {
     std::vector<std::string> words{program,           "detect", scan,    "--points",

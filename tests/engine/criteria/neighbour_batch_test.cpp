@@ -5,12 +5,6 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/instruction_sets.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 // The last position is the last there is: nothing is read beyond it (valgrind would report it).
 TEST_CASE("a row has the offsets of as many neighbours as there are points, and 0 where there are no more") {

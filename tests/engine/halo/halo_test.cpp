@@ -4,12 +4,6 @@
 #include "tests/support/tile.hpp"
 #include "tests/support/tiled_scan.hpp"
 
-#include <algorithm>
-#include <set>
-#include <tuple>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 namespace {
 

@@ -3,11 +3,6 @@
 #include "engine/loops/hole_area.hpp"
 
 #include "tests/support/measured_loops.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <numeric>
-
-#include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
@@ -18,7 +13,7 @@ using test::square;
 constexpr LoopKind kHole = LoopKind::kHole, kOuter = LoopKind::kOuter;
 
 MeasuredLoops with_areas(const std::vector<DrawnLoop>& drawn) {
-  const test::ScratchFolder scratch;
+  const ScratchFolder scratch;
   NoProgress progress;
   const Config config;
   Job job(config, scratch.path(), progress);

@@ -4,11 +4,6 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/loop_points.hpp"
 
-#include <cmath>
-#include <numbers>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 namespace {
 

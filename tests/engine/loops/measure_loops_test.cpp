@@ -6,10 +6,6 @@
 #include "tests/support/reference.hpp"
 #include "tests/support/tiled_scan.hpp"
 
-#include <cmath>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 namespace {
 

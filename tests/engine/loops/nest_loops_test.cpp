@@ -3,13 +3,6 @@
 
 #include "tests/support/detected.hpp"
 #include "tests/support/measured_loops.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <algorithm>
-#include <numbers>
-
-#include <catch2/catch.hpp>
-#include <Eigen/Geometry>
 
 namespace lacuna {
 namespace {
@@ -25,7 +18,7 @@ constexpr LoopKind kHole = LoopKind::kHole, kOuter = LoopKind::kOuter;
 
 // `memory`: bytes for the step; 0: as many as the job gives it.
 std::vector<LoopMeasures> nested(const std::vector<DrawnLoop>& drawn, std::uint64_t memory = 0) {
-  const test::ScratchFolder scratch;
+  const ScratchFolder scratch;
   NoProgress progress;
   const Config config;
   Job job(config, scratch.path(), progress);
@@ -59,9 +52,8 @@ TEST_CASE("the parents are the same in any place and direction, whatever the mem
   const Eigen::Isometry3d motion =
       Eigen::Translation3d(4e5, 5e6, 300) * Eigen::AngleAxisd(1.2, Vector3d(3, -1, 2).normalized());
   std::vector<DrawnLoop> drawn = nest_of_five();
-  for (DrawnLoop& loop : drawn) {
+  for (DrawnLoop& loop : drawn)
     for (Vector3d& point : loop.points) point = motion * point;
-  }
   std::reverse(drawn[2].points.begin(), drawn[2].points.end());
   for (const std::uint64_t memory : {std::uint64_t{0}, std::uint64_t{4000}, std::uint64_t{1}}) {
     const std::vector<LoopMeasures> loops = nested(drawn, memory);

@@ -6,13 +6,6 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <vector>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 namespace {
 
@@ -26,9 +19,8 @@ Cloud punched_plane() {
 // Points `step` apart within a radius about the middle of the hole, at a height.
 Cloud with_patch(Cloud cloud, double radius, double step, double height = 0) {
   for (double y = -radius; y <= radius; y += step) {
-    for (double x = -radius; x <= radius; x += step) {
+    for (double x = -radius; x <= radius; x += step)
       if (std::hypot(x, y) <= radius) cloud.positions.emplace_back(29.5 + x, 29.5 + y, height);
-    }
   }
   return cloud;
 }
@@ -96,9 +88,8 @@ TEST_CASE(
 }
 
 TEST_CASE("outer curves have no prominence") {
-  for (const ReportedLoop& loop : run_engine(punched_plane(), {}).loops) {
+  for (const ReportedLoop& loop : run_engine(punched_plane(), {}).loops)
     if (loop.measures.kind == LoopKind::kOuter) CHECK(loop.measures.track.evidence.prominence == 0);
-  }
 }
 
 TEST_CASE("log-odds rise with each evidence of a loop, and fall with gaps of the sampling") {

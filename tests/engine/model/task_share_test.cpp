@@ -2,13 +2,7 @@
 #include "engine/model/task_share.hpp"
 
 #include "tests/support/clouds.hpp"
-
-#include <algorithm>
-#include <cstdint>
-#include <numeric>
-#include <vector>
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 namespace {

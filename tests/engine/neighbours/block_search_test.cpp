@@ -4,12 +4,7 @@
 
 #include "tests/support/clouds.hpp"
 #include "tests/support/point_tree.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 namespace {
@@ -31,9 +26,8 @@ Points points_of(const Cloud& cloud, bool sorted) {
       points.positions.push_back(p.array() + 0.0);
   }
   if (sorted) std::sort(points.positions.begin(), points.positions.end(), before);
-  for (std::size_t i = 0; i < points.positions.size(); ++i) {
+  for (std::size_t i = 0; i < points.positions.size(); ++i)
     points.ids.push_back(PointId{(i * 7919 + 13) % 1'000'003});
-  }
   return points;
 }
 

@@ -6,12 +6,6 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/instruction_sets.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 namespace {
 
@@ -95,9 +89,8 @@ TEST_CASE("a narrowed list holds what is within the smaller limit, or all it hel
     const float limit = 0.4F;
     std::vector<std::pair<std::uint32_t, float>> within, found;
     const CandidateList before = list_of(all, 1, 0);
-    for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t i = 0; i < all.size(); ++i)
       if (all[i] <= limit) within.emplace_back(before.points[i], all[i]);
-    }
     for (const std::size_t least : {within.size(), within.size() + 1}) {
       by_each_instruction_set([&] {
         CandidateList list = before;

@@ -5,13 +5,6 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/instruction_sets.hpp"
 
-#include <algorithm>
-#include <tuple>
-#include <utility>
-#include <vector>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 namespace {
 
@@ -35,9 +28,8 @@ Lists drawn_lists(Random& random, std::uint32_t owned, std::size_t count) {
 Edges expected_edges(const Lists& lists) {
   Edges edges;
   for (std::uint32_t p = 0; p < lists.size(); ++p) {
-    for (const std::uint32_t q : lists[p]) {
+    for (const std::uint32_t q : lists[p])
       if (q < lists.size() && std::count(lists[q].begin(), lists[q].end(), p) == 0) edges.emplace_back(q, p);
-    }
   }
   std::sort(edges.begin(), edges.end());
   return edges;

@@ -4,16 +4,13 @@
 #include "tests/support/reference.hpp"
 #include "tests/support/tile.hpp"
 
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 namespace {
 
 std::vector<std::vector<PointId>> ids_of(const Neighbourhoods& rows, const TilePoints& points) {
   std::vector<std::vector<PointId>> ids(rows.size());
-  for (std::size_t p = 0; p < rows.size(); ++p) {
+  for (std::size_t p = 0; p < rows.size(); ++p)
     for (const LocalIndex q : rows[p]) ids[p].push_back(points.ids[q]);
-  }
   return ids;
 }
 
@@ -54,9 +51,8 @@ TEST_CASE("a tile that owns a part of the points gives them the neighbourhoods o
     const TilePoints points = part_tile(cloud, owns, 12);
     REQUIRE(points.owned > 50);
     REQUIRE(points.owned < points.size());
-    for (const double eps : {0.0, 0.05}) {
+    for (const double eps : {0.0, 0.05})
       CHECK(ids_of(find_neighbourhoods(points, 12, eps), points) == plain(cloud, points, 12, eps));
-    }
   }
 }
 

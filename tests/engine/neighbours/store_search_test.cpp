@@ -5,11 +5,6 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/tiled_scan.hpp"
 
-#include <algorithm>
-#include <vector>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 namespace {
 
@@ -21,9 +16,8 @@ TEST_CASE("the neighbours of single stored points are those of a plain search") 
                                  {scattered(1, 3), 15}}) {
     TiledScan scan(cloud, tiled({}, 300));
     std::vector<ScanPoint> points;
-    for (TileIndex t = 0; t < scan.store.tiling().tiles.size(); ++t) {
+    for (TileIndex t = 0; t < scan.store.tiling().tiles.size(); ++t)
       for (const ScanPoint& p : scan.store.points(t)) points.push_back(p);
-    }
     const std::map<PointId, Row> row_of = scan.rows();
     StoreSearch search(scan.store);
     for (std::size_t i = 0; i < points.size(); i += 1 + points.size() / 60) {

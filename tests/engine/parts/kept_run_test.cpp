@@ -5,25 +5,12 @@
 #include "engine/kept_state.hpp"
 #include "engine/parts/parts.hpp"
 #include "engine/pipeline.hpp"
-#include "engine/run/error.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/memory_scan.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
-
-namespace fs = std::filesystem;
-using Catch::Matchers::Contains;
-using Catch::Matchers::StartsWith;
-using test::ScratchFolder;
 
 Cloud scan() {
   return plane(60).punched({18, 20}, 5).jittered(0.3, 5).with_duplicates(200, 1).with_outliers(3, 2, 1);

@@ -3,13 +3,6 @@
 
 #include "tests/support/detected.hpp"
 #include "tests/support/memory_scan.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <array>
-#include <cmath>
-#include <map>
-
-#include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
@@ -98,7 +91,7 @@ TEST_CASE("results come in blocks of consecutive points, each point once, the bo
   Config config;
   config.results.points = true;
   MemoryScan scan(cloud, 5000);
-  const test::ScratchFolder workspace;
+  const ScratchFolder workspace;
   NoProgress quiet;
   const std::unique_ptr<Detection> detection = detect(scan, config, workspace.path(), quiet);
   Detected detected{.summary = detection->summary};

@@ -2,10 +2,7 @@
 #include "engine/results/orient.hpp"
 
 #include "tests/support/clouds.hpp"
-
-#include <algorithm>
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 namespace {
@@ -19,9 +16,8 @@ TEST_CASE("a forest of parts' forests and the edges between is the forest of the
     Random random(seed);
     std::vector<OrientationEdge> all, low, high, reduced;
     for (std::uint64_t a = 0; a < 60; ++a) {
-      for (std::uint64_t b = a + 1; b < 60; ++b) {
+      for (std::uint64_t b = a + 1; b < 60; ++b)
         if (random.chance(0.1)) all.push_back(edge(double(random.whole(0, 5)) / 8, a, b));
-      }
     }
     for (const OrientationEdge& e : all) {
       if (value(e.high_id) < 30)

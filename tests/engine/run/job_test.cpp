@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/job.hpp"
 
-#include "engine/run/error.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 namespace {
@@ -13,7 +10,7 @@ constexpr std::uint64_t kMiB = 1 << 20;
 
 std::uint64_t tile_points(std::uint64_t points, std::uint64_t memory_limit, std::int64_t threads,
                           std::int64_t k = 15, std::int64_t wanted = 0) {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   NoProgress progress;
   Config config;
   config.run = {.threads = threads, .memory_limit = memory_limit, .tile_points = wanted};

@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/machine_memory.hpp"
 
-#include "tests/support/scratch_folder.hpp"
-
-#include <limits>
-#include <string>
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 namespace {
-
-using test::ScratchFolder;
 
 constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
 
 void write(const ScratchFolder& folder, const std::string& group, const std::string& file,
            const std::string& limit) {
-  std::filesystem::create_directories(folder / group);
+  fs::create_directories(folder / group);
   folder.write(group + "/" + file, limit + "\n");
 }
 

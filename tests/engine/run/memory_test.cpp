@@ -4,22 +4,12 @@
 
 #include "engine/store/append_lists.hpp"
 #include "tests/support/open_files.hpp"
-#include "tests/support/scratch_folder.hpp"
+#include "tests/support/test.hpp"
 
-#include <cstdint>
-#include <memory>
-#include <stdexcept>
-#include <string>
-#include <thread>
-#include <vector>
-
-#include <catch2/catch.hpp>
 #include <unistd.h>
 
 namespace lacuna {
 namespace {
-
-using test::ScratchFolder;
 
 TEST_CASE("the ledger refuses what is not left, and has it again after a lease") {
   MemoryLedger ledger(100);
@@ -91,9 +81,8 @@ TEST_CASE("lists of one pool may be filled from several threads") {
     }
   }
   std::uint64_t sum = 0, expected = 0;
-  for (const AppendLists<std::uint64_t>& list : lists) {
+  for (const AppendLists<std::uint64_t>& list : lists)
     for (std::size_t l = 0; l < list.lists(); ++l) list.for_each(l, [&](std::uint64_t i) { sum += i; });
-  }
   for (std::uint64_t i = 0; i < 20'000; ++i) expected += 3 * (i % 30) * i;
   CHECK(sum == expected);
 }

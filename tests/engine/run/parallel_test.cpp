@@ -2,19 +2,11 @@
 #include "engine/run/parallel.hpp"
 
 #include "tests/support/clouds.hpp"
+#include "tests/support/test.hpp"
 
-#include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <condition_variable>
-#include <functional>
 #include <latch>
-#include <mutex>
-#include <stdexcept>
-#include <thread>
-#include <vector>
 
-#include <catch2/catch.hpp>
 #include <tbb/parallel_for.h>
 
 namespace lacuna {
@@ -49,9 +41,8 @@ TEST_CASE("every index is visited once, with any number of threads") {
     arena.for_each(visits.size(), [&](std::size_t i) { ++visits[i]; });
     arena.for_each_within_budget(std::vector<std::uint64_t>(1000, 3), 10,
                                  [&](std::size_t i) { ++within[i]; });
-    for (std::size_t i = 0; i < 1000; ++i) {
+    for (std::size_t i = 0; i < 1000; ++i)
       if (visits[i] != 1 || within[i] != 1) FAIL_CHECK("index " << i << ", " << threads << " threads");
-    }
   }
 }
 
@@ -223,9 +214,8 @@ TEST_CASE("a pipeline consumes in the order produced, and no slot is used again 
         },
         kSlots);
     REQUIRE(consumed.size() == 500);
-    for (int i = 0; i < 500; ++i) {
+    for (int i = 0; i < 500; ++i)
       if (consumed[static_cast<std::size_t>(i)] != 2 * i) FAIL_CHECK("out of order at " << i);
-    }
   }
 }
 

@@ -5,11 +5,6 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/instruction_sets.hpp"
 
-#include <algorithm>
-#include <vector>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 namespace {
 
@@ -45,9 +40,8 @@ TEST_CASE("few batches are sorted whatever the numbers") {
     for (std::size_t count = 1; count <= 12; ++count) {
       for (unsigned first = 0; first < 1u << count; first += kBatchSize) {
         Batches batches(count);
-        for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t i = 0; i < count; ++i)
           for (unsigned lane = 0; lane < kBatchSize; ++lane) batches[i].at[lane] = (first + lane) >> i & 1;
-        }
         wrong += misplaced(batches);
       }
     }
@@ -62,9 +56,8 @@ TEST_CASE("many batches are sorted, in registers and beyond, and the next one is
     std::size_t wrong = 0;
     for (std::size_t count = 0; count <= 4 * kBatchesInRegisters + 3; ++count) {
       Batches batches(count);
-      for (Batch<double>& batch : batches) {
+      for (Batch<double>& batch : batches)
         for (double& number : batch.at) number = double(random.whole(-20, 20));
-      }
       wrong += misplaced(batches);
       batches.push_back({{-100, -100, -100, -100, -100, -100, -100, -100}});
       sort_batches(batches.data(), count);

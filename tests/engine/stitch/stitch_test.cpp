@@ -2,16 +2,7 @@
 #include "engine/stitch/stitch.hpp"
 
 #include "tests/support/clouds.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <algorithm>
-#include <map>
-#include <mutex>
-#include <numeric>
-#include <set>
-#include <vector>
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 namespace {
@@ -62,7 +53,7 @@ GraphPart<Edge> part_of(std::uint64_t tile, const std::vector<Edge>& edges, std:
 
 Stitched stitch(const std::vector<Edge>& edges, std::uint64_t tiles, std::uint64_t memory,
                 std::int64_t threads) {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   const Config config = tiled({}, 100, threads);
   NoProgress quiet;
   Job job(config, folder.path(), quiet);

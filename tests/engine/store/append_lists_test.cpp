@@ -6,12 +6,7 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/open_files.hpp"
 #include "tests/support/record.hpp"
-#include "tests/support/scratch_folder.hpp"
 
-#include <algorithm>
-#include <vector>
-
-#include <catch2/catch.hpp>
 #include <unistd.h>
 
 namespace lacuna {
@@ -19,7 +14,6 @@ namespace {
 
 using test::heap_in_use;
 using test::Record;
-using test::ScratchFolder;
 
 TEST_CASE("lists beyond the budget read back all that was appended, each its own") {
   const ScratchFolder folder;
@@ -85,7 +79,7 @@ TEST_CASE("lists whose file was cut short are an error to read and to append to,
   AppendLists<std::uint64_t> lists(folder / "lists", 3, std::make_shared<BufferPool>(0));
   for (std::uint64_t i = 0; i < 100'000; ++i) lists.append(i % 3, i);
   REQUIRE(test::cut_open_file(getpid(), "lists"));
-  const auto names_file = Catch::Matchers::Contains((folder / "lists").string() + ": the file was cut short");
+  const auto names_file = Contains((folder / "lists").string() + ": the file was cut short");
   for (std::size_t list = 0; list < 3; ++list) {
     CHECK_THROWS_WITH(lists.read(list), names_file);
     CHECK_THROWS_WITH(lists.for_each(list, [](std::uint64_t) {}), names_file);

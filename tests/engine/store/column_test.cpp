@@ -2,23 +2,16 @@
 // Rows on disk: what was written, holes, and files cut short.
 #include "engine/store/column.hpp"
 
-#include "engine/run/error.hpp"
 #include "engine/run/parallel.hpp"
 #include "engine/store/row_numbers.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/open_files.hpp"
-#include "tests/support/scratch_folder.hpp"
+#include "tests/support/test.hpp"
 
-#include <set>
-#include <vector>
-
-#include <catch2/catch.hpp>
 #include <unistd.h>
 
 namespace lacuna {
 namespace {
-
-using test::ScratchFolder;
 
 // `count` numbers from `first` on.
 std::vector<std::uint64_t> numbers(std::uint64_t first, std::size_t count) {
@@ -27,7 +20,8 @@ std::vector<std::uint64_t> numbers(std::uint64_t first, std::size_t count) {
   return numbers;
 }
 
-TEST_CASE("rows that were never written are zeros as long as a later one was; beyond that there are none") {
+TEST_CASE(
+    "rows that were never written are zeros as long as a later one was, and beyond that there are none") {
   const ScratchFolder folder;
   Column<std::uint64_t> column(folder / "column");
   CHECK(column.size() == 0);
@@ -85,7 +79,7 @@ TEST_CASE("several threads may append to a column: each piece stays together") {
 TEST_CASE("a file of the store has no name, never opens one that exists, and is freed with its owner") {
   const ScratchFolder folder;
   const std::string there = folder.write("there", "precious");
-  CHECK_THROWS_WITH(StoreFile(there), Catch::Matchers::Contains("there: cannot create: File exists"));
+  CHECK_THROWS_WITH(StoreFile(there), Contains("there: cannot create: File exists"));
   CHECK(test::read_file(there) == "precious");
   {
     StoreFile file(folder / "file");
@@ -104,8 +98,8 @@ TEST_CASE("a column whose file was cut short is an error to read behind the cut,
   column.write(0, numbers(0, 1000));
   REQUIRE(test::cut_open_file(getpid(), "column"));
   CHECK(column.read(0, 500) == numbers(0, 500));
-  const auto names_file = Catch::Matchers::Contains(
-      (folder / "column").string() + ": the file was cut short during the run: 4000 of 8000 bytes are left");
+  const auto names_file = Contains((folder / "column").string() +
+                                   ": the file was cut short during the run: 4000 of 8000 bytes are left");
   CHECK_THROWS_WITH(column.read(400, 200), names_file);
   CHECK_THROWS_WITH(column.read(999, 1), names_file);
   // A write behind the end would make a hole of zeros of what was cut off.

@@ -2,16 +2,9 @@
 #include "engine/store/kept_scan.hpp"
 
 #include "tests/support/memory_scan.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <cmath>
-
-#include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
-
-using test::ScratchFolder;
 
 // Counts what is read of it.
 class CountedScan final : public PointSource {

@@ -2,26 +2,21 @@
 // Points on disk come back as they were, in either precision.
 #include "engine/store/point_column.hpp"
 
-#include "engine/run/error.hpp"
 #include "engine/survey/survey.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <cmath>
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 namespace {
 
 SurveyedScan surveyed(const PointBatch& batch) {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   Survey survey(1 << 20, batch.size(), folder / "cells");
   survey.add(batch);
   return survey.finish();
 }
 
 TEST_CASE("what single precision would lose is not written in it") {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   PointColumn column(StoreFile(folder / "points"), Precision::kSingle);
   const ScanPoint good{0.5, -3, 1e30f, PointId{7}};
   CHECK_NOTHROW(column.write(0, std::vector{good}));

@@ -2,25 +2,16 @@
 // Arrays in memory, or mapped from files.
 #include "engine/store/scratch.hpp"
 
-#include "engine/run/error.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/open_files.hpp"
-#include "tests/support/scratch_folder.hpp"
+#include "tests/support/test.hpp"
 
-#include <algorithm>
-#include <fstream>
-#include <string>
-#include <vector>
-
-#include <catch2/catch.hpp>
 #include <unistd.h>
 
 namespace lacuna {
 namespace {
 
-using test::ScratchFolder;
-
-std::size_t count_mapped(const std::filesystem::path& folder) {
+std::size_t count_mapped(const fs::path& folder) {
   std::ifstream maps("/proc/self/maps");
   std::size_t count = 0;
   for (std::string line; std::getline(maps, line);) count += line.find(folder.string()) != std::string::npos;
@@ -28,8 +19,8 @@ std::size_t count_mapped(const std::filesystem::path& folder) {
 }
 
 TEST_CASE(
-    "scratch arrays within the budget are in memory, those beyond it in files that nobody can open; all are "
-    "zeroed") {
+    "scratch arrays within the budget are in memory, those beyond it in files that nobody can open, and "
+    "all are zeroed") {
   const ScratchFolder folder;
   {
     Scratch scratch(folder.path(), 100'000);
@@ -41,9 +32,8 @@ TEST_CASE(
     CHECK(folder.names().empty());
     for (int i = 0; i < 5; ++i) CHECK_FALSE(test::has_open(getpid(), "scratch-" + std::to_string(i)));
     CHECK(scratch.array<std::uint64_t>(0).empty());
-    for (const auto& array : arrays) {
+    for (const auto& array : arrays)
       CHECK(std::all_of(array.begin(), array.end(), [](std::uint64_t value) { return value == 0; }));
-    }
     Random random(1);
     for (auto& array : arrays) {
       for (std::uint64_t& value : array) {
@@ -53,9 +43,8 @@ TEST_CASE(
     }
     Random again(1);
     std::size_t wrong = 0;
-    for (const auto& array : arrays) {
+    for (const auto& array : arrays)
       for (const std::uint64_t value : array) wrong += value != again.next();
-    }
     CHECK(wrong == 0);
   }
   CHECK(count_mapped(folder.path()) == 0);

@@ -2,24 +2,11 @@
 // Parts of a workspace: what is read of one is what was written, or there is no such part.
 #include "engine/store/sealed_part.hpp"
 
-#include "engine/run/error.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <numeric>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 namespace {
 
-namespace fs = std::filesystem;
-using test::ScratchFolder;
 using Numbers = std::vector<std::uint64_t>;
 
 constexpr std::string_view kMadeFrom = "this input";

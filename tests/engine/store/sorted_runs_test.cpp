@@ -2,16 +2,10 @@
 // Sorting more than fits in memory.
 #include "engine/store/sorted_runs.hpp"
 
-#include "engine/run/error.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/open_files.hpp"
 #include "tests/support/record.hpp"
-#include "tests/support/scratch_folder.hpp"
 
-#include <algorithm>
-#include <vector>
-
-#include <catch2/catch.hpp>
 #include <unistd.h>
 
 namespace lacuna {
@@ -19,7 +13,6 @@ namespace {
 
 using test::heap_in_use;
 using test::Record;
-using test::ScratchFolder;
 
 constexpr std::size_t kRun = (64 << 10) / sizeof(Record);  // within the least budget
 
@@ -60,7 +53,7 @@ TEST_CASE("a sort of very many runs stays within its budget while it merges them
 
 TEST_CASE("a sort whose file was cut short is an error, before and while the runs are merged") {
   const ScratchFolder folder;
-  const auto names_file = Catch::Matchers::Contains((folder / "sort").string() + ": the file was cut short");
+  const auto names_file = Contains((folder / "sort").string() + ": the file was cut short");
   for (const bool is_merging : {false, true}) {
     SortedRuns<Record> sort(folder / "sort", 0);
     for (std::uint64_t i = 0; i < 100 * kRun; ++i) sort.add({i % 1000, i});

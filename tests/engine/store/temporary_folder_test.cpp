@@ -4,20 +4,12 @@
 #include "tests/io/io_support.hpp"
 #include "tests/support/processes.hpp"
 
-#include <csignal>
-#include <fstream>
 #include <future>
-#include <optional>
 
-#include <catch2/catch.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
 
 namespace lacuna::test {
-using namespace io;
-
-namespace fs = std::filesystem;
-using Names = std::vector<std::string>;
 
 TEST_CASE("a temporary folder goes with all that it holds, and no link is followed", "[io]") {
   const ScratchFolder folder;

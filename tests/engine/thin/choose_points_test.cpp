@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/thin/choose_points.hpp"
 
-#include "engine/run/error.hpp"
 #include "engine/thin/lattice.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/tiled_scan.hpp"
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <tuple>
-#include <vector>
-
-#include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
@@ -60,9 +50,8 @@ std::vector<std::size_t> chosen_ids(TiledScan& scan, double edge, std::size_t ta
     const ChosenPoints chosen = choose_points(scan.store, tiling.tiles_in({task, tasks}), edge, 0, scan.job);
     for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
       const std::vector<ScanPoint> points = scan.store.points(t);
-      for (LocalIndex p = 0; p < points.size(); ++p) {
+      for (LocalIndex p = 0; p < points.size(); ++p)
         if (chosen.rows.contains(tiling.tiles[t].row(p))) ids.push_back(value(points[p].id));
-      }
     }
     CHECK(chosen.count == ids.size() - before);
     CHECK_FALSE(chosen.represented);
@@ -87,7 +76,7 @@ TEST_CASE(
 }
 
 TEST_CASE("whatever the tiles, the threads and the order, the same points represent cells of any size") {
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     const Cloud cloud =
         scattered(3000, seed)
             .noisy(0.1, seed)
@@ -154,9 +143,8 @@ TEST_CASE("a point that is too far away for the edge is an error that names it")
   cloud.positions[4] = {1e30, 0, 0};
   for (const std::int64_t tile_points : {1, 100}) {
     TiledScan scan(cloud, tiled({}, tile_points));
-    CHECK_THROWS_WITH(
-        choose_all(scan, 1e-300),
-        Catch::Matchers::Contains("is too far away for a resolution of 1e-300: a larger one is needed"));
+    CHECK_THROWS_WITH(choose_all(scan, 1e-300),
+                      Contains("is too far away for a resolution of 1e-300: a larger one is needed"));
   }
 }
 

@@ -9,12 +9,6 @@
 #include "tests/support/memory_scan.hpp"
 #include "tests/support/tiled_scan.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 namespace {
 
@@ -39,7 +33,7 @@ AtLevel seen(const Level& level) {
 
 // From the first level on.
 std::vector<AtLevel> levels_of(const Cloud& cloud, const Config& config) {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   NoProgress quiet;
   Job job(config, folder.path(), quiet);
   MemoryScan scan(cloud);
@@ -89,9 +83,8 @@ TEST_CASE("dense places are thinned, sparse ones stay as they are") {
   const auto of_sparse = [&](const AtLevel& level) {
     return std::count_if(level.ids.begin(), level.ids.end(), [&](auto id) { return id >= dense.size(); });
   };
-  for (const AtLevel& level : levels) {
+  for (const AtLevel& level : levels)
     if (level.edge > 0 && level.edge < 4) CHECK(of_sparse(level) == 1600);
-  }
   CHECK(of_sparse(levels.back()) < 1600);
 }
 
@@ -102,7 +95,8 @@ TEST_CASE("few points, no points, and points at one place have no level above") 
 }
 
 TEST_CASE(
-    "a smallest hole sets the first level; a resolution, every point and the paper's method have no other") {
+    "a smallest hole sets the first level, and a resolution, every point and the paper's method have no "
+    "other") {
   Config config;
   CHECK(has_levels(config));
   config.scale.min_hole = 20;

@@ -4,12 +4,6 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/tiled_scan.hpp"
 
-#include <algorithm>
-#include <utility>
-#include <vector>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 namespace {
 
@@ -49,9 +43,8 @@ TEST_CASE("a thinned store has the chosen points in their order, with their norm
       std::vector<ScanPoint> expected, found;
       for (TileIndex t = 0; t < below.tiles.size(); ++t) {
         const std::vector<ScanPoint> points = thin.below.store.points(t);
-        for (LocalIndex p = 0; p < points.size(); ++p) {
+        for (LocalIndex p = 0; p < points.size(); ++p)
           if (thin.chosen.rows.contains(below.tiles[t].row(p))) expected.push_back(points[p]);
-        }
       }
       std::size_t wrong = 0;
       for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {

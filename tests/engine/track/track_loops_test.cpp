@@ -6,15 +6,6 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/draws.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <tuple>
-#include <vector>
-
-#include <catch2/catch.hpp>
 
 namespace lacuna {
 namespace {
@@ -61,7 +52,7 @@ class Drawn {
   TrackedLoops track() { return track_loops(std::move(levels_), job_); }
 
  private:
-  test::ScratchFolder folder_;
+  ScratchFolder folder_;
   Config config_;
   NoProgress quiet_;
   Job job_;
@@ -155,17 +146,15 @@ TEST_CASE(
     "a hole in a scan of lines is found at the level at which the lines become a surface, and no gap between "
     "them") {
   Cloud cloud;
-  for (int y = 0; y < 60; ++y) {
+  for (int y = 0; y < 60; ++y)
     for (int x = 0; x < 360; ++x) cloud.positions.emplace_back(x, 6 * y, 0);
-  }
   cloud = cloud.punched({180, 180}, 40).jittered(0.3, 1).noisy(0.2, 2);
   const Detected detected = run_engine(cloud, {});
   CHECK(detected.summary.resolution == 0);
   REQUIRE(detected.summary.levels.size() > 4);
   std::vector<ReportedLoop> holes;
-  for (const ReportedLoop& loop : detected.loops) {
+  for (const ReportedLoop& loop : detected.loops)
     if (loop.measures.kind == LoopKind::kHole) holes.push_back(loop);
-  }
   REQUIRE(holes.size() == 1);
   CHECK(holes[0].measures.diameter == Approx(80).margin(15));
   CHECK(holes[0].measures.track.last_scale >= 8);

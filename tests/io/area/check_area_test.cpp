@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/area/check_area.hpp"
 
-#include "engine/run/error.hpp"
 #include "io/area/height_groups.hpp"
 #include "io/area/repeated_points.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <algorithm>
-#include <random>
-#include <string>
-#include <vector>
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna::io {
 namespace {
@@ -30,7 +22,7 @@ TEST_CASE("outlines that are far too long are refused after the first pass", "[i
   std::string text;
   for (int i = 0; i < 10'000; ++i)
     text += std::to_string(place(random)) + " " + std::to_string(place(random)) + " 0\n";
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   FileScan scan({folder.write("a.xyz", text)}, {.columns = "x y z"});
   constexpr auto kCells = static_cast<std::size_t>(kEdge / kVoid * PlanGrid::kCells);
   const Area area{.polygons = {{{{0, 0}, {kEdge, 0}, {kEdge, kEdge}, {0, kEdge}}}},
@@ -40,8 +32,7 @@ TEST_CASE("outlines that are far too long are refused after the first pass", "[i
   const auto phases = [&](std::uint64_t memory) {
     PhaseNames progress;
     config.run.memory_limit = memory;
-    CHECK_THROWS_WITH(check_area(area, scan, config, progress),
-                      Catch::Matchers::Contains("outlines of voids have at least"));
+    CHECK_THROWS_WITH(check_area(area, scan, config, progress), Contains("outlines of voids have at least"));
     return progress.names;
   };
   CHECK(phases(2 << 20) == std::vector<std::string>{"area"});

@@ -2,21 +2,14 @@
 #include "io/area/geojson_polygons.hpp"
 
 #include "tests/io/io_support.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <string>
-
-#include <catch2/catch.hpp>
 
 namespace lacuna::io {
 namespace {
 
-using Catch::Matchers::Contains;
-
 constexpr std::uint64_t kMemory = 1 << 20;
 
 HeldPolygons read(const std::string& text, std::uint64_t memory = kMemory) {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   HeldPolygons polygons{.file = folder.write("a.json", text), .memory = memory};
   REQUIRE(looks_like_geojson(polygons.file));
   read_geojson_polygons(polygons);

@@ -7,14 +7,6 @@
 #include "io/area/point_density.hpp"
 #include "tests/support/draws.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <random>
-#include <vector>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::io {
 namespace {
 

@@ -2,14 +2,9 @@
 #include "io/crs/crs_text.hpp"
 
 #include "io/crs/length_unit.hpp"
-
-#include <string>
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna::test {
-using namespace io;
-
 namespace {
 
 const std::string kGeogcs =

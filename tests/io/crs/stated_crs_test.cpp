@@ -2,17 +2,10 @@
 // Without lacuna_gis.so, which is not in the folder of this program.
 #include "io/crs/stated_crs.hpp"
 
-#include "engine/run/error.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna::test {
-using namespace io;
-
 namespace {
-
-using Catch::Matchers::Contains;
 
 const std::string kUtm = "PROJCS[\"UTM 32N\",GEOGCS[\"ETRS89\",UNIT[\"degree\",0.01745]],UNIT[\"metre\",1]]";
 

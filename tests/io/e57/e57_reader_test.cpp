@@ -5,21 +5,9 @@
 #include "tests/io/broken_files.hpp"
 #include "tests/support/e57_encoder.hpp"
 
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <numbers>
-#include <random>
-#include <string>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::test {
-using namespace io;
-
 namespace {
 
-using Catch::Matchers::Contains;
 using Random = std::mt19937_64;
 
 constexpr std::size_t kPage = 1024;
@@ -49,7 +37,7 @@ struct E57Folder {
 
   // Writes a new file each time: some file systems write a file that is cut to nothing to the disk at once.
   std::string write(const std::string& bytes) const {
-    std::filesystem::remove(folder / "a.e57");
+    fs::remove(folder / "a.e57");
     return folder.write("a.e57", bytes);
   }
   Table read(const std::vector<E57TestScan>& scans, const E57FileForm& form = {},
@@ -67,7 +55,6 @@ struct E57Folder {
   }
 };
 
-using Names = std::vector<std::string>;
 using Row = std::vector<double>;
 
 TEST_CASE("points of E57 are read, with scans in order, and the reader says what it reads", "[e57]") {
@@ -94,9 +81,8 @@ TEST_CASE("integers of E57 of every number of bits are read, wherever packets an
       const std::uint64_t mask = bits == 0 ? 0 : ~std::uint64_t{0} >> (64 - bits);
       const std::int64_t minimum = bits == 64 ? std::numeric_limits<std::int64_t>::min() : -5;
       std::vector<std::int64_t> values(kPoints);
-      for (auto& value : values) {
+      for (auto& value : values)
         value = static_cast<std::int64_t>((random() & mask) + static_cast<std::uint64_t>(minimum));
-      }
       const auto maximum = static_cast<std::int64_t>(mask + static_cast<std::uint64_t>(minimum));
       const auto x = drawn(random, kPoints), y = drawn(random, kPoints), z = drawn(random, kPoints);
       E57TestScan scan{.fields = position(x, y, z), .packets = packets};
@@ -496,12 +482,12 @@ std::string small_file() {
 }
 
 // Checksums and the stated length are mended first, so that what lies behind them is read.
-void read_mended(const std::filesystem::path& file, std::size_t max_rows, std::uint64_t most_points,
+void read_mended(const fs::path& file, std::size_t max_rows, std::uint64_t most_points,
                  const PointVisitor& visit) {
   std::string bytes = read_file(file);
   if (bytes.size() >= 24) store(reinterpret_cast<std::byte*>(&bytes[16]), std::uint64_t{bytes.size()});
   repair_e57_checksums(bytes);
-  std::filesystem::remove(file);
+  fs::remove(file);
   std::ofstream(file, std::ios::binary) << bytes;
   read_scan(file, max_rows, most_points, visit);
 }

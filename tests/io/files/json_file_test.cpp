@@ -2,22 +2,16 @@
 #include "io/files/json_file.hpp"
 
 #include "tests/io/io_support.hpp"
-#include "tests/support/scratch_folder.hpp"
 
-#include <filesystem>
-#include <string>
-
-#include <catch2/catch.hpp>
 #include <sys/stat.h>
 
 namespace lacuna::io {
 namespace {
 
-using Catch::Matchers::Contains;
 using Event = Json::parse_event_t;
 
 std::string error_of(const std::string& text, const Json::parser_callback_t& keep = {}) {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   return test::error_of([&] { read_json(folder.write("a.json", text), "a result", keep); });
 }
 
@@ -36,7 +30,7 @@ TEST_CASE("JSON that could take any memory is an error of one line", "[io]") {
   CHECK_THAT(error_of("[1e999]"), Contains("beyond those of double precision"));
   CHECK_THAT(error_of("[0" + repeated(",0", 5'000'000) + "]"), Contains("more values than the 4 million"));
   CHECK(error_of("[" + std::string(900'000, ' ') + "]").empty());
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   const auto pipe = folder / "pipe.json";
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
   CHECK_THAT(test::error_of([&] { read_json(pipe, "a result"); }),
@@ -47,13 +41,13 @@ TEST_CASE("what is left out of JSON does not count, however much it is", "[io]")
   const std::string text =
       R"({"a": [[0)" + repeated(",[0]", 2'000'000) + R"(]], "b": {"c": [[1], [2]]}, "d": 3})";
   const auto keep = [](int, Event event, const Json& parsed) { return event != Event::key || parsed != "a"; };
-  const test::ScratchFolder folder;
-  const std::filesystem::path file = folder.write("a.json", text);
+  const ScratchFolder folder;
+  const fs::path file = folder.write("a.json", text);
   CHECK(read_json(file, "a result", keep) == Json::parse(R"({"b": {"c": [[1], [2]]}, "d": 3})"));
   const auto keep_flat = [](int depth, Event event, const Json&) {
     return depth != 2 || event != Event::array_end;
   };
-  const std::filesystem::path lists = folder.write("b.json", "[[0" + repeated(",[0]", 5'000'000) + "]]");
+  const fs::path lists = folder.write("b.json", "[[0" + repeated(",[0]", 5'000'000) + "]]");
   CHECK(read_json(lists, "a result", keep_flat) == Json::parse("[[0]]"));
 }
 

@@ -4,17 +4,10 @@
 #include "tests/io/io_support.hpp"
 #include "tests/support/file_size_limit.hpp"
 
-#include <catch2/catch.hpp>
 #include <sys/stat.h>
 
 namespace lacuna::test {
-using namespace io;
-
 namespace {
-
-namespace fs = std::filesystem;
-using Catch::Matchers::Contains;
-using Names = std::vector<std::string>;
 
 const FileMark kMark("mine:");
 

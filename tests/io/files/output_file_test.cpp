@@ -5,10 +5,7 @@
 #include "tests/io/io_support.hpp"
 #include "tests/support/file_size_limit.hpp"
 
-#include <catch2/catch.hpp>
-
 namespace lacuna::test {
-using namespace io;
 
 TEST_CASE("a file holds what was written to it, however large the pieces", "[io]") {
   const ScratchFolder folder;
@@ -55,8 +52,8 @@ TEST_CASE("a disk that takes no more is an error that names the file", "[io]") {
 TEST_CASE("a file is created anew: nothing that exists is opened, and no link followed", "[io]") {
   const ScratchFolder folder;
   const std::string other = folder.write("other", "precious");
-  std::filesystem::create_symlink(other, folder / "link");
-  std::filesystem::create_symlink(folder / "nothing", folder / "broken link");
+  fs::create_symlink(other, folder / "link");
+  fs::create_symlink(folder / "nothing", folder / "broken link");
   for (const std::string name : {"other", "link", "broken link"})
     CHECK(error_of([&] { OutputFile(name, folder / name); }) == name + ": cannot be created: File exists");
   CHECK(error_of([&] { OutputFile("a", folder / "none" / "a"); }) ==

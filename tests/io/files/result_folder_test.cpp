@@ -7,23 +7,11 @@
 #include "tests/support/skip.hpp"
 #include "tests/support/small_disk.hpp"
 
-#include <csignal>
-#include <fstream>
-#include <functional>
-#include <utility>
-
-#include <catch2/catch.hpp>
 #include <sys/mount.h>
 #include <sys/stat.h>
 
 namespace lacuna::test {
-using namespace io;
-
 namespace {
-
-namespace fs = std::filesystem;
-using Catch::Matchers::Contains;
-using Names = std::vector<std::string>;
 
 void put(const ResultFolder& results, const std::string& name, const std::string& content) {
   const auto file = results.open(name);
@@ -151,7 +139,7 @@ TEST_CASE("one run at a time writes results of a name, and a killed one leaves n
 
 TEST_CASE("of runs that begin at once, one goes on", "[io]") {
   const ScratchFolder folder;
-  for (int round = 0; round < 10; ++round) {
+  for (int round = 0; round < 4; ++round) {
     const auto run = [&](const std::function<void()>& wait) {
       const ResultFolder results(folder / "out");
       wait();

@@ -5,20 +5,10 @@
 #include "io/las/las_header.hpp"
 #include "io/laz/laz_encoder.hpp"
 #include "tests/io/broken_files.hpp"
-#include "tests/io/las/las_file.hpp"
+#include "tests/support/las_file.hpp"
 #include "tests/support/laz_data.hpp"
 
-#include <algorithm>
-#include <cstring>
-#include <numeric>
-#include <random>
-#include <span>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::test {
-using namespace io;
-
 namespace {
 
 // Points alike, as in a scan: a few bytes of each differ from the one before.
@@ -46,27 +36,16 @@ WholeFile plain(int minor, int format) {
   return {.name = "format_" + std::to_string(format) + ".las", .bytes = bytes, .complete_from = bytes.size()};
 }
 
-std::string as_text(std::span<const std::byte> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 // `version` of the items; `chunks`: the points of each. Points of compressor 1 are one chunk without a table.
 WholeFile compressed(int minor, int format, std::uint16_t version, const std::vector<std::uint64_t>& chunks,
                      bool has_table = true) {
-  LasFile las = las_file(minor, format, std::accumulate(chunks.begin(), chunks.end(), std::uint64_t{0}));
+  const LasFile las =
+      las_file(minor, format, std::accumulate(chunks.begin(), chunks.end(), std::uint64_t{0}));
   const bool varies = chunks.front() < *std::max_element(chunks.begin(), chunks.end());
   const auto chunk_points = varies ? laz::kVariableChunks : static_cast<std::uint32_t>(chunks.front());
   laz::Layout layout = laz_layout(format, 2, chunk_points, version);
   if (!has_table) layout.compressor = laz::compressor::kPointwise;
-  las.records.push_back(las_record("laszip encoded", 22204, as_text(laz::layout_record(layout))));
-
-  std::string bytes = las.bytes();
-  const std::string points = bytes.substr(bytes.size() - las.points.size() * las.points[0].size());
-  bytes.resize(bytes.size() - points.size());
-  put(bytes, 104, static_cast<std::uint8_t>(format | 0x80));
-  const std::span records = std::as_bytes(std::span(points));
-  bytes +=
-      as_text(has_table ? laz_point_data(layout, records, chunks, bytes.size()) : laz_chunk(layout, records));
+  const std::string bytes = laz_file(las, layout, chunks);
   // LASzip codes a point in as little as 1/4096 byte: a file of 1 KB may have 4 million points of 40 bytes.
   return {.name = "format_" + std::to_string(format) + "_version_" + std::to_string(version) + ".laz",
           .bytes = bytes,
@@ -98,9 +77,8 @@ std::vector<WholeFile> all_files() {
     for (const auto& chunks : {kFixed, kVarying}) files.push_back(compressed(2, format, 2, chunks));
   }
   for (const int format : {6, 7, 8}) {
-    for (const std::uint16_t version : {3, 4}) {
+    for (const std::uint16_t version : {3, 4})
       for (const auto& chunks : {kFixed, kVarying}) files.push_back(compressed(4, format, version, chunks));
-    }
   }
   return files;
 }
@@ -117,30 +95,27 @@ TEST_CASE("LAZ without a chunk table: more points than its bytes can hold are an
 
 TEST_CASE("LAZ with two broken chunks: the error names the first, however many threads decode", "[io]") {
   constexpr std::size_t kPoints = 20'000;
-  LasFile las = las_file(2, 0, 2 * kPoints);
+  const LasFile las = las_file(2, 0, 2 * kPoints);
   const laz::Layout layout = laz_layout(0, 2, kPoints, 2);
-  las.records.push_back(las_record("laszip encoded", 22204, as_text(laz::layout_record(layout))));
-  std::string bytes = las.bytes();
-  const std::size_t half = kPoints * las.points[0].size(), points_at = bytes.size() - 2 * half;
-  const std::string points = bytes.substr(points_at);
-  bytes.resize(points_at);
-  put(bytes, 104, std::uint8_t{0x80});
+  std::string bytes = laz_head(las, layout), points;
+  for (const std::string& point : las.points) points += point;
+  const std::size_t half = points.size() / 2, points_at = bytes.size();
   // The first breaks at its end, the second at its beginning, so that its error comes first.
-  std::string first = as_text(laz_chunk(layout, std::as_bytes(std::span(points).first(half))));
-  std::string second = as_text(laz_chunk(layout, std::as_bytes(std::span(points).last(half))));
+  std::string first = text_of(laz_chunk(layout, std::as_bytes(std::span(points).first(half))));
+  std::string second = text_of(laz_chunk(layout, std::as_bytes(std::span(points).last(half))));
   first.resize(first.size() - 100);
   put(second, las.points[0].size(), std::uint32_t{0xffffffff});
   const std::vector<laz::Chunk> chunks = {{0, first.size(), kPoints}, {0, second.size(), kPoints}};
   put(bytes, points_at, std::uint64_t{points_at + 8 + first.size() + second.size()});
-  bytes += first + second + as_text(laz::encode_chunk_table(layout, chunks));
+  bytes += first + second + text_of(laz::encode_chunk_table(layout, chunks));
 
   const ScratchFolder folder;
   const auto file = folder.write("a.laz", bytes);
   for (const std::size_t threads : {1u, 2u, 8u}) {
     std::string error;
     TaskArena(threads).for_each(1, [&](std::size_t) { error = read_error(file); });
-    CHECK_THAT(error, Catch::EndsWith("byte " + std::to_string(points_at + 8) +
-                                      ": the compressed points end too early"));
+    CHECK_THAT(error,
+               EndsWith("byte " + std::to_string(points_at + 8) + ": the compressed points end too early"));
   }
 }
 
@@ -173,7 +148,7 @@ TEST_CASE("LAZ whose header counts fewer points than its last chunk has is an er
     for (const std::uint64_t memory : {3 << 20, 64 << 20}) {  // by blocks, whole
       INFO(file.name << " within " << memory);
       CHECK_THAT(error_of([&] { read_table(path, 999, {.columns = "", .memory = memory}); }),
-                 Catch::Contains("a chunk does not end with the 20000 points"));
+                 Contains("a chunk does not end with the 20000 points"));
       const ReadOptions trusting{.columns = "", .memory = memory, .trust = Trust::kHeader};
       CHECK(read_table(path, 999, trusting).rows.size() == 50'000);
     }
@@ -197,7 +172,7 @@ TEST_CASE("LAZ whose models alone take more than the memory is an error at once"
   const ScratchFolder folder;
   const auto file = folder.write("a.laz", compressed(2, 3, 2, kFixed).bytes);
   CHECK_THAT(error_of([&] { open_scan(file, {.columns = "", .memory = 1 << 20}); }),
-             Catch::Contains("allowed: a higher memory limit"));
+             Contains("allowed: a higher memory limit"));
 }
 
 TEST_CASE("LAS and LAZ: a broken file gives one error or all its points", "[io]") {

@@ -3,11 +3,7 @@
 
 #include "tests/io/io_support.hpp"
 
-#include <catch2/catch.hpp>
-
 namespace lacuna::test {
-using namespace io;
-
 namespace {
 
 using Key = std::array<std::uint16_t, 4>;  // key, place, count, value
@@ -19,9 +15,8 @@ void take(LasCrs& crs, std::uint16_t record, const std::string& data) {
 std::string geo_keys(const std::vector<Key>& keys) {
   Bytes bytes;
   for (const std::uint16_t head : {1, 1, 0, static_cast<int>(keys.size())}) bytes << head;
-  for (const Key& key : keys) {
+  for (const Key& key : keys)
     for (const std::uint16_t number : key) bytes << number;
-  }
   return bytes.str();
 }
 

@@ -4,22 +4,10 @@
 #include "io/formats.hpp"
 #include "io/las/las_header.hpp"
 #include "tests/io/io_support.hpp"
-#include "tests/io/las/las_file.hpp"
-
-#include <array>
-#include <cstring>
-#include <ctime>
-#include <string>
-#include <vector>
-
-#include <catch2/catch.hpp>
+#include "tests/support/las_file.hpp"
 
 namespace lacuna::test {
-using namespace io;
-
 namespace {
-
-using Catch::Matchers::Contains;
 
 double value(const Table& table, std::size_t row, const std::string& column) {
   return table.rows.at(row).at(table.place(column));

@@ -4,24 +4,10 @@
 #include "io/files/little_endian.hpp"
 #include "io/laz/laz_encoder.hpp"
 #include "tests/io/mutation.hpp"
-#include "tests/support/draws.hpp"
 #include "tests/support/laz_data.hpp"
 #include "tests/support/skip.hpp"
 
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <functional>
-#include <limits>
-#include <random>
-#include <span>
-#include <string>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::test {
-using namespace io;
-
 namespace {
 
 using laz::Chunk;
@@ -112,12 +98,10 @@ LazBytes plausible_records(const Layout& layout, std::size_t points, Random& ran
       if (below(random, 20) == 0) store(at + 18, static_cast<std::uint16_t>(below(random, 5)));
       end = 20;
     }
-    for (const laz::Item& item : layout.items) {
+    for (const laz::Item& item : layout.items)
       if (item.type == laz::item_type::kGpsTime11) put_time(random, at + 20, time), end += 8;
-    }
-    for (; end < size; ++end) {
+    for (; end < size; ++end)
       if (below(random, 3) == 0) byte(end, std::to_integer<unsigned>(at[end]) + below(random, 9));
-    }
   }
   return records;
 }
@@ -183,7 +167,7 @@ std::string message(const std::function<void()>& run) {
   return "";
 }
 
-LazBytes bytes_of(const std::filesystem::path& file) {
+LazBytes bytes_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(in)), {});
   LazBytes bytes(text.size());
@@ -267,10 +251,9 @@ TEST_CASE("chunks have the bytes that an encoder of its own, written after the s
 }
 
 TEST_CASE("files that LASzip wrote have the records of their uncompressed twins", "[laz]") {
-  const std::filesystem::path folder = "/work/shared/data/las";
+  const fs::path folder = "/work/shared/data/las";
   for (const std::string file : {"simple", "autzen_trim"}) {
-    if (!std::filesystem::exists(folder / (file + ".laz")))
-      return skip((folder / file).string() + " is absent");
+    if (!fs::exists(folder / (file + ".laz"))) return skip((folder / file).string() + " is absent");
     const LazBytes twin = bytes_of(folder / (file + ".las"));
     const LazBytes records = records_of_file(bytes_of(folder / (file + ".laz")));
     const std::uint32_t data = number<std::uint32_t>(twin, 96);
@@ -282,17 +265,16 @@ TEST_CASE("files that LASzip wrote have the records of their uncompressed twins"
 }
 
 TEST_CASE("the encoder writes the bytes that LASzip wrote", "[laz]") {
-  const std::filesystem::path folder = "/work/shared/data/las";
+  const fs::path folder = "/work/shared/data/las";
   for (const std::string file : {"simple.laz", "autzen_trim.laz"}) {
-    if (!std::filesystem::exists(folder / file)) return skip((folder / file).string() + " is absent");
+    if (!fs::exists(folder / file)) return skip((folder / file).string() + " is absent");
     const LazBytes laz = bytes_of(folder / file);
     const LazBytes records = records_of_file(laz);
     const std::uint32_t data = number<std::uint32_t>(laz, 96);
     const Layout layout = laz_layout(3, 0, 50000, 2);
     std::vector<std::uint64_t> chunks;
-    for (std::uint64_t left = records.size() / layout.record_bytes(); left > 0; left -= chunks.back()) {
+    for (std::uint64_t left = records.size() / layout.record_bytes(); left > 0; left -= chunks.back())
       chunks.push_back(std::min<std::uint64_t>(left, layout.chunk_points));
-    }
     INFO(file);
     CHECK((laz_point_data(layout, records, chunks, data) == LazBytes(laz.begin() + data, laz.end())));
   }
@@ -371,21 +353,6 @@ TEST_CASE("a chunk that is cut at any byte is an error", "[laz]") {
   }
 }
 
-TEST_CASE("a chunk with changed bytes gives records or an error", "[laz]") {
-  Random random(5);
-  std::size_t errors = 0;
-  for (const Case& c : kCases) {
-    const Layout layout = layout_of(c);
-    const LazBytes chunk = laz_chunk(layout, plausible_records(layout, 40, random));
-    for (std::uint32_t i = 0; i < draws(200); ++i) {
-      const LazBytes changed = mutated_bytes(chunk, 5, i);
-      // More points than there are must end, too.
-      errors += message([&] { decoded(layout, changed, i % 2 ? 40 : 4000); }) != "";
-    }
-  }
-  CHECK(errors > 0);
-}
-
 TEST_CASE("a chunk has the same points, however few of its bytes and points are decoded at a time", "[laz]") {
   Random random(7);
   constexpr std::size_t kPoints = 300;
@@ -438,9 +405,8 @@ TEST_CASE("the layout of compressed points is read from its record", "[laz]") {
     CHECK(read.chunk_points == 50000);
     CHECK(read.record_bytes() == layout.record_bytes());
     CHECK(read.items.size() == layout.items.size());
-    for (std::size_t length = 0; length < record.size(); ++length) {
+    for (std::size_t length = 0; length < record.size(); ++length)
       CHECK_THROWS_AS(laz::parse_layout(std::span(record).first(length)), Corrupt);
-    }
   }
 }
 
@@ -474,7 +440,7 @@ TEST_CASE("layouts that are not supported are errors that name the reason", "[la
         {0, {point}, "compressor 0 is not supported (1, 2 and 3 are)"},
         {4, {point}, "compressor 4 is not supported (1, 2 and 3 are)"},
         {2, {}, "does not hold its 0 items"}})
-    CHECK_THAT(error_of({compressor, 50000, items}), Catch::Contains(part));
+    CHECK_THAT(error_of({compressor, 50000, items}), Contains(part));
   // As LASzip takes it.
   CHECK(laz::parse_layout(laz::layout_record({3, 0, {point14}})).chunk_points == laz::kVariableChunks);
 }

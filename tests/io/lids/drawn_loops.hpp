@@ -5,12 +5,6 @@
 #include "engine/model/loop.hpp"
 #include "tests/support/loop_points.hpp"
 
-#include <cmath>
-#include <numbers>
-#include <vector>
-
-#include <Eigen/Geometry>
-
 namespace lacuna::test {
 
 using Line = std::vector<Eigen::Vector3d>;

@@ -6,10 +6,6 @@
 #include "tests/io/lids/drawn_loops.hpp"
 #include "tests/io/lids/watertight.hpp"
 
-#include <cmath>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 using namespace io;
 

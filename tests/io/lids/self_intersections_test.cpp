@@ -3,8 +3,6 @@
 
 #include "tests/io/lids/drawn_loops.hpp"
 
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 using namespace io;
 using test::Line;

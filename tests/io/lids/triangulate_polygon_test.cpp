@@ -5,12 +5,6 @@
 #include "tests/io/lids/watertight.hpp"
 #include "tests/support/clouds.hpp"
 
-#include <algorithm>
-#include <limits>
-#include <span>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 using namespace io;
 using test::Line;

@@ -3,9 +3,7 @@
 #pragma once
 
 #include "io/lids/lid_mesh.hpp"
-
-#include <set>
-#include <utility>
+#include "tests/support/test.hpp"
 
 namespace lacuna::test {
 

@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/io/broken_files.hpp"
 
-#include <catch2/catch.hpp>
-
 namespace lacuna::test {
-using namespace io;
-
 namespace {
-
-using Rows = std::vector<std::vector<double>>;
-using Names = std::vector<std::string>;
 
 const std::string kMesh =
     "# by hand, from C:\\scans\\\nmtllib a.mtl\no thing\nv 1 2 3\nv 4 5 \\\n6\nvt 0 1\nvn 0 0 1\nv 7 8 9\n"
@@ -106,9 +99,8 @@ TEST_CASE("OBJ: rows stay whole across buffers and batches", "[io]") {
   const ScratchFolder folder;
   constexpr int kRows = 60'000;
   std::string content;
-  for (int i = 0; i < kRows; ++i) {
+  for (int i = 0; i < kRows; ++i)
     content += "v " + std::to_string(i) + " 0.5 -1 # a vertex\nvt 0.123456 0.654321\n";
-  }
   content += "unheard of\n";  // far from the first bytes
   for (int i = 0; i < kRows; ++i) content += "vn 0 0 " + std::to_string(i) + "\n";
   check_rows(folder.write("a.obj", content), kRows,

@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/io/broken_files.hpp"
 
-#include <catch2/catch.hpp>
-
 namespace lacuna::test {
-using namespace io;
-
 namespace {
-
-using Rows = std::vector<std::vector<double>>;
 
 const std::string kAscii =
     "solid two triangles\n  facet normal 0 0 1\n    outer loop\n      vertex 1 2 3\n      vertex 4 5 6e0\n"

@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/io/broken_files.hpp"
 
-#include <string>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::test {
-using namespace io;
-
 namespace {
 
 std::string npy(const std::string& type, const std::string& shape, bool is_fortran, const Bytes& values) {

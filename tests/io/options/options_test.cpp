@@ -3,22 +3,14 @@
 
 #include "tests/io/io_support.hpp"
 
-#include <cmath>
-#include <set>
-
-#include <catch2/catch.hpp>
 #include <sys/stat.h>
 
 namespace lacuna::io {
 namespace {
 
-using Catch::Matchers::Contains;
-using test::ScratchFolder;
-
 const Parameter& find(const std::vector<Parameter>& all, const std::string& key) {
-  for (const Parameter& parameter : all) {
+  for (const Parameter& parameter : all)
     if (parameter.key == key) return parameter;
-  }
   throw std::runtime_error("no parameter " + key);
 }
 
@@ -97,7 +89,7 @@ TEST_CASE("configs/default.toml is the printed default, byte for byte") {
 
 TEST_CASE("every file in configs is read and possible, and each of its values has an effect") {
   std::size_t files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(LACUNA_SOURCE_DIR "/configs")) {
+  for (const auto& entry : fs::directory_iterator(LACUNA_SOURCE_DIR "/configs")) {
     FilesConfig config;
     read_config(entry.path(), config);
     check_config(config);
@@ -239,7 +231,7 @@ TEST_CASE("a whole number is a number, and a size may be one") {
 
 TEST_CASE("every prefix of the default config is read or refused, never more") {
   const std::string whole = print_config(FilesConfig{});
-  for (std::size_t length = 0; length < whole.size(); length += 7) {
+  for (std::size_t length = 0; length < whole.size(); length += 23) {
     try {
       read(whole.substr(0, length));
     } catch (const Error& error) {
@@ -294,8 +286,8 @@ TEST_CASE("the least void is a length, or so many spacings, with a unit or witho
   CHECK(size("anps:0.5m") == std::pair(2., std::string("m")));
   CHECK(size("spacing2:3ft") == std::pair(6., std::string("ft")));
   CHECK(size("anps:QL2") == size("anps:0.71m"));
-  for (const char* const rule :
-       {"", "0", "m", "2.5q", "2.5input", "QL2", "spacing2:QL2", "anps:QL9", "anps:1 m "})
+  for (const char* const rule : {"", "0", "-1", "nan", "m", "2.5q", "2.5input", "QL2", "spacing2:QL2",
+                                 "spacing3:1", "anps", "anps:", "anps:QL9", "anps:1 m "})
     CHECK_THROWS_AS(size(rule), Error);
 }
 

@@ -5,19 +5,8 @@
 #include "tests/support/golden.hpp"
 #include "tests/support/skip.hpp"
 
-#include <cmath>
-#include <map>
-#include <random>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::test {
-using namespace io;
-
 namespace {
-
-using Rows = std::vector<std::vector<double>>;
-using Names = std::vector<std::string>;
 
 std::string header(const std::string& fields, std::size_t points, const std::string& data) {
   return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + fields + "WIDTH " +
@@ -110,9 +99,8 @@ std::string crowded_columns(bool with_padding) {
   std::string columns;
   std::size_t offset = 0;
   for (const auto& [bytes, is_padding] : fields) {
-    if (with_padding || !is_padding) {
+    if (with_padding || !is_padding)
       for (const std::size_t row : {0, 1}) columns += rows.substr(row * stride + offset, bytes);
-    }
     offset += bytes;
   }
   return columns;
@@ -317,7 +305,7 @@ TEST_CASE("PCD: a compressed frame of a depth camera is read as PCL wrote it", "
   const auto shared = shared_folder();
   if (!shared) return;
   const auto file = *shared / "data/pcd/milk_cartoon_all_small_clorox.pcd";
-  if (!std::filesystem::exists(file)) {
+  if (!fs::exists(file)) {
     skip("no " + file.string());
     return;
   }

@@ -1,18 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/io/broken_files.hpp"
 
-#include <cmath>
-#include <limits>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::test {
-using namespace io;
-
 namespace {
-
-using Rows = std::vector<std::vector<double>>;
-using Names = std::vector<std::string>;
 
 std::string format_of(std::endian order) {
   return order == std::endian::little ? "binary_little_endian" : "binary_big_endian";
@@ -225,8 +215,7 @@ TEST_CASE("lines may end with a carriage return alone, as those of Rhinoceros do
   CHECK(read_table(folder.write("a.ply", with_returns(kCrowdedAscii))).rows == kCrowdedRows);
   CHECK(read_table(folder.write("b.ply", with_returns("ply\n" + kCrowdedAscii.substr(4) + "\n \n"))).rows ==
         kCrowdedRows);
-  CHECK_THAT(read_error(folder.write("c.ply", with_returns(kCrowdedAscii) + "1\r")),
-             Catch::Contains("more data"));
+  CHECK_THAT(read_error(folder.write("c.ply", with_returns(kCrowdedAscii) + "1\r")), Contains("more data"));
   // The first byte of the rows is a line feed: no part of the header's last line end.
   Bytes bytes;
   bytes << std::int8_t{'\n'} << std::int8_t{'\r'} << std::int8_t{1};

@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/report/render.hpp"
 
-#include "engine/run/error.hpp"
 #include "io/report/labels.hpp"
 #include "io/report/roof.hpp"
 #include "io/report/section.hpp"
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna::io {
 namespace {
-
-using Catch::Contains;
 
 // A sheet of 21 x 21 points at z = 0 with a square hole around (15, 5), and its loop, of id 7.
 Scene sheet() {
@@ -126,7 +118,7 @@ TEST_CASE("what lies behind a chosen hole is pale, and the surface around it is 
   CHECK(colour_at(draw(scene, all, {300, 300}), all, 15, 5)[0] < 215);
 }
 
-TEST_CASE("a chosen loop is thick, and pale where the surface hides it; others are thin and pale") {
+TEST_CASE("a chosen loop is thick, and pale where the surface hides it, and others are thin and pale") {
   Scene scene = sheet();
   scene.loops.ids.push_back(8);
   scene.loops.measures.push_back(scene.loops.measures.front());

@@ -5,13 +5,6 @@
 #include "io/stations/cause.hpp"
 #include "tests/support/loop_points.hpp"
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <vector>
-
 namespace lacuna::test {
 
 // A run that has found what the test says.

@@ -7,8 +7,6 @@
 #include "tests/io/results/fake_detection.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <catch2/catch.hpp>
-
 namespace lacuna {
 using namespace io;
 
@@ -20,8 +18,8 @@ void add(test::FakeDetection& run, LoopKind kind, const std::vector<Eigen::Vecto
   run.measures.push_back({.kind = kind, .points = points.size()});
 }
 
-std::filesystem::path write(const test::ScratchFolder& scratch, const Detection& run) {
-  const std::filesystem::path obj = scratch / "lids.obj", csv = scratch / "lids.csv";
+fs::path write(const ScratchFolder& scratch, const Detection& run) {
+  const fs::path obj = scratch / "lids.obj", csv = scratch / "lids.csv";
   OutputFile out("lids.obj", obj), table("lids.csv", csv);
   TaskArena(2).for_each(1, [&](std::size_t) { write_lids_obj(run, out); });
   out.close();
@@ -39,7 +37,7 @@ TEST_CASE("lids.csv has a line for each hole, with the reason where it has no li
   add(run, LoopKind::kHole, {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}});
   add(run, LoopKind::kHole, {{0, 0, 0}, {0, 1, 0}, {0, 2, 0}});
   add(run, LoopKind::kHole, {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}});
-  const test::ScratchFolder scratch;
+  const ScratchFolder scratch;
   CHECK(test::read_file(write(scratch, run)) ==
         "loop,triangles,lid_area,reason\n"
         "0,2,2,\n"
@@ -53,7 +51,7 @@ TEST_CASE("islands in a hole stay open in the files of lids") {
   add(run, LoopKind::kOuter, {{1, 1, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}});
   add(run, LoopKind::kHole, {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}});
   run.measures[0].parent = 1;
-  const test::ScratchFolder scratch;
+  const ScratchFolder scratch;
   CHECK(test::read_file(write(scratch, run)) == "loop,triangles,lid_area,reason\n1,8,8,\n");
 }
 
@@ -63,8 +61,8 @@ TEST_CASE("a loop that is too long is not read") {
   run.measures[0].points = kMostLoopPoints + 1;
   Detection detection = run;
   detection.for_each_loop_point = [](std::size_t, const auto&) { FAIL("it was read"); };
-  const test::ScratchFolder scratch;
-  CHECK_THAT(test::read_file(write(scratch, detection)), Catch::EndsWith("0,0,,more than 5000 points\n"));
+  const ScratchFolder scratch;
+  CHECK_THAT(test::read_file(write(scratch, detection)), EndsWith("0,0,,more than 5000 points\n"));
 }
 
 }  // namespace lacuna

@@ -7,20 +7,11 @@
 #include "tests/io/io_support.hpp"
 #include "tests/io/results/fake_detection.hpp"
 #include "tests/support/clouds.hpp"
-
-#include <cmath>
-#include <cstring>
-#include <limits>
-
-#include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
+#include "tests/support/json.hpp"
 
 namespace lacuna::test {
-using namespace io;
-
 namespace {
 
-using Catch::Matchers::Contains;
 using Point = Eigen::Vector3d;
 using Points = std::vector<Point>;
 
@@ -78,7 +69,7 @@ void check_near(const Points& points, const Points& expected, double rounding) {
     REQUIRE((points[i] - expected[i]).cwiseAbs().maxCoeff() <= rounding);
 }
 
-Points read_points(const std::filesystem::path& file) {
+Points read_points(const fs::path& file) {
   Points points;
   for (const auto& row : read_table(file).rows) points.push_back({row[0], row[1], row[2]});
   return points;
@@ -112,7 +103,7 @@ TEST_CASE("with local coordinates, floats and the offset of a header are the coo
     check_near(raw_floats(file, "end_header\n", rows, row_bytes), local, kRounding);
     check_near(read_points(folder / "ply" / name), points, kRounding);
   }
-  const auto json = nlohmann::json::parse(read_file(folder / "ply" / "holes.json"));
+  const auto json = json_of(read_file(folder / "ply" / "holes.json"));
   CHECK(json.at("offset") == nlohmann::json{500'050, 5'400'040, 300});
   CHECK(json.at("loops")[0].at("coordinates")[1] ==
         nlohmann::json{points[1].x(), points[1].y(), points[1].z()});

@@ -4,18 +4,8 @@
 
 #include "io/results/results.hpp"
 #include "tests/io/io_support.hpp"
-#include "tests/io/las/las_file.hpp"
 #include "tests/io/results/fake_detection.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <cstring>
-#include <random>
-#include <string>
-#include <vector>
-
-#include <catch2/catch.hpp>
+#include "tests/support/las_file.hpp"
 
 namespace lacuna::test {
 

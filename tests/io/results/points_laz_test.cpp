@@ -11,11 +11,9 @@
 namespace lacuna::test {
 using namespace io;
 
-using Catch::Matchers::Contains;
-
 namespace {
 
-std::string records_of(const std::filesystem::path& file) {
+std::string records_of(const fs::path& file) {
   InputFile in(file);
   const LasHeader header = read_las_header(in);
   const auto points = las_points(in, header, Trust::kNeither, std::uint64_t{1} << 30);
@@ -25,21 +23,21 @@ std::string records_of(const std::filesystem::path& file) {
 }
 
 // The annotated file of one file, with five points.
-std::filesystem::path write_points(const ScratchFolder& folder, const std::filesystem::path& file) {
+fs::path write_points(const ScratchFolder& folder, const fs::path& file) {
   FileScan scan({file}, {});
   write_results(FakeDetection().with_results(5), scan, las_config(), folder / "out");
   const auto points = folder / "out" / "points";
-  return std::filesystem::directory_iterator(points)->path();
+  return fs::directory_iterator(points)->path();
 }
 
 // The points as LAZ, in blocks that do not end where chunks do.
-std::filesystem::path compress(const ScratchFolder& folder, int format, const laz::Layout& layout,
-                               const std::string& points, std::uint64_t memory) {
+fs::path compress(const ScratchFolder& folder, int format, const laz::Layout& layout,
+                  const std::string& points, std::uint64_t memory) {
   LasFile empty{.minor = 4, .format = format};
   empty.points = {std::string(las_point_bytes(format), '\0')};
-  const std::filesystem::path origin = folder.write("origin.las", empty.bytes());
+  const fs::path origin = folder.write("origin.las", empty.bytes());
   const auto file = folder / "a.laz";
-  std::filesystem::remove(file);
+  fs::remove(file);
   InputFile in(origin);
   const LasHeader header = read_las_header(in);
   OutputFile out(file, file);
@@ -72,22 +70,9 @@ std::string with_extended(std::string bytes, const std::string& record) {
   return bytes + record;
 }
 
-// The bytes of a drawn file as LAZ.
-std::string laz_bytes(LasFile las) {
-  const std::size_t record = las.points[0].size(), count = las.points.size();
-  const auto extra = static_cast<std::uint16_t>(record - las_point_bytes(las.format));
-  const laz::Layout layout = laz::layout_of(las.format, extra);
-  const std::vector<std::byte> described = laz::layout_record(layout);
-  las.records.push_back(las_record("laszip encoded", 22204,
-                                   {reinterpret_cast<const char*>(described.data()), described.size()}));
-  std::string bytes = las.bytes();
-  const std::string points = bytes.substr(bytes.size() - count * record);
-  bytes.resize(bytes.size() - points.size());
-  const auto data = laz_point_data(layout, std::as_bytes(std::span(points)),
-                                   std::vector<std::uint64_t>{count}, bytes.size());
-  bytes.append(reinterpret_cast<const char*>(data.data()), data.size());
-  put(bytes, 104, static_cast<std::uint8_t>(las.format | 0x80));
-  return bytes;
+std::string laz_bytes(const LasFile& las) {
+  const auto extra = static_cast<std::uint16_t>(las.points[0].size() - las_point_bytes(las.format));
+  return laz_file(las, laz::layout_of(las.format, extra), {las.points.size()});
 }
 
 }  // namespace
@@ -151,7 +136,7 @@ TEST_CASE("compressed points are read as they were written, for every number of 
       std::string one;
       for (const std::size_t threads : {1u, 2u, 8u}) {
         for (const std::uint64_t memory : {std::uint64_t{0}, std::uint64_t{1} << 30}) {
-          std::filesystem::path file;
+          fs::path file;
           TaskArena(threads).for_each(
               1, [&](std::size_t) { file = compress(folder, format, layout, points, memory); });
           const std::string bytes = read_file(file);

@@ -3,21 +3,11 @@
 
 #include "io/results/results.hpp"
 #include "tests/io/io_support.hpp"
-#include "tests/io/las/las_file.hpp"
 #include "tests/io/results/fake_detection.hpp"
-
-#include <algorithm>
-#include <filesystem>
-
-#include <catch2/catch.hpp>
+#include "tests/support/las_file.hpp"
 
 namespace lacuna::test {
-using namespace io;
-
 namespace {
-
-using Catch::Matchers::Contains;
-using Names = std::vector<std::string>;
 
 FilesConfig with_points(PointsFormat format = PointsFormat::kInput) {
   FilesConfig config;
@@ -52,7 +42,7 @@ TEST_CASE(
     "each file of a scan has its annotated one of the same name in the folder points, in its own format",
     "[io][results]") {
   const ScratchFolder folder;
-  std::filesystem::create_directory(folder / "in");
+  fs::create_directory(folder / "in");
   const std::vector<std::pair<std::string, std::string>> inputs = {
       {"a.xyz", kText},       {"b.ply", kPly}, {"c.d.pcd", ascii_pcd("1 2 3\n")},
       {"e.LAS", las_bytes()}, {"f", kPly},     {"g.obj", "v 1 2 3\n"}};
@@ -79,7 +69,7 @@ TEST_CASE(
 TEST_CASE("files of one name from two folders are an error before the work, but with one file for all",
           "[io][results]") {
   const ScratchFolder folder;
-  for (const char* name : {"a", "b"}) std::filesystem::create_directory(folder / name);
+  for (const char* name : {"a", "b"}) fs::create_directory(folder / name);
   const FileScan scan({folder.write("a/x.xyz", kText), folder.write("b/x.txt", kText)}, {});
   const auto check = [&](const FilesConfig& config) { return error_of([&] { check_points(scan, config); }); };
   CHECK_THAT(check(with_points()), Contains("b/x.txt: ") && Contains("would both be points/x.csv"));
@@ -109,10 +99,10 @@ TEST_CASE("the annotated scan of an earlier run goes, whatever its files were", 
   const auto out = folder / "out", points = out / "points";
   for (const PointsFormat format : {PointsFormat::kInput, PointsFormat::kPly, PointsFormat::kCsv}) {
     write_results(of_many, many, with_points(format), out);
-    CHECK(std::filesystem::exists(points) == (format == PointsFormat::kInput));
+    CHECK(fs::exists(points) == (format == PointsFormat::kInput));
     write_results(of_one, one, with_points(), out);
     CHECK(names_of(points) == Names{"d.ply"});
-    for (const char* name : {"points.ply", "points.csv"}) CHECK_FALSE(std::filesystem::exists(out / name));
+    for (const char* name : {"points.ply", "points.csv"}) CHECK_FALSE(fs::exists(out / name));
   }
   folder.write("out/points/mine.ply", kPly);
   CHECK_THAT(error_of([&] { write_results(of_one, one, FilesConfig{}, out); }),
@@ -207,9 +197,8 @@ TEST_CASE("blocks of results do not change the bytes of any format", "[io][resul
         config.run.threads = threads;
         write_results(detection, scan, config, folder / "out");
         std::string bytes;
-        for (const char* name : {"points.ply", "points.csv", "points/a.csv", "points/b.las"}) {
-          if (std::filesystem::exists(folder / "out" / name)) bytes += read_file(folder / "out" / name);
-        }
+        for (const char* name : {"points.ply", "points.csv", "points/a.csv", "points/b.las"})
+          if (fs::exists(folder / "out" / name)) bytes += read_file(folder / "out" / name);
         CHECK(bytes.size() > 1000);
         if (one.empty()) one = bytes;
         CHECK((bytes == one));

@@ -4,14 +4,8 @@
 #include "io/scan/file_scan.hpp"
 #include "tests/io/io_support.hpp"
 
-#include <catch2/catch.hpp>
-
 namespace lacuna::test {
-using namespace io;
-
 namespace {
-
-using Catch::Matchers::Contains;
 
 // A quarter turn around z, then a move.
 constexpr const char* kMatrix = "0 -1 0 10\n1 0 0 20\n0 0 1 30\n0 0 0 1\n";

@@ -4,18 +4,7 @@
 #include "tests/io/io_support.hpp"
 #include "tests/support/clouds.hpp"
 
-#include <chrono>
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <functional>
-#include <thread>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::test {
-using namespace io;
-
 namespace {
 
 const std::string kIntegers =
@@ -103,34 +92,34 @@ TEST_CASE("a missing or broken file is an error before any point is read", "[io]
 }
 
 // Keeps size and time.
-void replace_by_copy(const std::filesystem::path& file) {
-  const auto copy = std::filesystem::path(file).concat(".copy");
-  std::filesystem::copy_file(file, copy);
-  std::filesystem::last_write_time(copy, std::filesystem::last_write_time(file));
-  std::filesystem::rename(copy, file);
+void replace_by_copy(const fs::path& file) {
+  const auto copy = fs::path(file).concat(".copy");
+  fs::copy_file(file, copy);
+  fs::last_write_time(copy, fs::last_write_time(file));
+  fs::rename(copy, file);
 }
 
 TEST_CASE("a file that is not the one that was opened first is an error that says what differs", "[io]") {
   const ScratchFolder folder;
   const auto write = [&] { return folder.write("b.ply", kNormals); };
   const auto later = [](const auto& file, int milliseconds) {
-    const auto time = std::filesystem::last_write_time(file);
-    std::filesystem::last_write_time(file, time + std::chrono::milliseconds(milliseconds));
+    const auto time = fs::last_write_time(file);
+    fs::last_write_time(file, time + std::chrono::milliseconds(milliseconds));
   };
   const auto write_with_time_set_back = [](const auto& file) {
-    const auto time = std::filesystem::last_write_time(file);
+    const auto time = fs::last_write_time(file);
     std::fstream(file, std::ios::in | std::ios::out | std::ios::binary).seekp(-2, std::ios::end) << "9";
-    std::filesystem::last_write_time(file, time);
+    fs::last_write_time(file, time);
   };
-  const std::vector<std::pair<std::string, std::function<void(const std::filesystem::path&)>>> changes = {
+  const std::vector<std::pair<std::string, std::function<void(const fs::path&)>>> changes = {
       {"its content, names, owner or permissions", write_with_time_set_back},
       {"another file", replace_by_copy},
       {"bytes", [&](const auto&) { folder.write("b.ply", kNormals + "\n"); }},
       {"written to", [&](const auto& file) { later(file, 1); }},
       {"written to", [&](const auto& file) { later(file, -1); }},
-      {"cannot be found", [](const auto& file) { std::filesystem::remove(file); }}};
+      {"cannot be found", [](const auto& file) { fs::remove(file); }}};
   for (const auto& [named, change] : changes) {
-    const std::filesystem::path file = write();
+    const fs::path file = write();
     FileScan scan({folder.write("a.ply", kNormals), file}, {});
     CHECK(error_of([&] { scan.check_unchanged(); }).empty());
     CHECK(read_all(scan).positions.size() == 2);
@@ -155,7 +144,7 @@ TEST_CASE("a point too far away is an error that names its file and its place in
   const ScratchFolder folder;
   FileScan scan({folder.write("a.xyz", "1 2 3\n"), folder.write("b.xyz", "1 2 3\n1 -1e200 3\n")}, {});
   CHECK_THAT(error_of([&] { read_all(scan); }),
-             Catch::Contains("b.xyz: point 1 lies at 1 -1e+200 3; coordinates must be within 1e30"));
+             Contains("b.xyz: point 1 lies at 1 -1e+200 3; coordinates must be within 1e30"));
   FileScan bounded({folder.write("b.xyz", "1 2 3\n1 -1e200 3\n")}, {.bounds = {0, 0, 9, 9}});
   CHECK(error_of([&] { read_all(bounded); }).empty());
 }

@@ -4,21 +4,8 @@
 #include "io/scan/file_scan.hpp"
 #include "tests/support/drawn_files.hpp"
 #include "tests/support/golden.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <functional>
-#include <numbers>
-#include <random>
-#include <sstream>
-
-#include <catch2/catch.hpp>
 
 namespace lacuna::test {
-using namespace io;
-
 namespace {
 
 using Positions = std::vector<Eigen::Vector3d>;

@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/scan/file_scan.hpp"
 #include "tests/io/io_support.hpp"
-#include "tests/io/las/las_file.hpp"
-
-#include <cmath>
-
-#include <catch2/catch.hpp>
+#include "tests/support/las_file.hpp"
 
 namespace lacuna::test {
-using namespace io;
-
 namespace {
-
-using Catch::Matchers::Contains;
 
 const std::string kRows =
     "x y z Classification ReturnNumber NumberOfReturns\n"
@@ -35,9 +27,8 @@ Filtered read_filtered(const std::vector<ScanInput>& inputs, const InputConfig& 
     filtered.kept.clear();
     scan.rewind();
     for (PointBatch batch; scan.next(batch);) {
-      for (std::size_t i = 0; i < batch.size(); ++i) {
+      for (std::size_t i = 0; i < batch.size(); ++i)
         if (batch.positions[i].allFinite()) filtered.kept.push_back(static_cast<int>(value(batch.id(i))));
-      }
     }
   }
   filtered.out = scan.filtered_out();

@@ -5,13 +5,6 @@
 #include "engine/pipeline.hpp"
 #include "io/stations/next_stations.hpp"
 #include "tests/io/stations/true_causes.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <algorithm>
-#include <optional>
-#include <vector>
-
-#include <catch2/catch.hpp>
 
 namespace lacuna::io {
 namespace {
@@ -64,7 +57,7 @@ struct Found {
     return area;
   }
 
-  test::ScratchFolder folder;
+  ScratchFolder folder;
   synth::ScanOptions options;
   std::unique_ptr<StationViews> views;
   std::optional<ExplainedDetection> detection;
@@ -98,9 +91,9 @@ TEST_CASE("what a filter has left out is the cause of the hole that it leaves") 
 }
 
 TEST_CASE("the points of several stations taken for those of one have little certainty, and give no cause") {
-  const Found found(synth::SceneKind::kStreet, 3, 400'000);
+  const Found found(synth::SceneKind::kStreet, 3, 200'000);
   for (const StationSummary& station : found.detection->stations) CHECK(station.certainty > 0.99);
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   FileScan scan({found.options.out}, {});
   StationViews views(scan, folder.write("one.txt", "one 20 8 1.5\n"), folder.path());
   ExplainedDetection detection = *found.detection;
@@ -119,12 +112,11 @@ TEST_CASE("causes of a scan from a moving scanner are those of its scene") {
 }
 
 TEST_CASE("a trajectory needs times of the points") {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   FileScan scan({folder.write("a.xyz", "1 2 3\n")}, {});
   OutputConfig config;
   config.stations = folder.write("path.txt", "time x y z\n0 0 0 0\n1 1 0 0\n");
-  CHECK_THROWS_WITH(watch_stations(scan, config, folder.path()),
-                    Catch::Contains("a.xyz: has no column gps_time"));
+  CHECK_THROWS_WITH(watch_stations(scan, config, folder.path()), Contains("a.xyz: has no column gps_time"));
 }
 
 // How much of the hidden places on surfaces a scan from the first proposed place samples, over what was

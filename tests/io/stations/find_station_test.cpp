@@ -3,14 +3,7 @@
 
 #include "bench/synth/scan.hpp"
 #include "bench/synth/scanner.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <vector>
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna::io {
 namespace {
@@ -83,11 +76,11 @@ TEST_CASE("no more than so many jumps stand for all") {
 }
 
 TEST_CASE("stations of a synthetic scan are found from its sweeps") {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   synth::ScanOptions options;
   options.out = folder / "scan.ply";
   options.scene = synth::SceneKind::kPlant;
-  options.points = 200'000;
+  options.points = 100'000;
   synth::write_scan(options);
   const synth::Scanner scanner(options, synth::make_scene(options.scene, options.seed));
   FileScan scan({options.out}, {});

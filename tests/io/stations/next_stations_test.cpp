@@ -2,13 +2,7 @@
 #include "io/stations/next_stations.hpp"
 
 #include "tests/support/clouds.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna::io {
 namespace {

@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/stations/path_view.hpp"
 
-#include "engine/run/error.hpp"
 #include "io/stations/find_causes.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <numbers>
-#include <vector>
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna::io {
 namespace {
-
-using Catch::Matchers::Contains;
 
 // A scanner drives from 0 to 20 along x, 2 over a floor, and turns around its path. A wall stands at y = 5,
 // with a window, and a screen before a part of it.
@@ -65,7 +54,7 @@ class Drive {
   }
 
  private:
-  test::ScratchFolder folder_;
+  ScratchFolder folder_;
 
  public:
   PathView view;
@@ -108,7 +97,7 @@ TEST_CASE("points without a time of the path make a moving scanner uncertain, an
 TEST_CASE("a path beside the places of the scanner is not certain, near or far") {
   for (const Eigen::Vector3d& off : {Eigen::Vector3d(0, 30, 0), {0, 300, 0}, {300, 0, 0}, {0, 0, 3e6}}) {
     INFO(off);
-    const test::ScratchFolder folder;
+    const ScratchFolder folder;
     PathView view({{100, 102}, {Eigen::Vector3d(0, 0, 2) + off, Eigen::Vector3d(20, 0, 2) + off}}, "path.txt",
                   1, folder.path(), 1 << 20);
     measure(view);
@@ -119,7 +108,7 @@ TEST_CASE("a path beside the places of the scanner is not certain, near or far")
 
 // 7 / (7 * 0.02) is less than 50 in floating point, 7 / 0.02 is 350.
 TEST_CASE("a point at the very end of a path is measured from a section of it") {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   PathView view({{100, 102}, {{0, 0, 0}, {7, 0, 0}}}, "path.txt", 1, folder.path(), 1 << 20);
   const Eigen::Vector3d point(7, 14.5, 0);
   view.add(102, point, true);

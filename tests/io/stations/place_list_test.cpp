@@ -3,12 +3,10 @@
 
 #include "tests/io/io_support.hpp"
 
-#include <catch2/catch.hpp>
-
 namespace lacuna::io {
 
 TEST_CASE("a list of places has x y z on each line, and maybe a name before them") {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   const auto places = read_places(folder.write("places.txt",
                                                "name;x;y;z\n"
                                                "# a comment\n"
@@ -31,7 +29,7 @@ TEST_CASE("a list of places has x y z on each line, and maybe a name before them
 }
 
 TEST_CASE("an error in a list of places names the file, the line and what is needed") {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   const std::string needed = "x y z are needed, or a name and x y z";
   test::check_reasons({{"", "places.txt: names no place"},
                        {"", needed},
@@ -47,7 +45,7 @@ TEST_CASE("an error in a list of places names the file, the line and what is nee
                       [&](const std::string& text) {
                         return test::error_of([&] { read_places(folder.write("places.txt", text)); });
                       });
-  CHECK_THROWS_WITH(read_places(folder / "none.txt"), Catch::Contains("none.txt: cannot be opened"));
+  CHECK_THROWS_WITH(read_places(folder / "none.txt"), Contains("none.txt: cannot be opened"));
 }
 
 }  // namespace lacuna::io

@@ -4,12 +4,10 @@
 #include "io/stations/range_image.hpp"
 #include "tests/io/io_support.hpp"
 
-#include <catch2/catch.hpp>
-
 namespace lacuna::io {
 namespace {
 
-const std::vector<std::filesystem::path> kFiles = {"survey/a.laz", "survey/b.laz", "old/a.laz"};
+const std::vector<fs::path> kFiles = {"survey/a.laz", "survey/b.laz", "old/a.laz"};
 
 // The first file alone has no numbers.
 std::vector<RowLayout> layouts() {
@@ -18,14 +16,14 @@ std::vector<RowLayout> layouts() {
   return all;
 }
 
-std::vector<Station> read(const test::ScratchFolder& folder, const std::string& text) {
+std::vector<Station> read(const ScratchFolder& folder, const std::string& text) {
   return read_stations(folder.write("stations.txt", text), kFiles, layouts());
 }
 
 }  // namespace
 
 TEST_CASE("a file of stations has names, places and what each has measured") {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   const auto stations = read(folder,
                              "name;x;y;z;file\n"
                              "# a comment\n"
@@ -48,14 +46,14 @@ TEST_CASE("a file of stations has names, places and what each has measured") {
   CHECK(unnamed[0].place == Eigen::Vector3d(1.5, 2, 3));
   CHECK(read(folder, "Name;X;Y;Z\nS1;1,5;2,5;-3,5\n")[0].place == Eigen::Vector3d(1.5, 2.5, -3.5));
   // A whole name, though another file's ends in it.
-  const std::vector<std::filesystem::path> files = {"old/a.laz", "a.laz"};
+  const std::vector<fs::path> files = {"old/a.laz", "a.laz"};
   const auto whole = read_stations(folder.write("stations.txt", "south 4 5 6 a.laz\n"), files, layouts());
   REQUIRE(whole.size() == 1);
   CHECK(whole[0].file == std::optional<std::size_t>(1));
 }
 
 TEST_CASE("an error in a file of stations names the line and what is needed") {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   test::check_reasons(
       {{"", "names no station"},
        {"a 1 2\n", "line 1"},
@@ -72,12 +70,11 @@ TEST_CASE("an error in a file of stations names the line and what is needed") {
        {"a 1 2 3 survey/a.laz 4\n", "line 1: a has the number 4, and survey/a.laz has no column scan"}},
       [&](const std::string& text) { return test::error_of([&] { read(folder, text); }); });
   const auto none = [&] { read_stations(folder.write("stations.txt", "a 1 2 3 4\n"), kFiles, {}); };
-  CHECK_THAT(test::error_of(none),
-             Catch::Matchers::Contains("line 1: a has the number 4, and no file has a column scan"));
+  CHECK_THAT(test::error_of(none), Contains("line 1: a has the number 4, and no file has a column scan"));
 }
 
 TEST_CASE("a range image keeps the nearest range of each direction, and fills gaps as far as wanted") {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   RangeImage image(folder.path());
   for (std::size_t cell = 0; cell < RangeImage::kCells; cell += 9'973) {
     const Eigen::Vector3d direction = direction_of(cell, RangeImage::kEdge);

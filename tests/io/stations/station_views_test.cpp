@@ -3,18 +3,9 @@
 
 #include "tests/support/drawn_files.hpp"
 #include "tests/support/e57_encoder.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <catch2/catch.hpp>
 
 namespace lacuna::io {
 namespace {
-
-using test::ScratchFolder;
 
 std::vector<StationSummary> stations_of(std::vector<ScanInput> inputs, const OutputConfig& config = {},
                                         PointsOfNone* of_none = nullptr) {

@@ -3,23 +3,13 @@
 
 #include "tests/io/io_support.hpp"
 
-#include <algorithm>
-#include <string>
-#include <vector>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::io {
 namespace {
 
-using Catch::Matchers::Contains;
-
 std::optional<Trajectory> read(const std::string& text, std::uint64_t memory = 1 << 20) {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   return read_trajectory(folder.write("path.txt", text), memory);
 }
-
-}  // namespace
 
 TEST_CASE("a trajectory has its columns by the names of its header, in any order of columns and lines") {
   const auto path = read(
@@ -89,8 +79,6 @@ TEST_CASE("an error in a trajectory names the line or the column") {
   test::check_reasons(cases, [](const std::string& text) { return test::error_of([&] { read(text); }); });
 }
 
-namespace {
-
 // A drive along x at speed 10, with a row each tenth of a second. Rows of `off` lie at `place` instead.
 std::string drive(const std::vector<int>& off, const std::string& place, int standing = 0) {
   std::string text = "time x y z\n";
@@ -101,8 +89,6 @@ std::string drive(const std::vector<int>& off, const std::string& place, int sta
   }
   return text;
 }
-
-}  // namespace
 
 TEST_CASE("rows far off a path are left out and counted, wherever they are") {
   std::vector<int> tenth;
@@ -166,4 +152,5 @@ TEST_CASE("a scanner measures in directions that have many rays, not in those of
   CHECK_FALSE(swept.contains({0, -1, 0}));
 }
 
+}  // namespace
 }  // namespace lacuna::io

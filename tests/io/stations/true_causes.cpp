@@ -4,9 +4,6 @@
 #include "bench/synth/visibility.hpp"
 #include "io/stations/find_causes.hpp"
 
-#include <cmath>
-#include <optional>
-
 namespace lacuna::test {
 namespace {
 

@@ -5,9 +5,7 @@
 #include "bench/synth/scanner.hpp"
 #include "io/stations/cause.hpp"
 #include "io/stations/inside_places.hpp"
-
-#include <array>
-#include <span>
+#include "tests/support/test.hpp"
 
 namespace lacuna::test {
 

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/stations/upward.hpp"
 
-#include <cmath>
-#include <vector>
-
-#include <catch2/catch.hpp>
-#include <Eigen/Geometry>
+#include "tests/support/test.hpp"
 
 namespace lacuna::io {
 namespace {

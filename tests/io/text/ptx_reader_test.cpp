@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/io/broken_files.hpp"
 
-#include <cmath>
-#include <string>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::test {
-using namespace io;
-
 namespace {
 
 // Turned by a quarter about z, and moved.
@@ -61,8 +54,6 @@ TEST_CASE("what is wrong in PTX is said with its line", "[io]") {
                           {"9999999999999\n9999999999999\n" + kStill, "a grid of"}});
 }
 
-namespace {
-
 // A block of three rays, which lie one apart from `first` on along x.
 std::string block(const std::string& place, const std::string& matrix, double first = 1) {
   std::string text = "3\n1\n" + place + "\n1 0 0\n0 1 0\n0 0 1\n" + matrix + "\n";
@@ -71,8 +62,6 @@ std::string block(const std::string& place, const std::string& matrix, double fi
 }
 
 const std::string kUnturned = "1 0 0 0\n0 1 0 0\n0 0 1 0\n";
-
-}  // namespace
 
 TEST_CASE("a matrix of PTX is a pose, as in a list of files", "[io]") {
   const std::string rays = "the matrix by columns, ", odd = rays + "the matrix of a pose does not turn";

@@ -1,18 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/io/broken_files.hpp"
 
-#include <cmath>
-#include <functional>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::test {
-using namespace io;
-
 namespace {
-
-using Rows = std::vector<std::vector<double>>;
-using Names = std::vector<std::string>;
 
 // A beginning is complete where a row ends, and a counted block.
 std::vector<WholeFile> whole_files() {
@@ -49,8 +39,6 @@ std::string number(int i) {
 }
 
 const Names kThree = {"x", "y", "z"};
-
-}  // namespace
 
 TEST_CASE("blanks, commas and semicolons divide the values of a row, the header's too", "[io]") {
   for (const std::string text :
@@ -97,8 +85,6 @@ TEST_CASE("a first column that counts the rows, and whole numbers before decimal
   CHECK(read("id,x,y,z\n" + ids).rows.size() == 50);
 }
 
-namespace {
-
 // A hilly grid of heights, with another value where `is_missing` says so.
 double height(int row, int column) {
   return 300 + 5 * std::sin(0.11 * row) + 4 * std::cos(0.13 * column);
@@ -115,23 +101,21 @@ std::string matrix(
   });
 }
 
-}  // namespace
-
 TEST_CASE("a matrix of heights is no list of points", "[io]") {
   const std::string part = "a matrix of 40 x 30, as of heights or depths; points need x y z";
   for (const std::string separator : {" ", ",", "\t"})
-    CHECK_THAT(error(matrix(40, 30, separator)), Catch::Contains(part));
+    CHECK_THAT(error(matrix(40, 30, separator)), Contains(part));
   CHECK_THAT(error(matrix(40, 30, " ", [](int row, int column) { return column < 10 || row > 30; })),
-             Catch::Contains(part));
+             Contains(part));
   CHECK_THAT(error(matrix(40, 30, " ", [](int row, int column) { return (7 * row + 3 * column) % 10 < 3; })),
-             Catch::Contains(part));
+             Contains(part));
   // With a row and a column of numbers, as pandas writes it.
   const std::string numbered = rows(30, [](int row) {
     std::string text = number(row);
     for (int column = 0; column < 30; ++column) text += "," + std::to_string(height(row, column));
     return text;
   });
-  CHECK_THAT(error(numbered), Catch::Contains("a matrix of 30 x 31"));
+  CHECK_THAT(error(numbered), Contains("a matrix of 30 x 31"));
   std::string names = "x y z";
   for (int column = 3; column < 30; ++column) names += " a" + number(column);
   CHECK(read(matrix(40, 30, " "), names).rows.size() == 40);
@@ -173,7 +157,7 @@ TEST_CASE("commas and blanks that mean two things are an error of one line", "[i
   const std::string commas = "line 1: commas divide the values, and may begin their decimals, too, in '";
   for (const std::string& text : {with_commas(",", 3, 500'000), with_commas(", ", 2, 0.5),
                                   with_commas(",", 1, 500), with_commas(",", 3, 7, ",88")})
-    CHECK_THAT(error(text), Catch::Contains(commas));
+    CHECK_THAT(error(text), Contains(commas));
   CHECK(read(with_commas(",", 3, 500), "x y z a b c").rows.size() == 40);
   CHECK(read(with_commas(";", 3, 500)).rows[1][0] == 500.317);
 
@@ -184,20 +168,19 @@ TEST_CASE("commas and blanks that mean two things are an error of one line", "[i
       return "500 3" + number(10 + i) + ".25" + between + "5 400 4" + number(20 + i) + ".36" + between +
              "99.5";
     });
-    CHECK_THAT(error(text), Catch::Contains(blanks));
+    CHECK_THAT(error(text), Contains(blanks));
   }
   CHECK_THAT(error(rows(20, [&](int i) { return "7 0" + number(10 + i) + ".25 8.5 99.5"; })),
-             Catch::Contains(blanks));
+             Contains(blanks));
   CHECK_THAT(
       error(rows(
           20, [](int i) { return "500,3" + number(10 + i) + ".25,5,400,4" + number(20 + i) + ".5,99.5"; })),
-      Catch::Contains("line 1: commas divide the values, and may divide the thousands"));
+      Contains("line 1: commas divide the values, and may divide the thousands"));
   for (const char* cell : {"500'000.25", "500.000,25", "5.400.000",
                            "500\xc2\xa0"
                            "000.25"})
-    CHECK_THAT(
-        error("x;y;z\n1;2;3\n4;" + std::string(cell) + ";6\n"),
-        Catch::Contains("line 3: ") && Catch::Contains(" is not a number; thousands must not be divided"));
+    CHECK_THAT(error("x;y;z\n1;2;3\n4;" + std::string(cell) + ";6\n"),
+               Contains("line 3: ") && Contains(" is not a number; thousands must not be divided"));
 
   // Whole numbers and colours have neither.
   CHECK(read(rows(20, [](int i) {
@@ -220,7 +203,7 @@ TEST_CASE("lines before the rows may come again, as where files were joined", "[
   }
   CHECK(reader->findings().repeated_lines == 2);
   CHECK_THAT(error("x,y,z\n1,2,3\ny,x,z\n"),
-             Catch::Contains("line 3: 'y' is not a number, and no value of its line is"));
+             Contains("line 3: 'y' is not a number, and no value of its line is"));
 }
 
 TEST_CASE("x on a grid is x", "[io]") {
@@ -328,8 +311,8 @@ TEST_CASE("columns of a header may be given other names", "[io]") {
   const Table table = read(text, "x=Ost y=Nord z=Hoehe");
   CHECK(table.names == Names{"y", "x", "z", "I"});
   CHECK(table.rows == Rows{{1, 2, 3, 4}});
-  CHECK_THAT(error(text), Catch::Contains("but 'Nord', 'Ost', 'Hoehe', 'I'; --columns x=...,y=...,z=..."));
-  CHECK_THAT(error(text, "x=East y=Nord z=Hoehe"), Catch::Contains("no column for 'x=East'"));
+  CHECK_THAT(error(text), Contains("but 'Nord', 'Ost', 'Hoehe', 'I'; --columns x=...,y=...,z=..."));
+  CHECK_THAT(error(text, "x=East y=Nord z=Hoehe"), Contains("no column for 'x=East'"));
 }
 
 TEST_CASE("a header line alone is an empty scan, comments alone are none", "[io]") {
@@ -360,8 +343,8 @@ TEST_CASE("a row that does not fit is an error that names its line", "[io]") {
                           {"1 2 3\n4 5 \x01\x02\n",
                            "line 2: '?"
                            "?' is not a number"}});
-  CHECK_THAT(error("1 2 3\n", "x y z w"), Catch::Contains("line 1: fewer"));
-  CHECK_THAT(error("1 2 3\n", "x y"), Catch::Contains("no columns"));
+  CHECK_THAT(error("1 2 3\n", "x y z w"), Contains("line 1: fewer"));
+  CHECK_THAT(error("1 2 3\n", "x y"), Contains("no columns"));
 }
 
 TEST_CASE("lines of text stay whole across buffers and batches", "[io]") {
@@ -379,4 +362,5 @@ TEST_CASE("many broken files of text give one error or whole rows", "[io][.slow]
   check_many_broken_files(whole_files(), 8);
 }
 
+}  // namespace
 }  // namespace lacuna::test

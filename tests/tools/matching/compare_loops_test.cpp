@@ -2,14 +2,8 @@
 // Holes of two results: closed, opened, changed or the same.
 #include "tools/matching/compare_loops.hpp"
 
-#include "engine/run/error.hpp"
+#include "tests/support/test.hpp"
 #include "tools/commands/compare_command.hpp"
-
-#include <cmath>
-#include <numbers>
-#include <vector>
-
-#include <catch2/catch.hpp>
 
 namespace lacuna::matching {
 
@@ -50,9 +44,8 @@ std::vector<Eigen::Vector3d> plane(Empty&& is_empty) {
   constexpr double kSpacing = 0.2;
   std::vector<Eigen::Vector3d> points;
   for (double x = -5; x <= 30; x += kSpacing) {
-    for (double y = -5; y <= 5; y += kSpacing) {
+    for (double y = -5; y <= 5; y += kSpacing)
       if (!is_empty(x, y)) points.emplace_back(x, y, 0);
-    }
   }
   return points;
 }
@@ -151,7 +144,6 @@ TEST_CASE("units and systems that one side alone states are a warning, and two s
     const tools::Comparison comparison(before, after);
     return comparison.warnings.empty() ? "" : comparison.warnings.at(0);
   };
-  using Catch::Matchers::Contains;
   CHECK(warning(result(1, ""), result(1, "")).empty());
   CHECK_THAT(warning(result(1, "m"), result(1, "")), Contains("its unit is not known, and that of m_ is m"));
   for (const double lengths : {1000., 1 / 0.3048, 25.4})

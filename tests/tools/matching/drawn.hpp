@@ -2,14 +2,8 @@
 // Drawn truths: rings of points in the plane, and loops along parts of them.
 #pragma once
 
+#include "tests/support/test.hpp"
 #include "tools/matching/true_loops.hpp"
-
-#include <cmath>
-#include <cstdint>
-#include <numbers>
-#include <vector>
-
-#include <Eigen/Core>
 
 namespace lacuna::matching {
 

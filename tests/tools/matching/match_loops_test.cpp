@@ -4,18 +4,23 @@
 #include "bench/evaluation/loop_scores.hpp"
 #include "tests/tools/matching/drawn.hpp"
 
-#include <limits>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::matching {
 using evaluation::LoopScores;
+using enum EdgeDecision;
 
 namespace {
+
+using Verdicts = std::vector<EdgeDecision>;
 
 LoopAccuracy match(const Drawing& drawing, const std::vector<LoopIds>& loops,
                    const std::vector<LoopIds>& truth, const MatchRule& rule = {.tolerance = 2}) {
   return match_loops(loops, loops_through(truth, stand_ins(drawing.positions)), drawing.positions, rule);
+}
+
+Verdicts verdicts(const LoopAccuracy& result) {
+  Verdicts verdicts;
+  for (const auto& loop : result.loops) verdicts.push_back(loop.verdict);
+  return verdicts;
 }
 
 LoopScores scores_of(const LoopAccuracy& result) {
@@ -36,9 +41,7 @@ TEST_CASE("a loop along a true loop finds it, the next ones repeat it") {
   const LoopIds beside = drawing.ring(36, 0.3, 0);
   const LoopIds far = drawing.ring(40, 100, 0);
   const LoopAccuracy result = match(drawing, {beside, ring, ring}, {far, ring});
-  CHECK(result.loops[0].verdict == EdgeDecision::kFound);
-  CHECK(result.loops[1].verdict == EdgeDecision::kRepeated);
-  CHECK(result.loops[2].verdict == EdgeDecision::kRepeated);
+  CHECK(verdicts(result) == Verdicts{kFound, kRepeated, kRepeated});
   CHECK(result.loops[0].true_loop == 1u);
   CHECK(result.loops[0].on == 1);
   CHECK(result.loops[0].covered == 1);
@@ -57,8 +60,7 @@ TEST_CASE("a loop along a narrow true loop is neither right nor wrong") {
   std::vector<TrueLoop> truth = loops_through(std::vector{ring, far}, stand_ins(drawing.positions));
   truth[0].is_narrow = true;
   const LoopAccuracy result = match_loops(std::vector{ring, far}, truth, drawing.positions, {.tolerance = 2});
-  CHECK(result.loops[0].verdict == EdgeDecision::kShort);
-  CHECK(result.loops[1].verdict == EdgeDecision::kFound);
+  CHECK(verdicts(result) == Verdicts{kShort, kFound});
   const LoopScores scores = scores_of(result);
   CHECK((scores.true_loops == 1 && scores.found == 1 && scores.false_loops == 0));
 }
@@ -68,7 +70,7 @@ TEST_CASE("a loop that covers less than 70 percent of a true one does not find i
   const LoopIds ring = drawing.ring(100, 0, 0);
   // The vertices within the tolerance beyond both ends are covered, too.
   const LoopAccuracy less = match(drawing, {and_back(part(ring, 0.60))}, {ring}, {.tolerance = 1.5});
-  CHECK(less.loops[0].verdict == EdgeDecision::kParted);
+  CHECK(less.loops[0].verdict == kParted);
   CHECK(less.loops[0].true_loop == 0u);
   CHECK(less.loops[0].on == 1);
   CHECK(less.loops[0].covered == Approx(0.62));
@@ -76,7 +78,7 @@ TEST_CASE("a loop that covers less than 70 percent of a true one does not find i
   CHECK(scores_of(less).precision == 0);
   const LoopAccuracy more = match(drawing, {and_back(part(ring, 0.68))}, {ring}, {.tolerance = 1.5});
   CHECK(more.loops[0].covered == Approx(0.70));
-  CHECK(more.loops[0].verdict == EdgeDecision::kFound);
+  CHECK(more.loops[0].verdict == kFound);
 }
 
 TEST_CASE("a loop of which less than 70 percent lies on a true one is false") {
@@ -84,10 +86,10 @@ TEST_CASE("a loop of which less than 70 percent lies on a true one is false") {
   const LoopIds ring = drawing.ring(40, 0, 0);
   LoopIds away = ring;
   for (int i = 0; i < 18; ++i) away.push_back(drawing.point(30 + i, 0));
-  CHECK(match(drawing, {away}, {ring}).loops[0].verdict == EdgeDecision::kFalse);
+  CHECK(match(drawing, {away}, {ring}).loops[0].verdict == kFalse);
   CHECK(match(drawing, {away}, {ring}).loops[0].on == Approx(40.0 / 58));
   away.pop_back();
-  CHECK(match(drawing, {away}, {ring}).loops[0].verdict == EdgeDecision::kFound);
+  CHECK(match(drawing, {away}, {ring}).loops[0].verdict == kFound);
 }
 
 // A square of `side` edges of length 1 to a side, with a corner at (x, y), counterclockwise.
@@ -111,11 +113,11 @@ TEST_CASE("a loop that covers a true one and most of which lies on another is jo
   const LoopIds large = square(drawing, 30, 20, 0);
   const LoopIds loop = chain(small, part(large, 0.5));
   const LoopAccuracy result = match(drawing, {loop}, {large, small}, {.tolerance = 0.5});
-  CHECK(result.loops[0].verdict == EdgeDecision::kJoined);
+  CHECK(result.loops[0].verdict == kJoined);
   CHECK(result.loops[0].true_loop == 1u);
   CHECK(result.loops[0].on == Approx(12.0 / 72));
   // On the large one lie 60 of 72 points.
-  CHECK(match(drawing, {loop}, {large}, {.tolerance = 0.5}).loops[0].verdict == EdgeDecision::kParted);
+  CHECK(match(drawing, {loop}, {large}, {.tolerance = 0.5}).loops[0].verdict == kParted);
 }
 
 TEST_CASE("a loop along parts of two true loops is joined, though it covers neither") {
@@ -123,9 +125,9 @@ TEST_CASE("a loop along parts of two true loops is joined, though it covers neit
   const LoopIds left = square(drawing, 10, 0, 0);
   const LoopIds right = square(drawing, 10, 30, 0);
   const LoopIds loop = chain(part(left, 0.5), part(right, 0.5));
-  CHECK(match(drawing, {loop}, {left, right}, {.tolerance = 0.5}).loops[0].verdict == EdgeDecision::kJoined);
+  CHECK(match(drawing, {loop}, {left, right}, {.tolerance = 0.5}).loops[0].verdict == kJoined);
   // Without the second one, half of it lies on nothing.
-  CHECK(match(drawing, {loop}, {left}, {.tolerance = 0.5}).loops[0].verdict == EdgeDecision::kFalse);
+  CHECK(match(drawing, {loop}, {left}, {.tolerance = 0.5}).loops[0].verdict == kFalse);
 }
 
 TEST_CASE("the halves of a true loop are parted, unless one of them covers 70 percent of it") {
@@ -133,15 +135,13 @@ TEST_CASE("the halves of a true loop are parted, unless one of them covers 70 pe
   const LoopIds ring = square(drawing, 20, 0, 0);
   const LoopIds below(ring.begin(), ring.begin() + 31), above(ring.begin() + 30, ring.end());
   const LoopAccuracy result = match(drawing, {below, above}, {ring}, {.tolerance = 1});
-  CHECK(result.loops[0].verdict == EdgeDecision::kParted);
-  CHECK(result.loops[1].verdict == EdgeDecision::kParted);
+  CHECK(verdicts(result) == Verdicts{kParted, kParted});
   CHECK(
       (scores_of(result).parted == 2 && scores_of(result).false_loops == 0 && scores_of(result).missed == 1));
   CHECK(scores_of(result).precision == 0);
   const LoopIds most(ring.begin(), ring.begin() + 60), rest(ring.begin() + 60, ring.end());
   const LoopAccuracy uneven = match(drawing, {most, rest}, {ring}, {.tolerance = 1});
-  CHECK(uneven.loops[0].verdict == EdgeDecision::kFound);
-  CHECK(uneven.loops[1].verdict == EdgeDecision::kParted);
+  CHECK(verdicts(uneven) == Verdicts{kFound, kParted});
 }
 
 TEST_CASE("short true loops count neither as found nor as missed, and loops on them are not false") {
@@ -150,8 +150,7 @@ TEST_CASE("short true loops count neither as found nor as missed, and loops on t
   const LoopIds missed = drawing.ring(7, 50, 0);
   const LoopIds large = drawing.ring(8, 100, 0);
   const LoopAccuracy result = match(drawing, {small, small}, {small, missed, large});
-  CHECK(result.loops[0].verdict == EdgeDecision::kShort);
-  CHECK(result.loops[1].verdict == EdgeDecision::kShort);
+  CHECK(verdicts(result) == Verdicts{kShort, kShort});
   CHECK_FALSE(result.true_loops[0].counts);
   CHECK(result.true_loops[0].found_by == 0u);
   const LoopScores scores = scores_of(result);
@@ -165,7 +164,7 @@ TEST_CASE("a loop on a short true loop next to a long one goes to the long one")
   const LoopIds ring = drawing.ring(20, 0, 0);
   const LoopIds sparse = {ring[0], ring[4], ring[8], ring[12], ring[16]};
   const LoopAccuracy result = match(drawing, {ring}, {sparse, ring});
-  CHECK(result.loops[0].verdict == EdgeDecision::kFound);
+  CHECK(result.loops[0].verdict == kFound);
   CHECK(result.loops[0].true_loop == 1u);
 }
 
@@ -173,9 +172,8 @@ TEST_CASE("distances are to edges, so long ones hide nothing") {
   Drawing drawing;
   LoopIds corners, dense;
   const double side = 30;
-  for (const auto& [x, y] : {std::pair{0., 0.}, {side, 0.}, {side, side}, {0., side}}) {
+  for (const auto& [x, y] : {std::pair{0., 0.}, {side, 0.}, {side, side}, {0., side}})
     corners.push_back(drawing.point(x, y));
-  }
   for (int i = 0; i < 30; ++i) dense.push_back(drawing.point(i, 0));
   for (int i = 0; i < 30; ++i) dense.push_back(drawing.point(side, i));
   for (int i = 0; i < 30; ++i) dense.push_back(drawing.point(side - i, side));

@@ -5,13 +5,6 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <algorithm>
-#include <map>
-#include <queue>
-#include <set>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::paper {
 namespace {
 
@@ -35,7 +28,7 @@ std::vector<Cycle> loops_of(LocalIndex vertices, const Edges& edges, std::uint64
     indices.insert(indices.end(), row.begin(), row.end());
     offsets.push_back(indices.size());
   }
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   Scratch scratch(folder / "", budget);
   std::vector<Cycle> loops;
   std::vector<PointId> ids;

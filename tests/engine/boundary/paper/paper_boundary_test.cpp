@@ -5,11 +5,6 @@
 #include "tests/support/reference.hpp"
 #include "tests/support/tiled_scan.hpp"
 
-#include <algorithm>
-#include <numeric>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::paper {
 namespace {
 

@@ -8,12 +8,6 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <algorithm>
-#include <cstdlib>
-#include <map>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::paper {
 namespace {
 
@@ -32,7 +26,7 @@ void add_loops(const SpanningGraph& graph, Scratch& scratch, Loops& loops) {
 }
 
 Loops loops_of(const std::vector<PointId>& ids, std::vector<WeightedEdge> edges, std::int64_t e) {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   Scratch scratch(folder / "", 1 << 20);
   order_edges(edges, ids);
   Spanning spanning(ids, e, scratch);
@@ -50,9 +44,8 @@ Loops loops_by_parts(const Whole& whole, const std::vector<int>& part_of, int pa
   std::vector<PassedEdge> rest;
   for (int part = 0; part < parts; ++part) {
     std::vector<LocalIndex> vertices;  // owned ones first
-    for (LocalIndex v = 0; v < whole.ids.size(); ++v) {
+    for (LocalIndex v = 0; v < whole.ids.size(); ++v)
       if (part_of[v] == part) vertices.push_back(v);
-    }
     const auto owned = static_cast<LocalIndex>(vertices.size());
     std::map<LocalIndex, LocalIndex> number;
     for (LocalIndex i = 0; i < owned; ++i) number[vertices[i]] = i;
@@ -65,7 +58,7 @@ Loops loops_by_parts(const Whole& whole, const std::vector<int>& part_of, int pa
     }
     std::vector<PointId> ids;
     for (const LocalIndex v : vertices) ids.push_back(whole.ids[v]);
-    const test::ScratchFolder folder;
+    const ScratchFolder folder;
     Scratch scratch(folder / "", 1 << 20);
     const PartialSpanning spanned = span_partially({ids, owned}, edges, e, scratch);
     add_loops(spanned.complete, scratch, loops);
@@ -75,7 +68,7 @@ Loops loops_by_parts(const Whole& whole, const std::vector<int>& part_of, int pa
       rest.push_back({vertices[edge.a], vertices[edge.b], edge.weight, false});
   }
   if (passed_on) *passed_on += rest.size();
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   Scratch scratch(folder / "", 1 << 20);
   const auto for_each = [&](const auto& visit) { std::for_each(rest.begin(), rest.end(), visit); };
   add_loops(span_whole(whole.ids, for_each, e, 1 << 20, scratch), scratch, loops);

@@ -4,21 +4,14 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <algorithm>
-#include <queue>
-#include <set>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::paper {
 namespace {
 
 using Edges = std::vector<std::pair<LocalIndex, LocalIndex>>;
 
 Edges shuffled(Edges edges, Random& random) {
-  for (std::size_t i = edges.size(); i > 1; --i) {
+  for (std::size_t i = edges.size(); i > 1; --i)
     std::swap(edges[i - 1], edges[static_cast<std::size_t>(random.whole(0, std::int64_t(i) - 1))]);
-  }
   return edges;
 }
 
@@ -27,7 +20,7 @@ constexpr std::uint64_t kMapped = 0;
 
 // The edges of the spanning graph, each once, lower end first; its rows are checked on the way.
 Edges span(LocalIndex vertices, const Edges& edges, std::int64_t e, std::uint64_t budget = kInMemory) {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   Scratch scratch(folder / "", budget);
   std::vector<PointId> ids;
   for (LocalIndex v = 0; v < vertices; ++v) ids.push_back(PointId{v});
@@ -40,9 +33,8 @@ Edges span(LocalIndex vertices, const Edges& edges, std::int64_t e, std::uint64_
   for (LocalIndex v = 0; v < vertices; ++v) {
     CHECK(std::is_sorted(graph[v].begin(), graph[v].end()));
     ends += graph[v].size();
-    for (const LocalIndex w : graph[v]) {
+    for (const LocalIndex w : graph[v])
       if (v < w) found.emplace_back(v, w);
-    }
   }
   CHECK(ends == 2 * found.size());
   return found;

@@ -8,12 +8,6 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/tile.hpp"
 
-#include <array>
-#include <cstring>
-#include <vector>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::tangential {
 namespace {
 
@@ -108,9 +102,8 @@ bool same_star(const Star<LocalIndex>& a, const PlainStar& b) {
 
 TileStars stars_in(const EvaluatedCloud& evaluated, std::span<const std::uint8_t> is_border) {
   std::vector<LocalIndex> seeds;
-  for (LocalIndex p = 0; p < evaluated.points.owned; ++p) {
+  for (LocalIndex p = 0; p < evaluated.points.owned; ++p)
     if (evaluated.evaluations[p].probability > kThreshold) seeds.push_back(p);
-  }
   return find_stars(evaluated.points, evaluated.rows, evaluated.evaluations, seeds, is_border, {});
 }
 

@@ -6,13 +6,6 @@
 #include "tests/support/draws.hpp"
 #include "tests/support/tiled_scan.hpp"
 
-#include <algorithm>
-#include <map>
-#include <tuple>
-#include <vector>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::tangential {
 namespace {
 
@@ -92,14 +85,6 @@ TEST_CASE("wedges around holes that lie across tiles are those of a single tile"
   CHECK(parts.across_tiles);
   CHECK(parts.wedges.size() > 100);
   check_tilings(cloud);
-}
-
-// Where points lie at random, wedges are found along chains of points that become active one after the other.
-TEST_CASE("wedges in uneven and noisy clouds are those of a single tile, and close to curves") {
-  for (std::uint64_t seed = 1; seed <= draws(12); ++seed) {
-    INFO("seed " << seed);
-    check_tilings(scattered(700, seed).scaled(27).noisy(0.1 + 0.02 * double(seed), seed));
-  }
 }
 
 void check_drawn(std::uint64_t first, std::uint64_t last) {

@@ -2,12 +2,7 @@
 #include "engine/boundary/tangential/curves.hpp"
 
 #include "tests/support/clouds.hpp"
-#include "tests/support/scratch_folder.hpp"
-
-#include <algorithm>
-#include <set>
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna::tangential {
 namespace {
@@ -60,7 +55,7 @@ std::vector<CurvePoint> curve_of(const std::vector<std::uint64_t>& ids,
 
 // The results in memory, and in mapped arrays of no budget.
 std::vector<CurvePoint> normalised(const std::vector<CurvePoint>& curve) {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   Scratch scratch(folder.path(), 1 << 20);
   std::vector<CurvePoint> turned(curve.size());
   normalise(curve, turned, scratch);
@@ -69,7 +64,7 @@ std::vector<CurvePoint> normalised(const std::vector<CurvePoint>& curve) {
 
 std::vector<std::vector<CurvePoint>> split(const std::vector<CurvePoint>& curve,
                                            std::uint64_t budget = 1 << 20) {
-  const test::ScratchFolder folder;
+  const ScratchFolder folder;
   Scratch scratch(folder.path(), budget);
   std::vector<std::vector<CurvePoint>> curves;
   split_at_pinches(curve, scratch, [&](std::span<const CurvePoint> simple) {
@@ -121,9 +116,8 @@ TEST_CASE(
     open.back().push_back(beyond(chain.wedges.back(), chain.last_side));
   });
   CHECK(closed == std::vector<std::size_t>{3});
-  for (std::vector<Row>& chain : open) {
+  for (std::vector<Row>& chain : open)
     if (chain.back() < chain.front()) std::reverse(chain.begin(), chain.end());
-  }
   std::sort(open.begin(), open.end());
   CHECK(open == std::vector<std::vector<Row>>{{Row{3}, Row{2}, Row{1}, Row{5}, Row{4}, Row{3}},
                                               {Row{41}, Row{40}, Row{42}}});

@@ -3,11 +3,7 @@
 #include "engine/boundary/tangential/sampling_radius.hpp"
 
 #include "tests/support/clouds.hpp"
-
-#include <algorithm>
-#include <vector>
-
-#include <catch2/catch.hpp>
+#include "tests/support/test.hpp"
 
 namespace lacuna::tangential {
 namespace {

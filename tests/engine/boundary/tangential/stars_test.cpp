@@ -6,13 +6,6 @@
 #include "tests/support/clouds.hpp"
 #include "tests/support/instruction_sets.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <vector>
-
-#include <catch2/catch.hpp>
-
 namespace lacuna::tangential {
 namespace {
 
@@ -85,9 +78,8 @@ std::vector<Link> found_side_by_side(const Queries& queries) {
       .for_each_batch(
           queries.all.size(), [&](std::size_t i) { return queries.all[i]; },
           [&](std::size_t first, std::span<const FoundStar> batch) {
-            for (std::size_t i = 0; i < batch.size(); ++i) {
+            for (std::size_t i = 0; i < batch.size(); ++i)
               for (std::size_t c = 0; c < batch[i].size(); ++c) stars[first + i].push_back(batch[i][c]);
-            }
           });
   return stars;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/io/las/las_file.hpp"
+#include "tests/support/las_file.hpp"
 
 namespace lacuna::test {
 

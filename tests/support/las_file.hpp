@@ -2,12 +2,7 @@
 // LAS files drawn as bytes.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <string>
-#include <vector>
+#include "tests/support/test.hpp"
 
 namespace lacuna::test {
 
