@@ -3,6 +3,7 @@
 
 #include "engine/level_steps.hpp"
 #include "engine/model/tiling.hpp"
+#include "engine/parts/kept_files.hpp"
 #include "engine/parts/kept_run.hpp"
 #include "engine/scan_steps.hpp"
 

@@ -8,6 +8,7 @@
 #include "engine/loops/hole_area.hpp"
 #include "engine/loops/measure_loops.hpp"
 #include "engine/loops/nest_loops.hpp"
+#include "engine/parts/kept_files.hpp"
 #include "engine/parts/kept_run.hpp"
 #include "engine/results/collect.hpp"
 #include "engine/results/loop_rows.hpp"

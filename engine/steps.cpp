@@ -2,6 +2,7 @@
 #include "engine/steps.hpp"
 
 #include "engine/level_steps.hpp"
+#include "engine/parts/kept_files.hpp"
 #include "engine/parts/kept_run.hpp"
 #include "engine/run/error.hpp"
 #include "engine/thin/thin.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/parts/level_form.hpp"
 
+#include "engine/parts/kept_files.hpp"
 #include "engine/survey/survey.hpp"
 
 #include <algorithm>

@@ -7,6 +7,8 @@
 #pragma once
 
 #include "engine/model/task_share.hpp"
+#include "engine/parts/reason.hpp"
+#include "engine/parts/task_plan.hpp"
 #include "engine/run/progress.hpp"
 #include "engine/store/sealed_part.hpp"
 
@@ -27,37 +29,6 @@ struct PartKey {
   std::string made_from;  // a line each
 
   std::string text() const;  // the step, what the part was made from, and its share
-};
-
-// Why a part is made.
-struct Reason {
-  enum class Why : std::uint8_t {
-    kNew,        // it was not there
-    kUnusable,   // it is there, without its columns, or with tiles that do not fit in memory
-    kDamaged,    // its bytes are not those that were sealed
-    kInput,      // a file of the input has changed
-    kParameter,  // a parameter has changed
-    kFollows,    // a step before it has changed
-  };
-  Why why = Why::kNew;
-  std::string was, is;  // the first line that has changed
-
-  std::string words() const;  // "damaged", "\"k = 15\" is \"k = 20\" now"
-};
-
-// Returns why a part is made that a file should have, from `made_from`.
-Reason reason_of(const std::filesystem::path& file, const std::string& made_from);
-
-// How several processes share a run.
-struct TaskPlan {
-  std::size_t tasks = 1;          // of each step that is shared
-  std::size_t levels = 0;         // whose steps are shared, from the first level on
-  std::uint64_t tile_points = 0;  // of each task's tiles, at most
-  bool reads = false;             // whether reading the scan is shared
-
-  std::size_t tasks_of_level(std::size_t level) const {
-    return level < levels && (level > 0 || reads) ? tasks : 1;
-  }
 };
 
 // The kept parts of a run. A form says how a value becomes a part. read(part) returns the value, or nothing
@@ -114,44 +85,5 @@ struct Parts {
   }
   [[noreturn]] void fail_replaced(const std::filesystem::path& file) const;
 };
-
-// Returns a checksum as a line.
-std::string line_of(const Digest& checksum);
-
-inline constexpr const char* kRunPart = "run.lacuna";  // the part that says whose folder it is
-bool is_kept_folder(const std::filesystem::path& folder);
-bool is_kept_name(const std::filesystem::path& file);  // whether it could be of a kept folder
-
-// Returns the parts of a text, each of which ends with `end`.
-std::vector<std::string> split(std::string_view text, char end);
-// Returns the first line of each text that the other one does not have.
-std::pair<std::string, std::string> first_difference(const std::string& was, const std::string& is);
-
-// The names of files in a kept folder. STEP-TASK.lacuna is a part. A column of a level has digits in place of
-// the task, and its kind before the ending.
-std::filesystem::path part_file(const std::filesystem::path& folder, const std::string& step,
-                                const std::string& task);
-// Returns the files of a kept folder, without others in it. A part proves what the folder is; the run's own
-// may be missing, where a process was at work while the folder was cleaned. Returns nothing where it is none.
-std::vector<std::filesystem::path> kept_files(const std::filesystem::path& folder);
-// Returns whether a file belongs to a step: "level-0".
-bool is_of_step(const std::filesystem::path& file, const std::string& step);
-// Removes one of the files.
-void remove_kept(const std::filesystem::path& file);
-
-// Does the work of a run. Where it finds a damaged file, it removes the file and begins again: what the file
-// had is made anew.
-template <class Work>
-auto without_damaged_files(Work&& work) {
-  constexpr int kMostDamaged = 1000;  // more are a broken disk
-  for (int damaged = 0;; ++damaged) {
-    try {
-      return work();
-    } catch (const DamagedFile& error) {
-      if (damaged == kMostDamaged) throw;
-      remove_kept(error.file());
-    }
-  }
-}
 
 }  // namespace lacuna

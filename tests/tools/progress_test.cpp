@@ -55,7 +55,7 @@ TEST_CASE("a run goes from 0 to 1 through its steps, whether they count points o
       }
     }
   }
-  CHECK(*run_share(steps_of_check(), "voids", 0) == Approx(0.5));
+  CHECK(*run_share(steps_of_check(), "voids", 0) == Approx(0.8));
   CHECK_FALSE(run_share(steps_of_check(), "evaluate", 0));
   CHECK_FALSE(run_share({}, "evaluate", 0));
 }
@@ -68,9 +68,9 @@ TEST_CASE("a counted run knows its step, its points and its share, and a step th
   progress.advance(20);
   CHECK(progress.state().step == "area");
   CHECK(progress.state().done == 50);
-  CHECK(*progress.state().run_share == Approx(0.25));
+  CHECK(*progress.state().run_share == Approx(0.4));
   progress.begin("voids", 0);
-  CHECK(*progress.state().run_share == Approx(0.5));
+  CHECK(*progress.state().run_share == Approx(0.8));
   progress.end();
   CHECK(*progress.state().share() == 1);
   CHECK(*progress.state().run_share == Approx(1));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/level_steps.hpp"
+#include "engine/parts/kept_files.hpp"
 #include "engine/parts/kept_run.hpp"
 #include "engine/run/disk_space.hpp"
 #include "engine/run/error.hpp"

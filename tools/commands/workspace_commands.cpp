@@ -2,6 +2,7 @@
 #include "tools/commands/workspace_commands.hpp"
 
 #include "engine/kept_state.hpp"
+#include "engine/parts/kept_files.hpp"
 #include "engine/parts/parts.hpp"
 #include "engine/run/disk_space.hpp"
 #include "engine/run/error.hpp"
