@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A workspace that is kept: whatever of it is there, the result is that of an undisturbed run.
-#include "engine/parts/kept_files.hpp"
 #include "engine/parts/kept_run.hpp"
 
 #include "engine/kept_state.hpp"
+#include "engine/parts/kept_files.hpp"
 #include "engine/parts/parts.hpp"
 #include "engine/pipeline.hpp"
 #include "tests/support/clouds.hpp"
