@@ -34,7 +34,7 @@ main { max-width: 182mm; margin: 0 auto; }
 .figures .pairs { columns: 2; column-gap: 8mm; margin-top: 3mm; }
 .figures .pairs div { break-inside: avoid; }
 .area-map .tile { fill: var(--outer); stroke: none; }
-.area-map text { font-size: 9px; paint-order: stroke; stroke: #fff; stroke-width: 2px; }
+.area-map text { font-size: 13px; paint-order: stroke; stroke: #fff; stroke-width: 2px; }
 .print-columns { gap: 0 8mm; }
 .print-columns ul { padding-left: 4mm; font-size: 8.5pt; }
 .pairs dd { max-width: 72%; }
@@ -68,11 +68,13 @@ std::string fixed(double value, int decimals) {
   return buffer;
 }
 
-// Four digits at least, and no exponent: 138,944 and 0.01234.
+// Four digits at least, without zeros at the end, and no exponent: 138,944, 0.01234 and 5.
 std::string figure(double value) {
   if (!std::isfinite(value)) return "";
   const double size = std::fabs(value) > 0 ? std::floor(std::log10(std::fabs(value))) : 0;
   std::string text = fixed(value, static_cast<int>(std::clamp(3 - size, 0.0, 12.0)));
+  if (text.find('.') != text.npos) text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
   for (std::size_t at = std::min(text.find('.'), text.size()); at > 3 && text[at - 4] != '-'; at -= 3)
     text.insert(at - 3, ",");
   return text;
@@ -195,7 +197,7 @@ class SheetMap {
     std::string text = "Orange: voids that count, with their ids. ";
     if (most > 0)
       text += "Blue: density of the points, by squares of " + escaped(length(check_.tile_edge, unit_)) +
-              "; darkest at " + figure(most) + " or more for each square of 1" +
+              "; darkest at " + figure(most) + " or more in a square of 1" +
               (unit_.empty() ? "" : " " + escaped(unit_)) + ". ";
     return text + "x to the right, y to the top.";
   }
@@ -231,7 +233,7 @@ Pairs figures_of(const AreaCheck& check, const AreaSheet& sheet, const AreaConfi
   if (excepted > 0) pairs.emplace_back("Voids in exceptions", std::to_string(excepted));
   for (const AreaClass& each : check.classes)
     pairs.emplace_back("Of voids, in " + each.name, area(each.voids_area, unit));
-  pairs.emplace_back("Points", std::to_string(check.points));
+  pairs.emplace_back("Points", figure(static_cast<double>(check.points)));
   pairs.emplace_back("Unit", unit.empty() ? "not stated" : std::string(unit));
   pairs.emplace_back("CRS", sheet.crs.empty() ? "not stated" : name_of_crs(sheet.crs));
   return pairs;

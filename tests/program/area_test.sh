@@ -267,7 +267,7 @@ class Sheet(HTMLParser):
 sheet = Sheet()
 page = open("sheet/report.html").read()
 sheet.feed(page)
-for text in ("voids: 1 of 3.000 m or more", "anps:0.75", "U.S. Geological Survey, Lidar Base Specification", "Covered", "Project",
+for text in ("voids: 1 of 3 m or more", "anps:0.75", "U.S. Geological Survey, Lidar Base Specification", "Covered", "Project",
              "Client", "Checked on", "This check does not show", "the scan's own outline", "river.xyz", "Largest circle"):
     assert text in sheet.text, text
 assert sheet.tags.count("input") >= 4 and "script" not in sheet.tags and "@media print" in page
