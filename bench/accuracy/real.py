@@ -42,12 +42,17 @@ def reported_loops(arguments, name, options):
     truth = folder.with_suffix(".loops.txt")
     truth.write_text("".join(" ".join(ids) + "\n" for _, _, ids in rated), encoding="utf-8")
     scan = arguments.scans / f"{name}.ply"
-    run([arguments.lacuna, "detect", scan, "--out", folder, "--quiet", "--threads", 1, "--sample-points", 0, "--unit", "m",
-         *options])
-    loops = json.loads((folder / "holes.json").read_text(encoding="utf-8"))["loops"]
-    scores = json.loads(run([arguments.bench, "evaluate", folder, truth, "--scan", scan, "--json", "--min-vertices", 1]))
+    if not arguments.results:
+        run([arguments.lacuna, "detect", scan, "--out", folder, "--quiet", "--threads", 1, "--sample-points", 0, "--unit", "m",
+             *options])
+    result = arguments.results / f"{name}.txt" if arguments.results else folder
+    scores = json.loads(run([arguments.bench, "evaluate", result, truth, "--scan", scan, "--json", "--min-vertices", 1]))
     places = [match["true_loop"] if match["verdict"] in ("found", "repeated") else None
               for match in scores["loop_matches"]]
+    if arguments.results:  # a list has neither kinds nor confidences: a loop is of the kind that it matches
+        loops = [{"kind": "hole" if place is None else rated[place][1], "confidence": 0} for place in places]
+    else:
+        loops = json.loads((folder / "holes.json").read_text(encoding="utf-8"))["loops"]
     return list(zip(loops, places, strict=True)), rated
 
 
@@ -83,13 +88,18 @@ def row(title, kind, counts):
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--lacuna", type=Path, required=True, help="the program that finds holes")
+    parser.add_argument("--lacuna", type=Path, help="the program that finds holes")
+    parser.add_argument("--results", type=Path, help="in its place, a folder with the loops of another program: NAME.txt, the ids "
+                        "of a loop in a line")
     parser.add_argument("--bench", type=Path, required=True, help="the program lacuna-bench")
     parser.add_argument("--work", type=Path, required=True, help="results")
     parser.add_argument("--scans", type=Path, required=True, help="folder of the scans, NAME.ply")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="scans at a time")
     parser.add_argument("detect_options", nargs="*", help="after --: for every lacuna detect")
-    return parser.parse_args()
+    arguments = parser.parse_args()
+    if bool(arguments.lacuna) == bool(arguments.results):
+        parser.error("--lacuna or --results is needed")
+    return arguments
 
 
 def main():
