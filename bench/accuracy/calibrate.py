@@ -214,8 +214,8 @@ def standing_loops(arguments, case):
 def rated_loops(arguments, name):
     """The loops that stand on a real scan and were rated by eye."""
     arguments.results = None  # Lacuna runs
-    reported, rated = eye.reported_loops(arguments, name, ["--min-confidence", 0])
-    return [rated(RATED, loop, rated[place][0]) for loop, place in reported if place is not None]
+    reported, marked = eye.reported_loops(arguments, name, ["--min-confidence", 0])
+    return [rated(RATED, loop, marked[place][0]) for loop, place in reported if place is not None]
 
 
 def of_all(arguments, cases, loops_of):
