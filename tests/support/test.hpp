@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every test has: Catch2, Eigen, the standard library, and a few short names. It is compiled once, ahead
-// of all tests. Most headers of tests/ include it; a test includes one of them, or this one.
+// What every test has: Catch2, Eigen, the standard library, and a few short names. Most headers of tests/
+// include it; a test includes one of them, or this one.
 #pragma once
 
 #include "engine/run/error.hpp"
