@@ -23,7 +23,7 @@ inline constexpr int kFiner = 2;
 
 inline const Eigen::Vector3f kPaper(255, 255, 255);
 
-// A colour near that of the paper.
+// A colour that is nearly paper.
 inline Eigen::Vector3f pale(const Eigen::Vector3f& colour) {
   return kPaper - 0.25f * (kPaper - colour);
 }

@@ -178,11 +178,14 @@ std::vector<Label> find_labels(const Scene& scene, const View& view, PictureSize
   std::vector<Labelled> labelled;
   for (const std::size_t loop : order) {
     const std::size_t first = loops.first[loop], end = loops.first[loop + 1];
-    if (first == end || (loop != view.loop && seen.share(loop) < 0.5f)) continue;
+    std::size_t shown = 0;
     Eigen::AlignedBox2f box;
-    for (std::size_t i = first; i < end; ++i)
-      if (loop == view.loop || seen.shows(i)) box.extend(project(loops.vertices[i]).head<2>());
-    labelled.push_back({loops.ids[loop], box});
+    for (std::size_t i = first; i < end; ++i) {
+      if (loop != view.loop && !seen.shows(i)) continue;
+      ++shown;
+      box.extend(project(loops.vertices[i]).head<2>());
+    }
+    if (shown > 0 && 2 * shown >= end - first) labelled.push_back({loops.ids[loop], box});
   }
   return place_labels(labelled, size);
 }

@@ -193,11 +193,15 @@ fs::path write_report(const fs::path& folder, Overwrite overwrite) {
   check_output(file, kReportMark, overwrite);
   Scene scene = read_scene(folder);
   scene.next_stations = read_next_stations(folder);
+  write_report(scene, file, overwrite);
+  return file;
+}
+
+void write_report(const Scene& scene, const fs::path& file, Overwrite overwrite) {
   NewFile out(file, kReportMark, overwrite);
   write_report(scene, out.content());
-  note_result(folder, file.filename().string());
+  note_result(file.parent_path(), file.filename().string());
   out.commit();
-  return file;
 }
 
 void write_report(const Scene& scene, OutputFile& out) {

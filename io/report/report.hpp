@@ -19,6 +19,10 @@ inline constexpr std::string_view kReportMark = "<!doctype html>\n<!-- Lacuna re
 // Returns the name of the file. Throws `Error`.
 LACUNA_API std::filesystem::path write_report(const std::filesystem::path& folder, Overwrite overwrite);
 
+// Writes the page of a scene to a file in a folder of results, which then counts it among them. Throws
+// `Error`.
+void write_report(const Scene& scene, const std::filesystem::path& file, Overwrite overwrite);
+
 // Writes the page with a scene as its data. Positions are 21 bits along each axis, of the cube of the scene.
 // A point takes about 15 bytes, a vertex of a loop 11.
 void write_report(const Scene& scene, OutputFile& out);

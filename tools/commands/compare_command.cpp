@@ -4,7 +4,6 @@
 #include "engine/run/error.hpp"
 #include "io/crs/length_unit.hpp"
 #include "io/crs/stated_crs.hpp"
-#include "io/files/result_folder.hpp"
 #include "io/report/report.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
@@ -41,8 +40,6 @@ struct CompareArguments {
   bool json = false, report = false, overwrite = false;
 };
 
-constexpr const char* kReportName = "changes.html";
-
 // Returns "12, 14".
 std::string names_of(const std::vector<std::size_t>& loops) {
   std::string text;
@@ -52,14 +49,11 @@ std::string names_of(const std::vector<std::size_t>& loops) {
 
 // Writes the page of a comparison into the folder of the second result.
 fs::path write_changes(const Comparison& comparison, io::Overwrite overwrite) {
-  const fs::path folder = comparison.after.folder, file = folder / kReportName;
+  const fs::path folder = comparison.after.folder, file = folder / "changes.html";
   io::check_output(file, io::kReportMark, overwrite);
   io::Scene scene = io::read_scene(folder);
   comparison.show_in(scene);
-  io::NewFile out(file, io::kReportMark, overwrite);
-  io::write_report(scene, out.content());
-  io::note_result(folder, kReportName);
-  out.commit();
+  io::write_report(scene, file, overwrite);
   return file;
 }
 
