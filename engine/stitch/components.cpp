@@ -10,11 +10,11 @@ namespace {
 
 // Counts the components that no crossing edge leaves.
 std::uint64_t count_closed(UnionFind& connected, LocalIndex vertices,
-                           std::span<const LocalIndex> part_of_root, bool single_vertices_count) {
+                           std::span<const LocalIndex> part_of_root) {
   std::vector<std::uint8_t> is_component(vertices);
   for (LocalIndex v = 0; v < vertices; ++v) {
     const LocalIndex root = connected.find(v);
-    if ((root != v || single_vertices_count) && part_of_root[root] == kNoIndex) is_component[root] = 1;
+    if (root != v && part_of_root[root] == kNoIndex) is_component[root] = 1;
   }
   return static_cast<std::uint64_t>(std::count(is_component.begin(), is_component.end(), 1));
 }
@@ -28,7 +28,7 @@ Components::Components(std::size_t tiles, const Job& job)
       joins_(job.file("joins"), tiles, job.lists) {}
 
 TileOpenParts Components::open_parts(TileIndex tile, UnionFind& connected, LocalIndex vertices,
-                                     std::span<const CrossingEdge> crossings, bool single_vertices_count) {
+                                     std::span<const CrossingEdge> crossings) {
   TileOpenParts open{.part_of_root = std::vector<LocalIndex>(vertices, kNoIndex)};
   std::vector<Join> joins;
   std::vector<Row> ends;
@@ -46,7 +46,7 @@ TileOpenParts Components::open_parts(TileIndex tile, UnionFind& connected, Local
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   ends_.append(tile, ends);
   joins_.append(tile, joins);
-  count_ += count_closed(connected, vertices, open.part_of_root, single_vertices_count);
+  count_ += count_closed(connected, vertices, open.part_of_root);
   return open;
 }
 

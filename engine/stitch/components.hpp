@@ -40,10 +40,10 @@ class Components {
   Components(std::size_t tiles, const Job& job);
 
   // Returns the open parts of a tile. The caller counts their `records`. `connected`: of all `vertices` of
-  // the tile's part of the graph. Counts the closed components with an edge, or all of them. From any thread,
-  // once for each tile.
+  // the tile's part of the graph. Counts the closed components with an edge. From any thread, once for each
+  // tile.
   TileOpenParts open_parts(TileIndex tile, UnionFind& connected, LocalIndex vertices,
-                           std::span<const CrossingEdge> crossings, bool single_vertices_count);
+                           std::span<const CrossingEdge> crossings);
   void add(TileIndex tile, const TileOpenParts& open) { parts_.append(tile, open.parts); }
 
   // Joins open parts to components, once all tiles are added. Groups components to batches of at most

@@ -23,8 +23,7 @@ namespace lacuna {
 template <class Record>
 struct GraphPart {
   LocalIndex vertices = 0;
-  bool single_vertices_count = false;  // whether a vertex without edges is a component, too
-  std::span<LocalIndex> links;         // of a UnionFind over the vertices: what the edges of the part connect
+  std::span<LocalIndex> links;  // of a UnionFind over the vertices: what the edges of the part connect
   std::vector<CrossingEdge> crossings;
   std::vector<Record> records;        // of its open components
   std::vector<LocalIndex> vertex_of;  // of each record, a vertex of its component
@@ -45,8 +44,7 @@ class Stitch {
   // Adds the part of a tile. From any thread, once for each tile.
   void add(TileIndex tile, const GraphPart<Record>& part) {
     UnionFind connected(part.links);
-    TileOpenParts open =
-        components_.open_parts(tile, connected, part.vertices, part.crossings, part.single_vertices_count);
+    TileOpenParts open = components_.open_parts(tile, connected, part.vertices, part.crossings);
     std::vector<Member> members;
     members.reserve(part.records.size());
     for (std::size_t i = 0; i < part.records.size(); ++i) {

@@ -106,7 +106,7 @@ void measure_belt(StarExchange& exchange, TileIndex t, const TangentialConfig& c
   OpenStars open;
   Outbox<RemoteTriangle> outbox(exchange.remote_triangles);
   RadiusBounder bounder(samplings, config);
-  SamplingRadius sampling_radius;
+  Surroundings around;
   std::vector<LinkVertex<LocalIndex>> link;
   // Find the stars a batch at a time, and the bound of each. Each star becomes an open star of this tile. Its
   // triangles go to the tiles of its foreign link vertices.
@@ -123,22 +123,15 @@ void measure_belt(StarExchange& exchange, TileIndex t, const TangentialConfig& c
           for (std::size_t v = 0; v < stars[i].size(); ++v)
             link.push_back({query.neighbours[stars[i][v].point], stars[i][v].radius});
           const Star<LocalIndex> star{link, bound};
-          // The sampling radius and the surface share are of the point and its neighbours.
-          sampling_radius.clear();
-          const auto add_radii = [&](LocalIndex q) {
-            sampling_radius.add(samples[q].radii, samplings[q].distance);
-          };
-          add_radii(query.point);
-          for (const LocalIndex q : query.neighbours) add_radii(q);
-          float surface = 0;
-          for (const LocalIndex q : query.neighbours) surface += samples[q].surface;
-          open.add(point.point, point.owned, bound, samplings[query.point].distance, sampling_radius,
-                   surface / static_cast<float>(query.neighbours.size()));
+          around.gather(query.point, query.neighbours, [&](LocalIndex q) {
+            return PointSample{samples[q].radii, samples[q].sampling.distance, samples[q].surface};
+          });
+          open.add(point.point, point.owned, bound, samplings[query.point].distance, around);
           // A triangle within the bound is undecided until the stars of its other vertices are known.
           for (std::size_t v = 0; v < star.size(); ++v) {
             const Scale scale = star.scale_of(v);
-            const LinkEnd end{belt.rows()[link[v].point], distance(sites[query.point], sites[link[v].point])};
-            open.add_vertex({.end = end,
+            open.add_vertex({.row = belt.rows()[link[v].point],
+                             .length = distance(sites[query.point], sites[link[v].point]),
                              .radius = link[v].radius,
                              .consistency = {.scale = scale, .is_undecided = scale != Scale::kNone}});
           }

@@ -4,7 +4,6 @@
 #include "engine/boundary/tangential/belt.hpp"
 #include "engine/boundary/tangential/growth.hpp"
 #include "engine/run/rounds.hpp"
-#include "engine/store/merge_runs.hpp"
 
 #include <algorithm>
 #include <set>
@@ -59,18 +58,18 @@ void BorderExchange::find_active_points() {
   }
 }
 
-std::vector<Wedge> BorderExchange::wedges(TileIndex tile) {
-  std::vector<Wedge> wedges = stars_.outputs.read(kWedges, tile);
-  const std::vector<Wedge> open =
-      GrowingTile(stars_, tile, is_measured_).growth.wedges(job_.config.tangential);
-  wedges.insert(wedges.end(), open.begin(), open.end());
-  merge_runs(wedges, [](const Wedge& a, const Wedge& b) { return a.row < b.row; });
-  return wedges;
+OpenWedges BorderExchange::wedges(TileIndex tile) {
+  GrowingTile growing(stars_, tile, is_measured_);
+  OpenWedges open{growing.growth.wedges(), {}};
+  open.points.reserve(open.wedges.size());
+  for (const Wedge& wedge : open.wedges)
+    open.points.push_back(growing.growth.curve_point(wedge, job_.config.tangential));
+  return open;
 }
 
 // A star has no more wedges at a scale than half of its link vertices.
 std::uint64_t BorderExchange::most_wedges(TileIndex tile) const {
-  return stars_.outputs.count(kWedges, tile) + stars_.open_vertex_count(tile);
+  return stars_.open_vertex_count(tile);
 }
 
 std::uint64_t BorderExchange::growing_bytes(TileIndex tile) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/boundary/tangential/star_exchange.hpp"
+#include "engine/boundary/tangential/wedge.hpp"
 
 #include <cstdint>
 #include <span>
@@ -13,6 +14,12 @@ class Rounds;
 }
 
 namespace lacuna::tangential {
+
+// Wedges of open stars, in ascending row, and the curve point of each.
+struct OpenWedges {
+  std::vector<Wedge> wedges;
+  std::vector<CurvePoint> points;
+};
 
 // Finds the active points and the wedges that depend on several tiles.
 //
@@ -27,8 +34,8 @@ class BorderExchange {
   // Finds all active points.
   void find_active_points();
 
-  // Returns all wedges of a tile, in ascending row, once all active points are found. From any thread.
-  std::vector<Wedge> wedges(TileIndex tile);
+  // Returns the wedges of a tile's open stars, once all active points are found. From any thread.
+  OpenWedges wedges(TileIndex tile);
   std::uint64_t most_wedges(TileIndex tile) const;
   std::uint64_t growing_bytes(TileIndex tile) const;  // memory that finding them takes
 

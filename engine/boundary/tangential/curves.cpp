@@ -178,4 +178,16 @@ LoopEvidence evidence_of(std::span<const CurvePoint> curve, Scale scale, const T
           .is_coarse = scale == Scale::kCoarse};
 }
 
+void find_loops_along(std::span<const CurvePoint> curve, Scale scale, const TangentialConfig& config,
+                      Scratch& scratch,
+                      const std::function<void(std::span<const CurvePoint>, const LoopEvidence&)>& visit) {
+  const auto least = static_cast<std::size_t>(config.min_curve);
+  if (curve.size() < least) return;
+  split_at_pinches(curve, scratch, [&](std::span<const CurvePoint> simple) {
+    if (simple.size() < least) return;
+    const LoopEvidence evidence = evidence_of(simple, scale, config, scratch);
+    if (evidence.may_be_hole()) visit(simple, evidence);
+  });
+}
+
 }  // namespace lacuna::tangential

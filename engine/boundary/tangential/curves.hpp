@@ -15,11 +15,6 @@
 
 namespace lacuna::tangential {
 
-// A point of a curve. A point with several wedges is on several curves, or several times on one.
-struct CurvePoint : LoopPoint {
-  WedgeEvidence evidence;
-};
-
 // The wedges of the same scale at the other ends of a wedge's two boundary edges. `from` comes first.
 // kNoIndex: that wedge is not in the given array.
 using WedgePartners = std::array<LocalIndex, 2>;
@@ -56,5 +51,11 @@ void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
 // chance. The other values are means over its points. Sums are in the order of the curve.
 LoopEvidence evidence_of(std::span<const CurvePoint> curve, Scale scale, const TangentialConfig& config,
                          Scratch& scratch);
+
+// Calls visit(loop, evidence) for each loop along a closed curve: it passes each point once, has `min_curve`
+// points or more, and may be a hole. Around fewer points, a sampling leaves wedges anyway.
+void find_loops_along(std::span<const CurvePoint> curve, Scale scale, const TangentialConfig& config,
+                      Scratch& scratch,
+                      const std::function<void(std::span<const CurvePoint>, const LoopEvidence&)>& visit);
 
 }  // namespace lacuna::tangential

@@ -30,7 +30,7 @@ Growth::Growth(const Tiling& tiling, TileIndex tile, std::span<const std::uint8_
     stars_.places.push_back(star.place);
   }
   for (const OpenLinkVertex& vertex : open.vertices) {
-    stars_.vertices.push_back({vertex.end.row, vertex.radius});
+    stars_.vertices.push_back({vertex.row, vertex.radius});
     stars_.consistencies.push_back(vertex.consistency);
   }
 }
@@ -65,22 +65,32 @@ bool Growth::follow(std::size_t s, const std::function<void(Row)>& visit) {
   return found;
 }
 
-std::vector<Wedge> Growth::wedges(const TangentialConfig& config) {
+std::vector<Wedge> Growth::wedges() {
   std::vector<Wedge> wedges;
   for (std::size_t s = 0; s < points_.size(); ++s) {
     if (!active_.contains(row(s))) continue;
     const Star<Row> star = stars_[s];
     for (std::size_t i = 0; i < star.size(); ++i) scale_of(s, i);
-    const OpenStar& open = points_[s];
-    const auto link = vertices_.subspan(open.place.begin, star.size());
-    const auto around = [&](Scale scale) {
-      return WedgeSurroundings{open.sampling_radius[static_cast<std::size_t>(scale)], open.surface};
-    };
     add_wedges(
-        {open.point, row(s), open.distance}, star, std::span<const Consistency>(stars_.consistencies_of(s)),
-        around, [&](std::size_t i) { return link[i].end; }, config, wedges);
+        row(s), star, std::span<const Consistency>(stars_.consistencies_of(s)), [](Row r) { return r; },
+        wedges);
   }
   return wedges;
+}
+
+CurvePoint Growth::curve_point(const Wedge& wedge, const TangentialConfig& config) const {
+  const OpenStar& star = points_[star_of_[tile_.local(wedge.row)]];
+  const auto link = vertices_.subspan(star.place.begin, star.place.size);
+  const auto length_to = [&](Row end) {
+    return std::ranges::find(link, end, [](const OpenLinkVertex& v) { return v.row; })->length;
+  };
+  const double sampling_radius = star.sampling_radius[static_cast<std::size_t>(wedge.scale)];
+  return {star.point,
+          {.length = (length_to(wedge.from) + length_to(wedge.to)) / 2,
+           .sampling_radius = sampling_radius,
+           .distance = star.distance,
+           .clearness = clearness(wedge.radius * star.distance, sampling_radius, config),
+           .surface = star.surface}};
 }
 
 // Returns whether the triangle that begins at link vertex i of star s is inconsistent. Once it is, it stays

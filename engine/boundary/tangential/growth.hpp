@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/boundary/tangential/star_exchange.hpp"
+#include "engine/boundary/tangential/wedge.hpp"
 #include "engine/model/tiling.hpp"
 #include "engine/store/row_set.hpp"
 
@@ -30,7 +31,8 @@ class Growth {
   void find_active_points(const std::function<void(Row)>& visit);
 
   // Returns each wedge of active points, in ascending row. All active points must be known.
-  std::vector<Wedge> wedges(const TangentialConfig& config);
+  std::vector<Wedge> wedges();
+  CurvePoint curve_point(const Wedge& wedge, const TangentialConfig& config) const;
 
  private:
   static constexpr std::uint32_t kNone = UINT32_MAX;

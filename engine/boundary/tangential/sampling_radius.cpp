@@ -7,14 +7,14 @@
 
 namespace lacuna::tangential {
 
-void SamplingRadius::add(const StarRadii& star, double distance) {
-  for (const float radius : star.radii) {
+void Surroundings::add(const PointSample& sample) {
+  for (const float radius : sample.radii.radii) {
     if (radius > std::numeric_limits<float>::max()) break;  // the others are infinite, too
-    radii_.push_back(radius * distance);
+    radii_.push_back(radius * sample.distance);
   }
 }
 
-double SamplingRadius::within(double bound) {
+double Surroundings::sampling_radius(double bound) const {
   std::array<std::uint32_t, kSteps + 1> counts{};  // by how many steps they exceed; the last: not within
   const double per_step = kSteps / bound;
   for (const double radius : radii_)

@@ -8,11 +8,13 @@
 
 #include "engine/boundary/tangential/star.hpp"
 #include "engine/config/config.hpp"
+#include "engine/model/ids.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace lacuna::tangential {
@@ -28,20 +30,43 @@ struct StarRadii {
 template <class Link>
 StarRadii smallest_radii(const Link& link, const TangentialConfig& config);
 
-// The circumradii around a point. It keeps its memory for the next one.
-class SamplingRadius {
+// What the evidence of a point needs of the point and of each neighbour.
+struct PointSample {
+  StarRadii radii;
+  double distance;  // `Sampling::distance`
+  float surface;    // `Evaluation::surface_share`
+};
+
+// The circumradii around a point, and how much its neighbours lie on a surface. It keeps its memory for the
+// next point.
+class Surroundings {
  public:
-  void clear() { radii_.clear(); }
-  // Adds the circumradii of the point's star, or of a neighbour's.
-  void add(const StarRadii& star, double distance);
+  // Gathers the samples of a point and its neighbours. sample_of(q) returns a `PointSample`.
+  template <class SampleOf>
+  void gather(LocalIndex point, std::span<const LocalIndex> neighbours, SampleOf&& sample_of) {
+    radii_.clear();
+    add(sample_of(point));
+    surface_ = 0;
+    for (const LocalIndex q : neighbours) {
+      const PointSample sample = sample_of(q);
+      add(sample);
+      surface_ += sample.surface;
+    }
+    surface_ /= static_cast<float>(neighbours.size());
+  }
+
+  float surface() const { return surface_; }  // mean surface share of the neighbours, [0, 1]
   // Returns a radius that nine in ten of the circumradii within a bound do not exceed. It is rounded up to a
   // 64th of the bound. Without any circumradius it is the bound. Cost: linear.
-  double within(double bound);
+  double sampling_radius(double bound) const;
 
  private:
   static constexpr std::size_t kSteps = 64;
 
+  void add(const PointSample& sample);
+
   std::vector<double> radii_;
+  float surface_ = 0;
 };
 
 template <class Link>

@@ -31,12 +31,13 @@ struct OpenStar {
   StarRange place;                                     // among the tile's open link vertices
   double distance;                                     // `Sampling::distance`
   std::array<double, kScales.size()> sampling_radius;  // by scale
-  float surface;                                       // mean surface share of the point's neighbours
+  float surface;                                       // `Surroundings::surface`
 };
 
 // A link vertex of an open star, with the consistency of the triangle that begins here.
 struct OpenLinkVertex {
-  LinkEnd end;
+  Row row;
+  double length;  // from the star's point
   float radius;
   Consistency consistency;
 };
@@ -47,14 +48,14 @@ struct OpenStars {
   std::vector<OpenLinkVertex> vertices;
 
   void add(const LoopPoint& point, LocalIndex owned, const RadiusBound& bound, double distance,
-           SamplingRadius& sampling_radius, float surface) {
+           const Surroundings& around) {
     stars.push_back(
         {point,
          owned,
          {static_cast<std::uint32_t>(vertices.size()), 0, bound},
          distance,
-         {sampling_radius.within(bound.fine * distance), sampling_radius.within(bound.coarse * distance)},
-         surface});
+         {around.sampling_radius(bound.fine * distance), around.sampling_radius(bound.coarse * distance)},
+         around.surface()});
   }
   void add_vertex(const OpenLinkVertex& vertex) {  // of the last star
     vertices.push_back(vertex);
@@ -69,8 +70,7 @@ struct StarSample {
   float surface;  // `Evaluation::surface_share`
 };
 
-inline constexpr RecordStream<LocalIndex> kActive{"active"};  // owned points, ascending
-inline constexpr RecordStream<Wedge> kWedges{"wedges"};  // wedges of which the tile is sure, in ascending row
+inline constexpr RecordStream<LocalIndex> kActive{"active"};       // owned points, ascending
 inline constexpr RecordStream<OpenStar> kOpenStars{"open stars"};  // in ascending owned index
 inline constexpr RecordStream<OpenLinkVertex> kOpenVertices{"open vertices"};
 inline constexpr RecordStream<BeltPoint> kBelt{"belt"};     // in ascending owned index

@@ -2,7 +2,7 @@
 #include "engine/boundary/tangential/tangential_boundary.hpp"
 
 #include "engine/boundary/tangential/curves.hpp"
-#include "engine/boundary/tangential/emit_stars.hpp"
+#include "engine/boundary/tangential/tile_boundary.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -18,14 +18,6 @@ constexpr std::uint64_t kBytesPerWedge = 240;
 // The bytes of an open chain of a component, its ends and their partners.
 constexpr std::uint64_t kBytesPerChain = sizeof(OpenChain) + 64;
 
-// Wedges of one point, which are next to each other, connect the chains that they are on.
-void connect_chains(std::span<const Wedge> wedges, std::span<const LocalIndex> chain_of,
-                    UnionFind connected) {
-  for (std::size_t i = 1; i < wedges.size(); ++i) {
-    if (wedges[i].row == wedges[i - 1].row) connected.unite(chain_of[i - 1], chain_of[i]);
-  }
-}
-
 }  // namespace
 
 TangentialBoundary::TangentialBoundary(const Tiling& tiling, Job& job)
@@ -37,7 +29,21 @@ TangentialBoundary::TangentialBoundary(const Tiling& tiling, Job& job)
       loops_(job.file("loops")) {}
 
 void TangentialBoundary::emit(const EvaluatedTile& tile, TileOutput& output) const {
-  emit_stars(tile, config_, output);
+  TileBoundary boundary(tile, config_);
+  boundary.emit(output);
+  const std::vector<Wedge> wedges = boundary.wedges();
+  TileLoops loops;
+  const auto add_loops = [&](std::span<const CurvePoint> curve, Scale scale) {
+    Scratch scratch(job_.temporary, curve_budget_);
+    find_loops_along(curve, scale, config_, scratch,
+                     [&](std::span<const CurvePoint> loop, const LoopEvidence& evidence) {
+                       loops.loops.push_back({loop.size(), evidence});
+                       loops.points.insert(loops.points.end(), loop.begin(), loop.end());
+                     });
+  };
+  const auto point_of = [&](LocalIndex w) { return boundary.curve_point(wedges[w]); };
+  follow_curves(wedges, point_of, config_.min_curve, add_loops).emit(output);
+  std::move(loops).emit(output);
 }
 
 void TangentialBoundary::complete_edges(const TileOutputs& outputs) {
@@ -47,66 +53,67 @@ void TangentialBoundary::complete_edges(const TileOutputs& outputs) {
 
 // Adds the loops along a closed curve.
 void TangentialBoundary::add_loops(std::span<const CurvePoint> curve, Scale scale, Scratch& scratch) {
-  const auto least = static_cast<std::size_t>(config_.min_curve);
-  if (curve.size() < least) return;
-  split_at_pinches(curve, scratch, [&](std::span<const CurvePoint> simple) {
-    if (simple.size() < least) return;
-    const LoopEvidence evidence = evidence_of(simple, scale, config_, scratch);
-    if (!evidence.may_be_hole()) return;
-    loops_.add(simple.size(), evidence, [&](std::uint64_t i) -> LoopPoint {
-      scratch.trim(sizeof(CurvePoint));
-      return simple[i];
-    });
-  });
+  find_loops_along(curve, scale, config_, scratch,
+                   [&](std::span<const CurvePoint> loop, const LoopEvidence& evidence) {
+                     loops_.add(loop.size(), evidence, [&](std::uint64_t i) -> LoopPoint {
+                       scratch.trim(sizeof(CurvePoint));
+                       return loop[i];
+                     });
+                   });
 }
 
-// Finds the loops that lie in the tile. The open chains go to the stitch, whose vertices are the chains.
-void TangentialBoundary::chain_tile(TileIndex t) {
-  const std::vector<Wedge> wedges = exchange_->wedges(t);
-  // Each wedge ends at two edges, each edge at two wedges.
-  std::atomic_ref(edges_) += static_cast<std::uint64_t>(std::count_if(
-      wedges.begin(), wedges.end(), [](const Wedge& wedge) { return wedge.scale == Scale::kFine; }));
-  std::vector<LocalIndex> chain_of(wedges.size());
-  std::vector<CurvePoint> points;
-  GraphPart<OpenChain> part{.single_vertices_count = true};
-  follow_wedges(wedges, partners_of(wedges), [&](const WedgeChain& chain) {
-    const LocalIndex number = part.vertices++;
-    points.clear();
-    for (const LocalIndex w : chain.wedges) {
-      chain_of[w] = number;
-      points.push_back({wedges[w].point, wedges[w].evidence});
+// Adds the loops that the tile has closed.
+void TangentialBoundary::add_closed_loops(const TileLoops& closed) {
+  std::span<const LoopPoint> left = closed.points;
+  for (const auto& [points, evidence] : closed.loops) {
+    loops_.add(points, evidence, [&](std::uint64_t i) { return left[i]; });
+    left = left.subspan(points);
+  }
+}
+
+// Passes the open chains of the tile on to the stitch, whose vertices are their components. Wedges of open
+// stars are known by now, and form chains, too.
+void TangentialBoundary::stitch_tile(const TileOutputs& outputs, TileIndex t) {
+  add_closed_loops(TileLoops::read(outputs, t));
+  GraphPart<OpenChain> part;
+  const auto add = [&](OpenChains open) {
+    std::atomic_ref(edges_) += open.totals.edges;
+    std::atomic_ref(closed_components_) += open.totals.components;
+    const std::uint64_t first = chain_points_.append(open.points);
+    const LocalIndex before = part.vertices;
+    for (std::size_t c = 0; c < open.chains.size(); ++c) {
+      OpenChain& chain = open.chains[c];
+      chain.first += first;
+      const LocalIndex vertex = before + open.components[c];
+      part.vertices = std::max(part.vertices, vertex + 1);
+      for (const ChainEnd& end : chain.ends) part.crossings.push_back({vertex, end.own, end.foreign});
+      part.records.push_back(chain);
+      part.vertex_of.push_back(vertex);
     }
-    const Scale scale = wedges[chain.wedges.front()].scale;
-    if (chain.is_closed) {
-      Scratch scratch(job_.temporary, curve_budget_);
-      add_loops(points, scale, scratch);
-      return;
-    }
-    const auto end = [&](LocalIndex w, std::size_t side) {
-      const ChainEnd end{wedges[w].row, side == 0 ? wedges[w].from : wedges[w].to};
-      part.crossings.push_back({number, end.own, end.foreign});
-      return end;
-    };
-    const ChainEnd first = end(chain.wedges.front(), chain.first_side),
-                   last = end(chain.wedges.back(), chain.last_side);
-    part.records.push_back({chain_points_.append(points), points.size(), scale, {first, last}});
-    part.vertex_of.push_back(number);
-  });
+  };
+  add(OpenChains::read(outputs, t));
+  const OpenWedges open = exchange_->wedges(t);
+  const auto point_of = [&](LocalIndex w) { return open.points[w]; };
+  add(follow_curves(open.wedges, point_of, config_.min_curve,
+                    [&](std::span<const CurvePoint> curve, Scale scale) {
+                      Scratch scratch(job_.temporary, curve_budget_);
+                      add_loops(curve, scale, scratch);
+                    }));
   std::vector<LocalIndex> links(part.vertices);
   part.links = links;
-  connect_chains(wedges, chain_of, UnionFind(links));
   stitch_->add(t, part);
 }
 
-void TangentialBoundary::stitch(const TileOutputs&, const Totals&) {
+void TangentialBoundary::stitch(const TileOutputs& outputs, const Totals&) {
   const std::size_t tiles = tiling_.tiles.size();
   stitch_.emplace(tiles, kBytesPerChain, job_);
   std::vector<std::uint64_t> needs(tiles);
   for (TileIndex t = 0; t < tiles; ++t)
-    needs[t] = exchange_->growing_bytes(t) + exchange_->most_wedges(t) * kBytesPerWedge;
+    needs[t] = exchange_->growing_bytes(t) + exchange_->most_wedges(t) * kBytesPerWedge +
+               TileLoops::bytes(outputs, t) + 2 * OpenChains::bytes(outputs, t);
   const MemoryLedger::Lease curves = job_.ledger.take(job_.memory.work / 8);
   job_.for_each_within(job_.memory.work - curves.bytes(), needs,
-                       [&](std::size_t t) { chain_tile(static_cast<TileIndex>(t)); });
+                       [&](std::size_t t) { stitch_tile(outputs, static_cast<TileIndex>(t)); });
   exchange_.reset();
 }
 
@@ -122,7 +129,8 @@ FoundLoops TangentialBoundary::find_loops(const TileOutputs&) {
         close_many_chains(for_each_chain, count, chain_points_, job_.temporary, lease.bytes() / 3, add);
       });
   loops_.sort();
-  return {.loops = std::move(loops_), .edges = edges_, .components = stitch_->components()};
+  return {
+      .loops = std::move(loops_), .edges = edges_, .components = closed_components_ + stitch_->components()};
 }
 
 }  // namespace lacuna::tangential

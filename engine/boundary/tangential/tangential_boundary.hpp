@@ -9,6 +9,7 @@
 #include "engine/boundary/candidates.hpp"
 #include "engine/boundary/tangential/border_exchange.hpp"
 #include "engine/boundary/tangential/chains.hpp"
+#include "engine/boundary/tangential/tile_curves.hpp"
 #include "engine/stitch/stitch.hpp"
 
 #include <cstdint>
@@ -21,14 +22,13 @@ class TangentialBoundary final : public BoundaryMethod {
  public:
   TangentialBoundary(const Tiling& tiling, Job& job);
 
-  // Finds the stars of the tile's active points, as far as the tile alone can.
+  // Finds the stars of the tile's active points, and follows their wedges, as far as the tile alone can.
   void emit(const EvaluatedTile& tile, TileOutput& output) const override;
   // Finds the active points that depend on several tiles: with them, all wedges are known.
   void complete_edges(const TileOutputs& outputs) override;
-  // Follows the wedges of each tile to chains, and joins the open ones.
+  // Follows the other wedges of each tile to chains, and joins the components of open chains.
   void stitch(const TileOutputs& outputs, const Totals& totals) override;
-  // Closes the open chains. Curves of fewer than `min_curve` points are left out: around so few, a sampling
-  // leaves wedges anyway.
+  // Closes the open chains.
   FoundLoops find_loops(const TileOutputs& outputs) override;
   // Candidates between neighbours on a loop lie on the boundary, next to the points that the curve passes
   // through.
@@ -39,7 +39,8 @@ class TangentialBoundary final : public BoundaryMethod {
 
  private:
   void add_loops(std::span<const CurvePoint> curve, Scale scale, Scratch& scratch);
-  void chain_tile(TileIndex tile);
+  void add_closed_loops(const TileLoops& closed);
+  void stitch_tile(const TileOutputs& outputs, TileIndex tile);
 
   const Tiling& tiling_;
   Job& job_;
@@ -49,7 +50,7 @@ class TangentialBoundary final : public BoundaryMethod {
   std::optional<Stitch<OpenChain>> stitch_;
   Column<CurvePoint> chain_points_;  // of open chains
   Loops loops_;
-  std::uint64_t edges_ = 0;
+  std::uint64_t edges_ = 0, closed_components_ = 0;
 };
 
 }  // namespace lacuna::tangential

@@ -4,15 +4,21 @@
 
 #include "engine/boundary/tangential/star.hpp"
 #include "engine/config/config.hpp"
-#include "engine/evaluate/tile_outputs.hpp"
-#include "engine/loops/loops.hpp"
+#include "engine/model/loop.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <span>
 #include <vector>
 
 namespace lacuna::tangential {
+
+// A point at the boundary of the consistent triangles, and the ends of its two boundary edges. Between these
+// edges, around the point, there is no consistent triangle.
+struct Wedge {
+  Row row, from, to;
+  float radius;  // the largest circumradius in the wedge, in units of `Sampling::distance`
+  Scale scale;
+};
 
 // The evidence of a wedge, on which confidence depends (method.md, C.6). Lengths are in units of the scan.
 struct WedgeEvidence {
@@ -23,13 +29,11 @@ struct WedgeEvidence {
   float surface = 0;           // mean surface share of the point's neighbours, [0, 1]
 };
 
-// A point at the boundary of the consistent triangles, and the ends of its two boundary edges. Between these
-// edges, around the point, there is no consistent triangle.
-struct Wedge {
-  LoopPoint point;
-  Row row, from, to;
+// A point of a curve. A point with several wedges is on several curves, or several times on one. What it has
+// beyond its wedge costs more than the wedge. Most wedges are on curves too short for a loop, and never have
+// it.
+struct CurvePoint : LoopPoint {
   WedgeEvidence evidence;
-  Scale scale;
 };
 
 // Returns 0 where the circumradius is no larger than the sampling radius, and 1 from `clear_radius` times
@@ -38,46 +42,13 @@ inline float clearness(double radius, double sampling_radius, const TangentialCo
   return static_cast<float>(std::clamp((radius / sampling_radius - 1) / (config.clear_radius - 1), 0.0, 1.0));
 }
 
-// The point of a star, with the data that its wedges need.
-struct StarPoint {
-  LoopPoint point;
-  Row row;
-  double distance;  // `Sampling::distance`
-};
-
-// What lies around the point of a star.
-struct WedgeSurroundings {
-  double sampling_radius;  // at the scale of a wedge
-  float surface;           // mean surface share of the point's neighbours, [0, 1]
-};
-
-// A link vertex of a star.
-struct LinkEnd {
-  Row row;
-  double length;  // from the star's point
-};
-
-// Adds the wedges of a star at both scales. around(scale): its `WedgeSurroundings`, looked up at most once
-// for each scale; end(i): link vertex i.
-template <class Name, class Around, class End>
-void add_wedges(const StarPoint& point, const Star<Name>& star, std::span<const Consistency> consistencies,
-                Around&& around, End&& end, const TangentialConfig& config, std::vector<Wedge>& wedges) {
+// Adds the wedges of the star of `row` at both scales. row_of(name): the row of a link vertex.
+template <class Name, class RowOf>
+void add_wedges(Row row, const Star<Name>& star, std::span<const Consistency> consistencies, RowOf&& row_of,
+                std::vector<Wedge>& wedges) {
   for (const Scale scale : kScales) {
-    std::optional<WedgeSurroundings> here;
     for_each_wedge(star, consistencies, scale, [&](std::size_t first, std::size_t last, float radius) {
-      if (!here) here = around(scale);
-      const LinkEnd from = end(first), to = end(last);
-      wedges.push_back(
-          {.point = point.point,
-           .row = point.row,
-           .from = from.row,
-           .to = to.row,
-           .evidence = {.length = (from.length + to.length) / 2,
-                        .sampling_radius = here->sampling_radius,
-                        .distance = point.distance,
-                        .clearness = clearness(radius * point.distance, here->sampling_radius, config),
-                        .surface = here->surface},
-           .scale = scale});
+      wedges.push_back({row, row_of(star.link[first].point), row_of(star.link[last].point), radius, scale});
     });
   }
 }

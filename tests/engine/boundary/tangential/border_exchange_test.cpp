@@ -2,7 +2,7 @@
 // The exchange between tiles: wedges are those of a single tile, and close to curves.
 #include "engine/boundary/tangential/border_exchange.hpp"
 
-#include "engine/boundary/tangential/emit_stars.hpp"
+#include "engine/boundary/tangential/tile_boundary.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/tiled_scan.hpp"
 
@@ -30,26 +30,35 @@ Found wedges_of(const Cloud& cloud, std::int64_t tile_points, std::int64_t threa
   const Tiling& tiling = scan.store.tiling();
   std::map<Row, PointId> ids;
   for (const auto& [id, row] : scan.rows()) ids.emplace(row, id);
+  constexpr RecordStream<Wedge> kCertain{"certain wedges"};
+  constexpr RecordStream<CurvePoint> kCertainPoints{"their points"};
   const TileOutputs outputs = scan.evaluate({[&](const EvaluatedTile& tile, TileOutput& output) {
-    emit_stars(tile, scan.config.tangential, output);
+    TileBoundary boundary(tile, scan.config.tangential);
+    boundary.emit(output);
+    std::vector<CurvePoint> points;
+    for (const Wedge& wedge : boundary.wedges()) points.push_back(boundary.curve_point(wedge));
+    output.add(kCertain, boundary.wedges());
+    output.add(kCertainPoints, std::move(points));
   }});
   BorderExchange exchange(outputs, tiling, scan.job);
   exchange.find_active_points();
 
   Found found{.tiles = tiling.tiles.size()};
-  std::size_t certain = 0;
-  for (TileIndex tile = 0; tile < tiling.tiles.size(); ++tile) {
-    certain += outputs.count(kWedges, tile);
-    const std::vector<Wedge> wedges = exchange.wedges(tile);
-    CHECK(wedges.size() <= exchange.most_wedges(tile));
-    for (const Wedge& wedge : wedges) {
-      const auto [low, high] = std::minmax(ids.at(wedge.from), ids.at(wedge.to));
-      const auto& [length, sampling_radius, distance, clearness, surface] = wedge.evidence;
+  const auto add = [&](std::span<const Wedge> wedges, std::span<const CurvePoint> points) {
+    for (std::size_t i = 0; i < wedges.size(); ++i) {
+      const auto [low, high] = std::minmax(ids.at(wedges[i].from), ids.at(wedges[i].to));
+      const auto& [length, sampling_radius, distance, clearness, surface] = points[i].evidence;
       found.wedges.push_back(
-          {wedge.point.id, low, high, wedge.scale, length, sampling_radius, distance, clearness, surface});
+          {points[i].id, low, high, wedges[i].scale, length, sampling_radius, distance, clearness, surface});
     }
+  };
+  for (TileIndex tile = 0; tile < tiling.tiles.size(); ++tile) {
+    const OpenWedges open = exchange.wedges(tile);
+    CHECK(open.wedges.size() <= exchange.most_wedges(tile));
+    found.across_tiles |= !open.wedges.empty();
+    add(open.wedges, open.points);
+    add(outputs.read(kCertain, tile), outputs.read(kCertainPoints, tile));
   }
-  found.across_tiles = found.wedges.size() > certain;
   std::sort(found.wedges.begin(), found.wedges.end());
   return found;
 }

@@ -26,8 +26,7 @@ std::vector<Wedge> ring(const std::vector<std::uint64_t>& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     Row from{rows[(i + rows.size() - 1) % rows.size()]}, to{rows[(i + 1) % rows.size()]};
     if (i % 2 == 1) std::swap(from, to);
-    wedges.push_back(
-        {point(id_of(rows[i])), Row{rows[i]}, from, to, {.length = double(rows[i])}, Scale::kFine});
+    wedges.push_back({Row{rows[i]}, from, to, 1, Scale::kFine});
   }
   return wedges;
 }
@@ -39,7 +38,10 @@ std::vector<std::vector<CurvePoint>> follow(std::vector<Wedge> wedges) {
   follow_wedges(wedges, partners_of(wedges), [&](const WedgeChain& chain) {
     CHECK(chain.is_closed);
     curves.emplace_back();
-    for (const LocalIndex w : chain.wedges) curves.back().push_back({wedges[w].point, wedges[w].evidence});
+    for (const LocalIndex w : chain.wedges) {
+      const std::uint64_t row = value(wedges[w].row);
+      curves.back().push_back({point(id_of(row)), {.length = double(row)}});
+    }
   });
   return curves;
 }
@@ -96,7 +98,7 @@ TEST_CASE(
   const std::vector<Wedge> other = ring({20, 21, 22});
   wedges.erase(wedges.begin() + 2);
   wedges.insert(wedges.end(), other.begin(), other.end());
-  wedges.push_back({point(id_of(40)), Row{40}, Row{41}, Row{42}, {}, Scale::kFine});  // alone in its tile
+  wedges.push_back({Row{40}, Row{41}, Row{42}, 1, Scale::kFine});  // alone in its tile
   const std::vector<WedgePartners> partners = partners_of(wedges);
   CHECK(std::count(partners[0].begin(), partners[0].end(), kNoIndex) == 0);
   CHECK(std::count(partners[1].begin(), partners[1].end(), kNoIndex) == 1);

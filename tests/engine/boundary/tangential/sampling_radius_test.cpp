@@ -25,12 +25,16 @@ TEST_CASE("the sampling radius depends on the circumradii alone, not on their or
     for (float& radius : radii) radius = static_cast<float>(random.uniform(0, 0.8));
     const double bound = random.uniform(0.1, 1);
     const auto within = [&](std::size_t of_a_star) {
-      SamplingRadius around;
-      for (std::size_t i = 0; i < radii.size(); i += of_a_star)
-        around.add(radii_among({radii.begin() + long(i),
-                                radii.begin() + long(std::min(i + of_a_star, radii.size()))}),
-                   1);
-      return around.within(bound);
+      std::vector<StarRadii> stars{radii_among({})};  // of the point, then of its neighbours
+      std::vector<LocalIndex> neighbours;
+      for (std::size_t i = 0; i < radii.size(); i += of_a_star) {
+        neighbours.push_back(static_cast<LocalIndex>(stars.size()));
+        stars.push_back(radii_among(
+            {radii.begin() + long(i), radii.begin() + long(std::min(i + of_a_star, radii.size()))}));
+      }
+      Surroundings around;
+      around.gather(0, neighbours, [&](LocalIndex q) { return PointSample{stars[q], 1, 0}; });
+      return around.sampling_radius(bound);
     };
     const double at_once = within(8);
     std::sort(radii.begin(), radii.end());
