@@ -106,7 +106,7 @@ void measure_belt(StarExchange& exchange, TileIndex t, const TangentialConfig& c
   OpenStars open;
   Outbox<RemoteTriangle> outbox(exchange.remote_triangles);
   RadiusBounder bounder(samplings, config);
-  Surroundings around;
+  RadiiAround around;
   std::vector<LinkVertex<LocalIndex>> link;
   // Find the stars a batch at a time, and the bound of each. Each star becomes an open star of this tile. Its
   // triangles go to the tiles of its foreign link vertices.
@@ -124,9 +124,11 @@ void measure_belt(StarExchange& exchange, TileIndex t, const TangentialConfig& c
             link.push_back({query.neighbours[stars[i][v].point], stars[i][v].radius});
           const Star<LocalIndex> star{link, bound};
           around.gather(query.point, query.neighbours, [&](LocalIndex q) {
-            return PointSample{samples[q].radii, samples[q].sampling.distance, samples[q].surface};
+            return std::pair(samples[q].radii, samples[q].sampling.distance);
           });
-          open.add(point.point, point.owned, bound, samplings[query.point].distance, around);
+          const float surface =
+              surface_around(query.neighbours, [&](LocalIndex q) { return samples[q].surface; });
+          open.add(point.point, point.owned, bound, samplings[query.point].distance, around, surface);
           // A triangle within the bound is undecided until the stars of its other vertices are known.
           for (std::size_t v = 0; v < star.size(); ++v) {
             const Scale scale = star.scale_of(v);

@@ -20,9 +20,9 @@ std::size_t place(std::size_t start, std::size_t i, bool forwards, std::size_t c
 }
 
 // Returns the points that a curve passes more than once, ascending.
-std::span<const PointId> repeated_points(std::span<const CurvePoint> curve, Scratch& scratch) {
+std::span<const PointId> repeated_points(std::span<const CurveStep> curve, Scratch& scratch) {
   SortedRuns<PointId> ids(scratch.folder() / "curve-ids", scratch.budget() / 4);
-  scratch.for_each(curve, [&](const CurvePoint& p) { ids.add(p.id); });
+  scratch.for_each(curve, [&](const CurveStep& p) { ids.add(p.id); });
   const std::span<PointId> repeated = scratch.array<PointId>(curve.size() / 2);
   std::size_t count = 0;
   std::optional<PointId> before;
@@ -91,14 +91,14 @@ void follow_wedges(std::span<const Wedge> wedges, std::span<const WedgePartners>
   }
 }
 
-void normalise(std::span<const CurvePoint> curve, std::span<CurvePoint> turned, Scratch& scratch) {
+void normalise(std::span<const CurveStep> curve, std::span<CurveStep> turned, Scratch& scratch) {
   struct Way {
     std::size_t start;
     bool forwards;
   };
   const std::size_t count = curve.size();
-  const auto at = [&](const Way& way, std::size_t i) -> const CurvePoint& {
-    scratch.trim(sizeof(CurvePoint));
+  const auto at = [&](const Way& way, std::size_t i) -> const CurveStep& {
+    scratch.trim(sizeof(CurveStep));
     return curve[place(way.start, i, way.forwards, count)];
   };
   const auto comes_first = [&](const Way& a, const Way& b) {
@@ -109,7 +109,7 @@ void normalise(std::span<const CurvePoint> curve, std::span<CurvePoint> turned, 
     return false;
   };
   PointId least = curve.front().id;
-  scratch.for_each(curve, [&](const CurvePoint& p) { least = std::min(least, p.id); });
+  scratch.for_each(curve, [&](const CurveStep& p) { least = std::min(least, p.id); });
   std::optional<Way> best;
   for (std::size_t start = 0; start < count; ++start) {
     if (at({start, true}, 0).id != least) continue;
@@ -121,9 +121,9 @@ void normalise(std::span<const CurvePoint> curve, std::span<CurvePoint> turned, 
   for (std::size_t i = 0; i < count; ++i) turned[i] = at(*best, i);
 }
 
-void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
-                      const std::function<void(std::span<const CurvePoint>)>& visit) {
-  const std::span<CurvePoint> whole = scratch.array<CurvePoint>(curve.size());
+void split_at_pinches(std::span<const CurveStep> curve, Scratch& scratch,
+                      const std::function<void(std::span<const CurveStep>)>& visit) {
+  const std::span<CurveStep> whole = scratch.array<CurveStep>(curve.size());
   normalise(curve, whole, scratch);
   const std::span<const PointId> repeated = repeated_points(curve, scratch);
   if (repeated.empty()) {
@@ -132,25 +132,25 @@ void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
   }
   // For each repeated point, this is 1 + its place on the path, or 0 if it is not on the path.
   const std::span<std::uint32_t> places = scratch.array<std::uint32_t>(repeated.size());
-  const auto place_of = [&](const CurvePoint& p) -> std::uint32_t* {
+  const auto place_of = [&](const CurveStep& p) -> std::uint32_t* {
     const auto at = std::lower_bound(repeated.begin(), repeated.end(), p.id);
     return at != repeated.end() && *at == p.id ? &places[static_cast<std::size_t>(at - repeated.begin())]
                                                : nullptr;
   };
-  const std::span<CurvePoint> path = scratch.array<CurvePoint>(curve.size()),
-                              turned = scratch.array<CurvePoint>(curve.size());
+  const std::span<CurveStep> path = scratch.array<CurveStep>(curve.size()),
+                             turned = scratch.array<CurveStep>(curve.size());
   std::uint32_t size = 0;  // of the path
   const auto split_off = [&](std::uint32_t begin) {
     const auto part = path.subspan(begin, size - begin);
     normalise(part, turned, scratch);
     visit(turned.first(part.size()));
-    scratch.for_each(part, [&](const CurvePoint& p) {
+    scratch.for_each(part, [&](const CurveStep& p) {
       scratch.trim();
       if (std::uint32_t* const place = place_of(p); place != nullptr) *place = 0;
     });
     size = begin;
   };
-  scratch.for_each(whole, [&](const CurvePoint& p) {
+  scratch.for_each(whole, [&](const CurveStep& p) {
     scratch.trim();
     std::uint32_t* const place = place_of(p);
     if (place != nullptr && *place != 0) split_off(*place - 1);
@@ -160,32 +160,35 @@ void split_at_pinches(std::span<const CurvePoint> curve, Scratch& scratch,
   split_off(0);
 }
 
-LoopEvidence evidence_of(std::span<const CurvePoint> curve, Scale scale, const TangentialConfig& config,
-                         Scratch& scratch) {
-  double clear = 0, length = 0, sampling_radii = 0, distances = 0, surface = 0;
-  scratch.for_each(curve, [&](const CurvePoint& p) {
-    clear += p.evidence.clearness * p.evidence.length;
-    length += p.evidence.length;
-    sampling_radii += p.evidence.sampling_radius;
-    distances += p.evidence.distance;
-    surface += p.evidence.surface;
-  });
+LoopEvidence evidence_of(std::span<const CurveStep> curve, Scale scale, const WedgeData& data,
+                         const TangentialConfig& config, Scratch& scratch) {
   const auto points = static_cast<double>(curve.size());
-  return {.clearness = clear / (length + config.added_length * sampling_radii / points),
-          .surface = surface / points,
-          .spacing = distances / points / kDistanceOverSpacing,
-          .sampling_gap = sampling_radii / distances,
-          .is_coarse = scale == Scale::kCoarse};
+  double surface = 0;
+  scratch.for_each(curve, [&](const CurveStep& step) { surface += data.surface(step.wedge); });
+  LoopEvidence evidence{.surface = surface / points, .is_coarse = scale == Scale::kCoarse};
+  if (!evidence.may_be_hole()) return evidence;
+  double clear = 0, length = 0, sampling_radii = 0, distances = 0;
+  scratch.for_each(curve, [&](const CurveStep& step) {
+    const WedgeEvidence at = data.point(step.wedge).evidence;
+    clear += at.clearness * at.length;
+    length += at.length;
+    sampling_radii += at.sampling_radius;
+    distances += at.distance;
+  });
+  evidence.clearness = clear / (length + config.added_length * sampling_radii / points);
+  evidence.spacing = distances / points / kDistanceOverSpacing;
+  evidence.sampling_gap = sampling_radii / distances;
+  return evidence;
 }
 
-void find_loops_along(std::span<const CurvePoint> curve, Scale scale, const TangentialConfig& config,
-                      Scratch& scratch,
-                      const std::function<void(std::span<const CurvePoint>, const LoopEvidence&)>& visit) {
+void find_loops_along(std::span<const CurveStep> curve, Scale scale, const WedgeData& data,
+                      const TangentialConfig& config, Scratch& scratch,
+                      const std::function<void(std::span<const CurveStep>, const LoopEvidence&)>& visit) {
   const auto least = static_cast<std::size_t>(config.min_curve);
   if (curve.size() < least) return;
-  split_at_pinches(curve, scratch, [&](std::span<const CurvePoint> simple) {
+  split_at_pinches(curve, scratch, [&](std::span<const CurveStep> simple) {
     if (simple.size() < least) return;
-    const LoopEvidence evidence = evidence_of(simple, scale, config, scratch);
+    const LoopEvidence evidence = evidence_of(simple, scale, data, config, scratch);
     if (evidence.may_be_hole()) visit(simple, evidence);
   });
 }

@@ -72,8 +72,8 @@ std::vector<Wedge> Growth::wedges() {
     const Star<Row> star = stars_[s];
     for (std::size_t i = 0; i < star.size(); ++i) scale_of(s, i);
     add_wedges(
-        row(s), star, std::span<const Consistency>(stars_.consistencies_of(s)), [](Row r) { return r; },
-        wedges);
+        points_[s].point.id, row(s), star, std::span<const Consistency>(stars_.consistencies_of(s)),
+        [](Row r) { return r; }, wedges);
   }
   return wedges;
 }

@@ -7,14 +7,14 @@
 
 namespace lacuna::tangential {
 
-void Surroundings::add(const PointSample& sample) {
-  for (const float radius : sample.radii.radii) {
+void RadiiAround::add(const std::pair<StarRadii, double>& star) {
+  for (const float radius : star.first.radii) {
     if (radius > std::numeric_limits<float>::max()) break;  // the others are infinite, too
-    radii_.push_back(radius * sample.distance);
+    radii_.push_back(radius * star.second);
   }
 }
 
-double Surroundings::sampling_radius(double bound) const {
+double RadiiAround::sampling_radius(double bound) const {
   std::array<std::uint32_t, kSteps + 1> counts{};  // by how many steps they exceed; the last: not within
   const double per_step = kSteps / bound;
   for (const double radius : radii_)

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace lacuna::tangential {
@@ -30,32 +31,17 @@ struct StarRadii {
 template <class Link>
 StarRadii smallest_radii(const Link& link, const TangentialConfig& config);
 
-// What the evidence of a point needs of the point and of each neighbour.
-struct PointSample {
-  StarRadii radii;
-  double distance;  // `Sampling::distance`
-  float surface;    // `Evaluation::surface_share`
-};
-
-// The circumradii around a point, and how much its neighbours lie on a surface. It keeps its memory for the
-// next point.
-class Surroundings {
+// The circumradii around a point. It keeps its memory for the next point.
+class RadiiAround {
  public:
-  // Gathers the samples of a point and its neighbours. sample_of(q) returns a `PointSample`.
-  template <class SampleOf>
-  void gather(LocalIndex point, std::span<const LocalIndex> neighbours, SampleOf&& sample_of) {
+  // Gathers the circumradii of the stars of a point and its neighbours. radii_of(q): of a star, with its
+  // `Sampling::distance`.
+  template <class RadiiOf>
+  void gather(LocalIndex point, std::span<const LocalIndex> neighbours, RadiiOf&& radii_of) {
     radii_.clear();
-    add(sample_of(point));
-    surface_ = 0;
-    for (const LocalIndex q : neighbours) {
-      const PointSample sample = sample_of(q);
-      add(sample);
-      surface_ += sample.surface;
-    }
-    surface_ /= static_cast<float>(neighbours.size());
+    add(radii_of(point));
+    for (const LocalIndex q : neighbours) add(radii_of(q));
   }
-
-  float surface() const { return surface_; }  // mean surface share of the neighbours, [0, 1]
   // Returns a radius that nine in ten of the circumradii within a bound do not exceed. It is rounded up to a
   // 64th of the bound. Without any circumradius it is the bound. Cost: linear.
   double sampling_radius(double bound) const;
@@ -63,11 +49,18 @@ class Surroundings {
  private:
   static constexpr std::size_t kSteps = 64;
 
-  void add(const PointSample& sample);
+  void add(const std::pair<StarRadii, double>& star);
 
   std::vector<double> radii_;
-  float surface_ = 0;
 };
+
+// Returns the mean surface share of a point's neighbours, [0, 1]. surface_of(q): `Evaluation::surface_share`.
+template <class SurfaceOf>
+float surface_around(std::span<const LocalIndex> neighbours, SurfaceOf&& surface_of) {
+  float sum = 0;
+  for (const LocalIndex q : neighbours) sum += surface_of(q);
+  return sum / static_cast<float>(neighbours.size());
+}
 
 template <class Link>
 StarRadii smallest_radii(const Link& link, const TangentialConfig& config) {

@@ -31,7 +31,7 @@ struct OpenStar {
   StarRange place;                                     // among the tile's open link vertices
   double distance;                                     // `Sampling::distance`
   std::array<double, kScales.size()> sampling_radius;  // by scale
-  float surface;                                       // `Surroundings::surface`
+  float surface;                                       // mean surface share of the point's neighbours
 };
 
 // A link vertex of an open star, with the consistency of the triangle that begins here.
@@ -48,14 +48,14 @@ struct OpenStars {
   std::vector<OpenLinkVertex> vertices;
 
   void add(const LoopPoint& point, LocalIndex owned, const RadiusBound& bound, double distance,
-           const Surroundings& around) {
+           const RadiiAround& around, float surface) {
     stars.push_back(
         {point,
          owned,
          {static_cast<std::uint32_t>(vertices.size()), 0, bound},
          distance,
          {around.sampling_radius(bound.fine * distance), around.sampling_radius(bound.coarse * distance)},
-         around.surface()});
+         surface});
   }
   void add_vertex(const OpenLinkVertex& vertex) {  // of the last star
     vertices.push_back(vertex);

@@ -32,17 +32,20 @@ void TangentialBoundary::emit(const EvaluatedTile& tile, TileOutput& output) con
   TileBoundary boundary(tile, config_);
   boundary.emit(output);
   const std::vector<Wedge> wedges = boundary.wedges();
+  const WedgeData data{.point = [&](std::uint64_t w) { return boundary.curve_point(wedges[w]); },
+                       .surface = [&](std::uint64_t w) { return boundary.surface(wedges[w]); }};
   TileLoops loops;
-  const auto add_loops = [&](std::span<const CurvePoint> curve, Scale scale) {
+  const auto add_loops = [&](std::span<const CurveStep> curve, Scale scale) {
+    if (curve.size() < static_cast<std::size_t>(config_.min_curve)) return;  // most are: no Scratch for them
     Scratch scratch(job_.temporary, curve_budget_);
-    find_loops_along(curve, scale, config_, scratch,
-                     [&](std::span<const CurvePoint> loop, const LoopEvidence& evidence) {
+    find_loops_along(curve, scale, data, config_, scratch,
+                     [&](std::span<const CurveStep> loop, const LoopEvidence& evidence) {
                        loops.loops.push_back({loop.size(), evidence});
-                       loops.points.insert(loops.points.end(), loop.begin(), loop.end());
+                       for (const CurveStep& step : loop)
+                         loops.points.push_back(boundary.loop_point(wedges[step.wedge]));
                      });
   };
-  const auto point_of = [&](LocalIndex w) { return boundary.curve_point(wedges[w]); };
-  follow_curves(wedges, point_of, config_.min_curve, add_loops).emit(output);
+  follow_curves(wedges, data.point, add_loops).emit(output);
   std::move(loops).emit(output);
 }
 
@@ -51,13 +54,16 @@ void TangentialBoundary::complete_edges(const TileOutputs& outputs) {
   exchange_->find_active_points();
 }
 
-// Adds the loops along a closed curve.
-void TangentialBoundary::add_loops(std::span<const CurvePoint> curve, Scale scale, Scratch& scratch) {
-  find_loops_along(curve, scale, config_, scratch,
-                   [&](std::span<const CurvePoint> loop, const LoopEvidence& evidence) {
+// Adds the loops along a closed curve. `points`: of its wedges.
+void TangentialBoundary::add_loops(std::span<const CurveStep> curve, Scale scale,
+                                   std::span<const CurvePoint> points, Scratch& scratch) {
+  const WedgeData data{.point = [&](std::uint64_t w) { return points[w]; },
+                       .surface = [&](std::uint64_t w) { return points[w].evidence.surface; }};
+  find_loops_along(curve, scale, data, config_, scratch,
+                   [&](std::span<const CurveStep> loop, const LoopEvidence& evidence) {
                      loops_.add(loop.size(), evidence, [&](std::uint64_t i) -> LoopPoint {
                        scratch.trim(sizeof(CurvePoint));
-                       return loop[i];
+                       return points[loop[i].wedge];
                      });
                    });
 }
@@ -93,12 +99,12 @@ void TangentialBoundary::stitch_tile(const TileOutputs& outputs, TileIndex t) {
   };
   add(OpenChains::read(outputs, t));
   const OpenWedges open = exchange_->wedges(t);
-  const auto point_of = [&](LocalIndex w) { return open.points[w]; };
-  add(follow_curves(open.wedges, point_of, config_.min_curve,
-                    [&](std::span<const CurvePoint> curve, Scale scale) {
-                      Scratch scratch(job_.temporary, curve_budget_);
-                      add_loops(curve, scale, scratch);
-                    }));
+  add(follow_curves(
+      open.wedges, [&](std::uint64_t w) { return open.points[w]; },
+      [&](std::span<const CurveStep> curve, Scale scale) {
+        Scratch scratch(job_.temporary, curve_budget_);
+        add_loops(curve, scale, open.points, scratch);
+      }));
   std::vector<LocalIndex> links(part.vertices);
   part.links = links;
   stitch_->add(t, part);
@@ -119,7 +125,14 @@ void TangentialBoundary::stitch(const TileOutputs& outputs, const Totals&) {
 
 FoundLoops TangentialBoundary::find_loops(const TileOutputs&) {
   const MemoryLedger::Lease curves = job_.ledger.take(job_.memory.work / 8);
-  const auto add = [&](auto curve, Scale scale, Scratch& scratch) { add_loops(curve, scale, scratch); };
+  const auto add = [&](std::span<const CurvePoint> points, Scale scale, Scratch& scratch) {
+    const std::span<CurveStep> curve = scratch.array<CurveStep>(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      scratch.trim(sizeof(CurvePoint));
+      curve[i] = {points[i].id, i};
+    }
+    add_loops(curve, scale, points, scratch);
+  };
   stitch_->for_each_component(
       [&](std::span<const OpenChain> chains) {
         close_chains(chains, chain_points_, job_.temporary, curve_budget_, add);

@@ -38,7 +38,8 @@ class TangentialBoundary final : public BoundaryMethod {
   }
 
  private:
-  void add_loops(std::span<const CurvePoint> curve, Scale scale, Scratch& scratch);
+  void add_loops(std::span<const CurveStep> curve, Scale scale, std::span<const CurvePoint> points,
+                 Scratch& scratch);
   void add_closed_loops(const TileLoops& closed);
   void stitch_tile(const TileOutputs& outputs, TileIndex tile);
 

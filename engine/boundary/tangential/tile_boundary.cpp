@@ -44,7 +44,8 @@ TileBoundary::TileBoundary(const EvaluatedTile& tile, const TangentialConfig& co
     : tile_(tile),
       config_(config),
       found_(find_stars(tile.points, tile.neighbourhoods, tile.evaluations,
-                        seeds_of(tile, config.seed_probability), tile.is_border, config)) {}
+                        seeds_of(tile, config.seed_probability), tile.is_border, config)),
+      place_(tile.points.owned, kNoIndex) {}
 
 std::vector<Wedge> TileBoundary::wedges() const {
   std::vector<Wedge> wedges;
@@ -52,7 +53,7 @@ std::vector<Wedge> TileBoundary::wedges() const {
     const auto consistencies = found_.stars.consistencies_of(p);
     if (!is_measured(found_.states[p]) || is_open(found_.states[p], consistencies)) continue;
     add_wedges(
-        tile_.points.rows[p], found_.stars[p], consistencies,
+        tile_.points.ids[p], tile_.points.rows[p], found_.stars[p], consistencies,
         [&](LocalIndex q) { return tile_.points.rows[q]; }, wedges);
   }
   return wedges;
@@ -61,14 +62,21 @@ std::vector<Wedge> TileBoundary::wedges() const {
 CurvePoint TileBoundary::curve_point(const Wedge& wedge) {
   const LocalIndex p = tile_.tile.local(wedge.row);
   const double distance = found_.samplings[p].distance;
-  const double sampling_radius =
-      around(p).sampling_radius(found_.stars.places[p].bound.at(wedge.scale) * distance);
-  return {loop_point_of(tile_, p),
+  const double sampling_radius = sampling_radii(p)[static_cast<std::size_t>(wedge.scale)];
+  return {loop_point(wedge),
           {.length = (length(p, tile_.tile.local(wedge.from)) + length(p, tile_.tile.local(wedge.to))) / 2,
            .sampling_radius = sampling_radius,
            .distance = distance,
            .clearness = clearness(wedge.radius * distance, sampling_radius, config_),
-           .surface = around_.surface()}};
+           .surface = surface(p)}};
+}
+
+LoopPoint TileBoundary::loop_point(const Wedge& wedge) const {
+  return loop_point_of(tile_, tile_.tile.local(wedge.row));
+}
+
+float TileBoundary::surface(const Wedge& wedge) const {
+  return surface(tile_.tile.local(wedge.row));
 }
 
 void TileBoundary::emit(TileOutput& output) {
@@ -81,14 +89,27 @@ void TileBoundary::emit(TileOutput& output) {
   emit_belt(output);
 }
 
-const Surroundings& TileBoundary::around(LocalIndex p) {
-  around_.gather(p, tile_.neighbourhoods[p], [&](LocalIndex q) { return sample(q); });
+float TileBoundary::surface(LocalIndex p) const {
+  return surface_around(tile_.neighbourhoods[p],
+                        [&](LocalIndex q) { return tile_.evaluations[q].surface_share; });
+}
+
+const RadiiAround& TileBoundary::around(LocalIndex p) {
+  around_.gather(p, tile_.neighbourhoods[p],
+                 [&](LocalIndex q) { return std::pair(radii(q), found_.samplings[q].distance); });
   return around_;
 }
 
-PointSample TileBoundary::sample(LocalIndex p) const {
-  return {smallest_radii(found_.stars[p].link, config_), found_.samplings[p].distance,
-          tile_.evaluations[p].surface_share};
+const TileBoundary::SamplingRadii& TileBoundary::sampling_radii(LocalIndex p) {
+  if (place_[p] == kNoIndex) {
+    place_[p] = static_cast<LocalIndex>(sampling_radii_.size());
+    const RadiusBound& bound = found_.stars.places[p].bound;
+    const double distance = found_.samplings[p].distance;
+    const RadiiAround& radii = around(p);
+    sampling_radii_.push_back(
+        {radii.sampling_radius(bound.fine * distance), radii.sampling_radius(bound.coarse * distance)});
+  }
+  return sampling_radii_[place_[p]];
 }
 
 double TileBoundary::length(LocalIndex p, LocalIndex q) const {
@@ -101,7 +122,7 @@ void TileBoundary::emit_open_stars(TileOutput& output) {
     const auto consistencies = found_.stars.consistencies_of(p);
     if (!is_measured(found_.states[p]) || !is_open(found_.states[p], consistencies)) continue;
     const Star<LocalIndex> star = found_.stars[p];
-    open.add(loop_point_of(tile_, p), p, star.bound, found_.samplings[p].distance, around(p));
+    open.add(loop_point_of(tile_, p), p, star.bound, found_.samplings[p].distance, around(p), surface(p));
     for (std::size_t i = 0; i < star.size(); ++i) {
       const auto [q, radius] = star.link[i];
       open.add_vertex({.row = tile_.points.rows[q],
@@ -156,8 +177,7 @@ void TileBoundary::emit_belt(TileOutput& output) const {
     if (!is_around[p]) continue;
     owned.push_back(p);
     sites.push_back(site_of(tile_.points.positions[p], tile_.points.ids[p], tile_.evaluations[p]));
-    const PointSample of_point = sample(p);
-    samples.push_back({found_.samplings[p], of_point.radii, of_point.surface});
+    samples.push_back({found_.samplings[p], radii(p), tile_.evaluations[p].surface_share});
   }
   output.add(kSampled, std::move(owned));
   output.add(kSites, std::move(sites));

@@ -8,6 +8,7 @@
 #include "engine/config/config.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
 
+#include <array>
 #include <vector>
 
 namespace lacuna::tangential {
@@ -23,10 +24,16 @@ class TileBoundary {
   // Returns the wedges that no other tile can change, in ascending row.
   std::vector<Wedge> wedges() const;
   CurvePoint curve_point(const Wedge& wedge);
+  LoopPoint loop_point(const Wedge& wedge) const;  // without the evidence
+  float surface(const Wedge& wedge) const;         // of the evidence
 
  private:
-  const Surroundings& around(LocalIndex p);
-  PointSample sample(LocalIndex p) const;
+  using SamplingRadii = std::array<double, kScales.size()>;  // by scale
+
+  const RadiiAround& around(LocalIndex p);
+  const SamplingRadii& sampling_radii(LocalIndex p);
+  StarRadii radii(LocalIndex p) const { return smallest_radii(found_.stars[p].link, config_); }
+  float surface(LocalIndex p) const;
   double length(LocalIndex p, LocalIndex q) const;
   void emit_open_stars(TileOutput& output);
   void emit_belt(TileOutput& output) const;
@@ -34,7 +41,10 @@ class TileBoundary {
   const EvaluatedTile& tile_;
   const TangentialConfig& config_;
   TileStars found_;
-  Surroundings around_;
+  RadiiAround around_;
+  // Those that were needed so far. Curves pass most of their points several times.
+  std::vector<SamplingRadii> sampling_radii_;
+  std::vector<LocalIndex> place_;  // by owned point: of its radii; kNoIndex: not needed yet
 };
 
 }  // namespace lacuna::tangential

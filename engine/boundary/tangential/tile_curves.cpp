@@ -63,35 +63,34 @@ std::uint64_t OpenChains::bytes(const TileOutputs& outputs, TileIndex tile) {
          outputs.count(kChainPoints, tile) * sizeof(CurvePoint);
 }
 
-OpenChains follow_curves(std::span<const Wedge> wedges, const std::function<CurvePoint(LocalIndex)>& point_of,
-                         std::int64_t min_curve,
-                         const std::function<void(std::span<const CurvePoint>, Scale)>& visit) {
+OpenChains follow_curves(std::span<const Wedge> wedges,
+                         const std::function<CurvePoint(std::uint64_t)>& point_of,
+                         const std::function<void(std::span<const CurveStep>, Scale)>& visit) {
   OpenChains found;
   // Each wedge ends at two edges, each edge at two wedges.
-  found.totals.edges = static_cast<std::uint64_t>(
-      std::ranges::count(wedges, Scale::kFine, [](const Wedge& wedge) { return wedge.scale; }));
+  found.totals.edges = static_cast<std::uint64_t>(std::ranges::count(wedges, Scale::kFine, &Wedge::scale));
   std::vector<LocalIndex> chain_of(wedges.size()), open;
   LocalIndex chains = 0;
-  std::vector<CurvePoint> curve;
+  std::vector<CurveStep> curve;
   follow_wedges(wedges, partners_of(wedges), [&](const WedgeChain& chain) {
     const LocalIndex number = chains++;
     for (const LocalIndex w : chain.wedges) chain_of[w] = number;
-    if (chain.is_closed && chain.wedges.size() < static_cast<std::size_t>(min_curve)) return;
     const Scale scale = wedges[chain.wedges.front()].scale;
-    std::vector<CurvePoint>& points = chain.is_closed ? curve : found.points;
-    if (chain.is_closed) curve.clear();
-    const std::uint64_t first = points.size();
-    for (const LocalIndex w : chain.wedges) points.push_back(point_of(w));
-    if (chain.is_closed) return visit(curve, scale);
+    if (chain.is_closed) {
+      curve.clear();
+      for (const LocalIndex w : chain.wedges) curve.push_back({wedges[w].id, w});
+      return visit(curve, scale);
+    }
     const auto end = [&](LocalIndex w, std::size_t side) {
       return ChainEnd{wedges[w].row, side == 0 ? wedges[w].from : wedges[w].to};
     };
     open.push_back(number);
     found.chains.push_back(
-        {first,
+        {found.points.size(),
          chain.wedges.size(),
          scale,
          {end(chain.wedges.front(), chain.first_side), end(chain.wedges.back(), chain.last_side)}});
+    for (const LocalIndex w : chain.wedges) found.points.push_back(point_of(w));
   });
   number_components(connect_chains(wedges, chain_of, chains), open, found);
   return found;

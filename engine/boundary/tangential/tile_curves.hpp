@@ -33,11 +33,10 @@ struct OpenChains {
 };
 
 // Follows wedges to curves. `wedges`: of some points of a tile, all wedges of each point, in ascending row.
-// point_of(i): the curve point of wedge i. Calls visit(curve, scale) for each closed curve of `min_curve`
-// points or more. Cost: linear.
-OpenChains follow_curves(std::span<const Wedge> wedges, const std::function<CurvePoint(LocalIndex)>& point_of,
-                         std::int64_t min_curve,
-                         const std::function<void(std::span<const CurvePoint>, Scale)>& visit);
+// point_of(i): the curve point of wedge i. Calls visit(curve, scale) for each closed curve. Cost: linear.
+OpenChains follow_curves(std::span<const Wedge> wedges,
+                         const std::function<CurvePoint(std::uint64_t)>& point_of,
+                         const std::function<void(std::span<const CurveStep>, Scale)>& visit);
 
 // Loops that close within a tile.
 struct TileLoops {

@@ -15,6 +15,7 @@ namespace lacuna::tangential {
 // A point at the boundary of the consistent triangles, and the ends of its two boundary edges. Between these
 // edges, around the point, there is no consistent triangle.
 struct Wedge {
+  PointId id;
   Row row, from, to;
   float radius;  // the largest circumradius in the wedge, in units of `Sampling::distance`
   Scale scale;
@@ -29,9 +30,7 @@ struct WedgeEvidence {
   float surface = 0;           // mean surface share of the point's neighbours, [0, 1]
 };
 
-// A point of a curve. A point with several wedges is on several curves, or several times on one. What it has
-// beyond its wedge costs more than the wedge. Most wedges are on curves too short for a loop, and never have
-// it.
+// A point of a curve. A point with several wedges is on several curves, or several times on one.
 struct CurvePoint : LoopPoint {
   WedgeEvidence evidence;
 };
@@ -42,13 +41,14 @@ inline float clearness(double radius, double sampling_radius, const TangentialCo
   return static_cast<float>(std::clamp((radius / sampling_radius - 1) / (config.clear_radius - 1), 0.0, 1.0));
 }
 
-// Adds the wedges of the star of `row` at both scales. row_of(name): the row of a link vertex.
+// Adds the wedges of the star of a point at both scales. row_of(name): the row of a link vertex.
 template <class Name, class RowOf>
-void add_wedges(Row row, const Star<Name>& star, std::span<const Consistency> consistencies, RowOf&& row_of,
-                std::vector<Wedge>& wedges) {
+void add_wedges(PointId id, Row row, const Star<Name>& star, std::span<const Consistency> consistencies,
+                RowOf&& row_of, std::vector<Wedge>& wedges) {
   for (const Scale scale : kScales) {
     for_each_wedge(star, consistencies, scale, [&](std::size_t first, std::size_t last, float radius) {
-      wedges.push_back({row, row_of(star.link[first].point), row_of(star.link[last].point), radius, scale});
+      wedges.push_back(
+          {id, row, row_of(star.link[first].point), row_of(star.link[last].point), radius, scale});
     });
   }
 }

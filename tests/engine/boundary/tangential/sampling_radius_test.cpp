@@ -32,8 +32,8 @@ TEST_CASE("the sampling radius depends on the circumradii alone, not on their or
         stars.push_back(radii_among(
             {radii.begin() + long(i), radii.begin() + long(std::min(i + of_a_star, radii.size()))}));
       }
-      Surroundings around;
-      around.gather(0, neighbours, [&](LocalIndex q) { return PointSample{stars[q], 1, 0}; });
+      RadiiAround around;
+      around.gather(0, neighbours, [&](LocalIndex q) { return std::pair(stars[q], 1.0); });
       return around.sampling_radius(bound);
     };
     const double at_once = within(8);
