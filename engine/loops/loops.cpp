@@ -17,9 +17,14 @@ void Loops::add(std::uint64_t count, const LoopEvidence& evidence,
 }
 
 void Loops::for_each_point(std::size_t loop, const std::function<void(const LoopPoint&)>& visit) const {
-  const std::uint64_t first = index_[loop].first;
-  ColumnReader<LoopPoint> points(points_);
-  for (std::uint64_t i = first; i < first + index_[loop].count; ++i) visit(points[i]);
+  constexpr std::uint64_t kBlock = 1024;
+  const Entry& entry = index_[loop];
+  std::vector<LoopPoint> block(std::min(kBlock, entry.count));
+  for (std::uint64_t i = 0; i < entry.count; i += block.size()) {
+    block.resize(std::min(kBlock, entry.count - i));
+    points_.read(entry.first + i, std::span(block));
+    for (const LoopPoint& point : block) visit(point);
+  }
 }
 
 int Loops::compare(const Loops& a, const Entry& i, const Loops& b, const Entry& j) {

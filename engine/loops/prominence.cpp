@@ -122,24 +122,34 @@ std::span<std::uint32_t> nearest_marked(const Raster& raster, std::span<const st
   return nearest;
 }
 
-// Calls visit(point) for each point in the box, and for some around it.
+// Calls visit(point) for each point in the box, and for some around it. Cells are read many at a time: a
+// call of the system costs more than the points of a cell.
 template <class Visit>
 void for_each_point_near(const TileStore& store, const Eigen::AlignedBox3d& box, Visit&& visit) {
+  constexpr std::size_t kCells = 512;
   const Tiling& tiling = store.tiling();
-  std::vector<std::uint32_t> nodes(tiling.nodes.empty() ? 0 : 1);
+  std::vector<std::uint32_t> nodes(tiling.nodes.empty() ? 0 : 1), cells;
+  std::vector<ScanPoint> points;
+  std::vector<Row> rows;
+  const auto read = [&] {
+    store.read_cells(cells, points, rows);
+    for (const ScanPoint& point : points) visit(point.position());
+    cells.clear();
+  };
   while (!nodes.empty()) {
     const CellNode& node = tiling.nodes[nodes.back()];
     nodes.pop_back();
     if (!node.box.intersects(box)) continue;
     if (node.left != 0) {
-      nodes.insert(nodes.end(), {node.left, node.right});
+      nodes.insert(nodes.end(), {node.right, node.left});
       continue;
     }
     for (std::uint32_t cell = node.first; cell < node.last; ++cell) {
-      if (!Eigen::AlignedBox3d(tiling.cells[cell].box).intersects(box)) continue;
-      for (const ScanPoint& point : store.cell(cell)) visit(point.position());
+      if (Eigen::AlignedBox3d(tiling.cells[cell].box).intersects(box)) cells.push_back(cell);
     }
+    if (cells.size() >= kCells) read();
   }
+  read();
 }
 
 // Returns a direction in the plane of the normal: across the axis that it is least along. It changes little

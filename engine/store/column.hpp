@@ -62,11 +62,12 @@ class ColumnReader {
   explicit ColumnReader(const Column<Record>& column) : column_(column) {}
 
   const Record& operator[](std::uint64_t row) {
-    constexpr std::uint64_t kRun = 256;
+    constexpr std::uint64_t kRun = 256, kLongRun = 4096;  // the longer, while rows ascend one by one
     if (row < first_ || row >= first_ + run_.size()) {
       assert(row < column_.size());
+      const bool goes_on = !run_.empty() && row == first_ + run_.size();
       first_ = row;
-      run_.resize(std::min(kRun, column_.size() - row));
+      run_.resize(std::min(goes_on ? kLongRun : kRun, column_.size() - row));
       column_.read(row, std::span(run_));
     }
     return run_[row - first_];
