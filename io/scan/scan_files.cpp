@@ -21,7 +21,7 @@ ReadOptions read_options(const InputConfig& config, std::uint64_t memory) {
 ScanFiles::ScanFiles(std::vector<ScanInput> inputs, InputConfig config, std::uint64_t memory)
     : config_(std::move(config)), memory_(memory), stated_(read_stated_crs(config_)) {
   for (ScanInput& input : inputs) add_file(std::move(input));
-  common_ = settle_systems(config_, stated_, files_);
+  common_ = choose_systems(config_, stated_, files_);
 }
 
 void ScanFiles::add_file(ScanInput input) {

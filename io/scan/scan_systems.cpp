@@ -12,7 +12,7 @@ namespace lacuna::io {
 namespace {
 
 // Takes the other unit where there is none, and notes where the two contradict each other.
-void settle(ScanFile& file, std::string ScanFile::*of, const std::string& other) {
+void take_unit(ScanFile& file, std::string ScanFile::*of, const std::string& other) {
   std::string& unit = file.*of;
   if (unit.empty()) unit = other;
   if (other.empty() || other == unit || !file.contradiction.empty()) return;
@@ -23,10 +23,10 @@ void settle(ScanFile& file, std::string ScanFile::*of, const std::string& other)
                        " states the other";
 }
 
-void settle_units(std::vector<ScanFile>& files) {
+void complete_units(std::vector<ScanFile>& files) {
   std::string known_crs, text;  // files of one scan have one system, mostly, which is looked up once
   for (ScanFile& file : files) {
-    settle(file, &ScanFile::unit, file.other_unit);
+    take_unit(file, &ScanFile::unit, file.other_unit);
     const std::string& crs = file.crs;
     if (file.is_geographic) continue;
     const bool is_flat_utm = is_code(crs) && is_utm(crs) && crs.find('+') == crs.npos;
@@ -34,8 +34,8 @@ void settle_units(std::vector<ScanFile>& files) {
       known_crs = crs;
       text = known_text(crs);
     }
-    settle(file, &ScanFile::unit, is_flat_utm ? "m" : length_unit(is_code(crs) ? text : crs));
-    if (is_code(crs) && !is_flat_utm) settle(file, &ScanFile::z_unit, vertical_unit(text));
+    take_unit(file, &ScanFile::unit, is_flat_utm ? "m" : length_unit(is_code(crs) ? text : crs));
+    if (is_code(crs) && !is_flat_utm) take_unit(file, &ScanFile::z_unit, vertical_unit(text));
   }
 }
 
@@ -85,9 +85,9 @@ bool choose_z_factor(const InputConfig& config, const StatedCrs& stated, const s
 
 }  // namespace
 
-CommonSystem settle_systems(const InputConfig& config, const StatedCrs& stated,
+CommonSystem choose_systems(const InputConfig& config, const StatedCrs& stated,
                             std::vector<ScanFile>& files) {
-  settle_units(files);
+  complete_units(files);
   CommonSystem all = common_system(stated, files);
   bool is_any = false;
   for (ScanFile& file : files) is_any = choose_z_factor(config, stated, all.unit, file) || is_any;
