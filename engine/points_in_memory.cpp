@@ -43,7 +43,7 @@ bool PointsInMemory::next(PointBatch& batch) {
   return count > 0;
 }
 
-std::vector<std::string> PointsInMemory::identity() const {
+SourceParts PointsInMemory::parts() const {
   const auto text_of = [](const PointArray& vectors) {
     std::vector<Digest> digests;  // of blocks
     for (std::size_t first = 0; first < vectors.size(); first += kTogether) {
@@ -53,7 +53,7 @@ std::vector<std::string> PointsInMemory::identity() const {
     const Digest digest = digest_of(std::as_bytes(std::span(digests)));
     return std::to_string(vectors.size()) + " " + std::to_string(digest[0]) + " " + std::to_string(digest[1]);
   };
-  return {"points " + text_of(points_) + ", normals " + text_of(normals_)};
+  return {.identity = {"points " + text_of(points_) + ", normals " + text_of(normals_)}};
 }
 
 }  // namespace lacuna

@@ -66,7 +66,7 @@ class LACUNA_API PointsInMemory final : public PointSource {
   bool next(PointBatch& batch) override;
   std::optional<std::uint64_t> expected_points() const override { return points_.size(); }
   bool has_normals() const override { return !normals_.empty(); }
-  std::vector<std::string> identity() const override;  // by all values
+  SourceParts parts() const override;  // identified by all values
 
  private:
   PointArray points_, normals_;

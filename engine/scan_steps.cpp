@@ -72,7 +72,7 @@ TaskShare share_of(const Run& run, std::size_t task) {
 }
 
 IndexRange files_of(const Run& run, const TaskShare& share) {
-  return share_of(run.scan.parts(), share);
+  return share_of(run.parts.source.points, share);
 }
 
 PartKey key_of(const Run& run, std::string_view step, std::size_t task, std::string made_from) {
@@ -120,12 +120,7 @@ SurveyedScan survey_all(const Run& run, ScanTiles& tiles) {
     for (std::size_t i = 0; i < part.pass_counts.size(); ++i) tiles.pass_counts[i] += part.pass_counts[i];
     return std::move(part.survey);
   };
-  SurveyedScan survey = merge_surveys(run.parts.plan.tasks, survey_of, run.scan.expected_points(), run.job);
-  if (survey.points == survey.dropped) {  // the source says so in its own words
-    run.scan.select(0, run.scan.parts().size(), PointId{0});
-    survey_scan(run.scan, run.job);
-  }
-  return survey;
+  return merge_surveys(run.parts.plan.tasks, survey_of, run.scan.expected_points(), run.job);
 }
 
 Level level_of(const ScanTiles& tiles, TileStore store) {
@@ -144,7 +139,6 @@ Level store_all_points(const Run& given, const TaskShare& share, StoreFiles file
   if (share.tasks == 1 && given.scan.reads_slowly()) decoded.emplace(given.scan, given.job.file("input"));
   const Run run{decoded ? static_cast<PointSource&>(*decoded) : given.scan, given.parts, given.job};
   ScanTiles tiles = tiles_of_scan(run);
-  if (decoded) tiles.pass_counts = given.scan.pass_counts();
   std::vector<ScatteredPoints> scattered;
   for (std::size_t task = 0; task < share.tasks; ++task)
     scattered.push_back(points_of_task(run, tiles, task));
@@ -188,7 +182,7 @@ ScatteredPoints points_of_task(const Run& run, const ScanTiles& tiles, std::size
   const PointForm form{tiles.survey.precision(), run.scan.has_normals()};
   return shared_parts(run).get(key, BucketForm{form}, [&] {
     const IndexRange files = files_of(run, key.share);
-    if (run.parts.plan.reads) run.scan.select(files.first, files.last, PointId{tiles.first_ids[task]});
+    run.parts.plan.reads ? run.scan.rewind_to(files, PointId{tiles.first_ids[task]}) : run.scan.rewind();
     return scatter_points(run.scan, tiles.plan, form.precision, tiles.plan.points / key.share.tasks, run.job);
   });
 }
@@ -215,7 +209,6 @@ Level first_level(const Run& run) {
   for (std::size_t task = 0; task < share_of(run, 0).tasks; ++task)
     shares.push_back(share_of_first_level(run, task));
   Level level = join_levels(std::move(shares), run.job);
-  if (run.parts.plan.reads) run.scan.select(0, run.scan.parts().size(), PointId{0});
   if (run.parts.are_kept()) {
     run.scan.set_pass_counts(level.input);
     for (const std::string_view step : {kSurvey, kTiles, kBucket}) run.parts.drop(std::string(step));

@@ -96,7 +96,7 @@ std::vector<Step> plan(PointSource& scan, const Config& given, std::size_t tasks
   const Parts parts = open_parts(scan, config, silence, Opener::kPlan);
   TaskPlan plan{.tasks = tasks,
                 .tile_points = std::min(job.tile_points(points), points / tasks / kTilesOfTask + 1),
-                .reads = tasks > 1 && can_share_reading(scan, config)};
+                .reads = tasks > 1 && can_share_reading(parts.source, config)};
   std::vector<Step> steps;
   const auto add = [&](const StepForm& form, std::size_t level) {
     steps.push_back({&form, level, tasks_of(form, level, plan), points >> level});

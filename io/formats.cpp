@@ -21,7 +21,8 @@
 namespace lacuna::io {
 namespace {
 
-struct Format {
+struct FormatLine {
+  Format format;
   const char* name;
   bool (*recognises)(const FileStart& start);
   std::unique_ptr<ScanReader> (*open)(const std::filesystem::path& file, const ReadOptions& options);
@@ -29,15 +30,15 @@ struct Format {
 
 // Tried in this order: those with a name of their own at the beginning come first.
 constexpr std::array kFormats = {
-    Format{"PLY", looks_like_ply, open_ply},
-    Format{"LAS", looks_like_las, open_las},
-    Format{"PCD", looks_like_pcd, open_pcd},
-    Format{"E57", looks_like_e57, open_e57},
-    Format{"STL", looks_like_stl, open_stl},
-    Format{"OBJ", looks_like_obj, open_obj},
-    Format{"NumPy (npy)", looks_like_numpy, open_numpy},
-    Format{"PTX", looks_like_ptx, open_ptx},
-    Format{"text (xyz, csv, pts)", looks_like_text, open_text},
+    FormatLine{Format::kPly, "PLY", looks_like_ply, open_ply},
+    FormatLine{Format::kLas, "LAS", looks_like_las, open_las},
+    FormatLine{Format::kPcd, "PCD", looks_like_pcd, open_pcd},
+    FormatLine{Format::kE57, "E57", looks_like_e57, open_e57},
+    FormatLine{Format::kStl, "STL", looks_like_stl, open_stl},
+    FormatLine{Format::kObj, "OBJ", looks_like_obj, open_obj},
+    FormatLine{Format::kNumpy, "NumPy (npy)", looks_like_numpy, open_numpy},
+    FormatLine{Format::kPtx, "PTX", looks_like_ptx, open_ptx},
+    FormatLine{Format::kText, "text (xyz, csv, pts)", looks_like_text, open_text},
 };
 
 using std::string_view_literals::operator""sv;
@@ -144,11 +145,9 @@ FileStart file_start(InputFile& in) {
   return {.first_bytes = in.peek(kFirstBytes), .size = size};
 }
 
-const Format* find_format(const FileStart& start) {
-  for (const Format& format : kFormats) {
-    if (format.recognises(start)) return &format;
-  }
-  return nullptr;
+std::optional<Format> find_format(const FileStart& start) {
+  const auto line = std::ranges::find_if(kFormats, [&](const auto& f) { return f.recognises(start); });
+  return line == kFormats.end() ? std::nullopt : std::optional(line->format);
 }
 
 // A binary STL has no beginning of its own, and is recognised by its size.
@@ -159,30 +158,37 @@ bool is_named_stl(const std::filesystem::path& file) {
 
 std::string format_names() {
   std::string names;
-  for (const Format& format : kFormats) names += (names.empty() ? "" : ", ") + std::string(format.name);
+  for (const FormatLine& line : kFormats) names += (names.empty() ? "" : ", ") + std::string(line.name);
   return names;
 }
 
 }  // namespace
 
-Recognised recognise(const std::filesystem::path& file) {
+std::optional<Format> find_format(const std::filesystem::path& file) {
   InputFile in(file, kFirstBytes);
   const FileStart start = file_start(in);
-  const Format* const format = find_format(start);
-  if (start.first_bytes.empty() || describe_other_format(file, start.first_bytes) || format == nullptr)
-    return Recognised::kNo;
-  return format->recognises == looks_like_text ? Recognised::kAsText : Recognised::kYes;
+  if (start.first_bytes.empty() || describe_other_format(file, start.first_bytes)) return std::nullopt;
+  return find_format(start);
 }
 
-std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& file, const ReadOptions& options) {
+Format format_of(const std::filesystem::path& file) {
   InputFile in(file, kFirstBytes);
   const FileStart start = file_start(in);
   if (start.first_bytes.empty()) in.fail_at_byte(0, "the file is empty; a scan file is needed");
   if (const auto other = describe_other_format(file, start.first_bytes)) in.fail_at_byte(0, *other);
-  if (const Format* const format = find_format(start)) return format->open(file, options);
-  if (is_named_stl(file)) return open_stl(file, options);  // says which size it must have
+  if (const std::optional<Format> format = find_format(start)) return *format;
+  if (is_named_stl(file)) return Format::kStl;  // whose reader says which size it must have
   in.fail_at_byte(
       0, "unknown format; " + format_names() + " are read. CloudCompare or `pdal translate` may convert it");
+}
+
+std::unique_ptr<ScanReader> open_scan(Format format, const std::filesystem::path& file,
+                                      const ReadOptions& options) {
+  return std::ranges::find(kFormats, format, &FormatLine::format)->open(file, options);
+}
+
+std::unique_ptr<ScanReader> open_scan(const std::filesystem::path& file, const ReadOptions& options) {
+  return open_scan(format_of(file), file, options);
 }
 
 }  // namespace lacuna::io

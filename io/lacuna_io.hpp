@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files of scans and results, as a library: `#include <lacuna/lacuna_io.hpp>`, target lacuna::io.
 //
-// - Scans: `io::FileScan` (io/scan/file_scan.hpp) is a `PointSource` of files, for `find_holes` and `detect`.
+// - Scans: `io::ScanFiles` opens files, and `io::ScanPass` (io/scan/) is a `PointSource` that reads them, for
+//   `find_holes` and `detect`.
 //   `io::open_scan` (io/formats.hpp) reads rows of one file with all columns.
 // - Parameters: `io::FilesConfig` (io/options/options.hpp) has the parameters of the engine and of files.
 // - Results: `io::write_results` (io/results/results.hpp) writes what `lacuna detect` writes.
@@ -16,4 +17,4 @@
 #include "io/report/report.hpp"
 #include "io/results/results.hpp"
 #include "io/results/voids.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_pass.hpp"

@@ -150,17 +150,17 @@ std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig c
   run_watched(
       [&] {
         check_config(config);
-        found->scan = std::make_unique<io::FileScan>(std::move(inputs), config.input,
-                                                     Memory::share(config.run.memory_limit).reading);
+        found->scan.emplace(std::move(inputs), config.input, Memory::share(config.run.memory_limit).reading);
         tools::require_lengths(*found->scan);
         found->warnings = tools::input_warnings(*found->scan);
         found->scratch =
             std::make_unique<TemporaryFolder>(temporary_parent(config.run.scratch), kScratchPrefix);
         auto area = io::read_area(*found->scan, config);
         const auto stations = io::watch_stations(*found->scan, config.output, found->scratch->path());
-        found->detection.emplace(
-            io::ExplainedDetection{*detect(*found->scan, config, found->scratch->path(), watched)});
-        if (stations) io::find_causes(*stations, *found->scan, config.run, *found->detection);
+        io::ScanPass pass(*found->scan, stations.get());
+        const auto detected = detect(pass, config, found->scratch->path(), watched);
+        found->detection.emplace(*detected, pass.counts());
+        if (stations) io::find_causes(*stations, config.run, *found->detection);
         if (area) found->detection->area = io::check_area(std::move(*area), *found->scan, config, watched);
         const io::ExplainedDetection& detection = *found->detection;
         std::ranges::copy(
@@ -182,7 +182,8 @@ std::vector<std::string> check(std::vector<io::ScanInput> inputs, const io::File
         io::FilesConfig config = given;
         config.area.is_check = true;
         check_config(config);
-        io::FileScan scan(std::move(inputs), config.input, Memory::share(config.run.memory_limit).reading);
+        const io::ScanFiles scan(std::move(inputs), config.input,
+                                 Memory::share(config.run.memory_limit).reading);
         tools::require_lengths(scan);
         warnings = tools::input_warnings(scan);
         io::Area area = io::area_or_outline(scan, config, watched);

@@ -4,7 +4,7 @@
 
 #include "engine/store/temporary_folder.hpp"
 #include "io/options/options.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_files.hpp"
 #include "io/stations/cause.hpp"
 
 #include <filesystem>
@@ -23,7 +23,7 @@ void set_parameters(const pybind11::dict& values, io::FilesConfig& config);
 struct Found {
   io::FilesConfig config;
   pybind11::object arrays;  // that the scan reads
-  std::unique_ptr<io::FileScan> scan;
+  std::optional<io::ScanFiles> scan;
   std::unique_ptr<TemporaryFolder> scratch;
   std::optional<io::ExplainedDetection> detection;  // reads the scratch
   std::vector<std::string> warnings;

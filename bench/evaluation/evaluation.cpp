@@ -13,7 +13,7 @@
 #include "io/files/input_file.hpp"
 #include "io/loops/json.hpp"
 #include "io/ply/ply_reader.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_pass.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -78,9 +78,10 @@ bool is_ply(const fs::path& file) {
 }
 
 std::vector<Eigen::Vector3d> read_positions(std::vector<ScanInput> inputs, const std::string& columns) {
-  FileScan scan(std::move(inputs), {.columns = columns});
+  const ScanFiles scan(std::move(inputs), {.columns = columns});
+  ScanPass pass(scan);
   std::vector<Eigen::Vector3d> positions;
-  for (PointBatch batch; scan.next(batch);) {
+  for (PointBatch batch; pass.next(batch);) {
     positions.insert(positions.end(), batch.positions.begin(), batch.positions.end());
   }
   return positions;
@@ -92,7 +93,7 @@ std::vector<ScanInput> scans_of(const fs::path& truth, const Result& result) {
     const fs::path beside = name.substr(0, name.size() - kLoopsEnding.size()) + ".ply";
     if (fs::exists(beside)) return {beside};
   }
-  const auto exists = [](const ScanInput& input) { return fs::exists(input.file); };
+  const auto exists = [](const ScanInput& input) { return fs::exists(input.name); };
   if (!result.inputs.empty() && std::all_of(result.inputs.begin(), result.inputs.end(), exists)) {
     return result.inputs;
   }

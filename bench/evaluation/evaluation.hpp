@@ -6,7 +6,7 @@
 #include "bench/evaluation/hole_width.hpp"
 #include "bench/evaluation/loop_scores.hpp"
 #include "bench/evaluation/unsampled.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_files.hpp"
 #include "tools/matching/match_loops.hpp"
 #include "tools/matching/true_loops.hpp"
 

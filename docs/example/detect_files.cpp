@@ -11,11 +11,12 @@ int main(int count, char** arguments) {
     if (count < 3) throw lacuna::Error("usage: detect_files OUT SCAN...");
     lacuna::io::FilesConfig config;
     config.output.report = true;
-    lacuna::io::FileScan scan({arguments + 2, arguments + count}, config.input);
+    const lacuna::io::ScanFiles scan({arguments + 2, arguments + count}, config.input);
+    lacuna::io::ScanPass pass(scan);
     lacuna::io::ResultFolder out(arguments[1]);
     lacuna::NoProgress silence;
-    const auto found = lacuna::detect(scan, config, out.temporary(), silence);
-    lacuna::io::write_results({*found}, scan, config, out);
+    const auto found = lacuna::detect(pass, config, out.temporary(), silence);
+    lacuna::io::write_results({*found, pass.counts()}, scan, config, out);
     std::printf("%zu loops in %s\n", found->loops.size(), out.path().c_str());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "detect_files: %s\n", error.what());

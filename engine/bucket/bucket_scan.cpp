@@ -143,7 +143,6 @@ ScatteredPoints scatter_points(PointSource& scan, const TilePlan& plan, Precisio
   ScatteredPoints scattered(to.end, {precision, scan.has_normals()}, job);
   const MemoryLedger::Lease reading = job.ledger.take(job.memory.reading);
   std::vector<SortedBatch> batches(kBatches);
-  scan.rewind();
   job.arena.pipeline([&](std::size_t slot) { return scan.next(batches[slot].batch); },
                      [&](std::size_t slot) {
                        batches[slot].sort(to);

@@ -19,8 +19,9 @@ namespace lacuna {
 // Throws `Error` where the points do not fit on the disk.
 TilePlan plan_tiles(SurveyedScan& survey, const Job& job);
 
-// Streams the scan, and brings every finite point to its place. Places are the tiles of the plan, and then
-// its groups of points that are set aside. `expected_points`: for the progress; 0 where not known.
+// Streams the pass that the scan has begun, and brings every finite point to its place. Places are the tiles
+// of the plan, and then its groups of points that are set aside. `expected_points`: for the progress; 0 where
+// not known.
 ScatteredPoints scatter_points(PointSource& scan, const TilePlan& plan, Precision precision,
                                std::uint64_t expected_points, Job& job);
 

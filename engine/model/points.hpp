@@ -4,6 +4,7 @@
 
 #include "engine/export.hpp"
 #include "engine/model/ids.hpp"
+#include "engine/model/task_share.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -46,6 +47,16 @@ struct PointBatch {
   PointId id(std::size_t i) const { return ids.empty() ? PointId{value(first) + i} : ids[i]; }
 };
 
+// The parts of a source, such as files: tasks share them, and a run that is kept knows them again.
+struct SourceParts {
+  // About how many points each part has. Empty where parts cannot be read apart.
+  std::vector<std::uint64_t> points;
+  // One line for each part, and for all else that points depend on. Lines are equal only where the points
+  // are. Empty where a source cannot identify its parts. Then no part is kept.
+  std::vector<std::string> identity;
+  std::vector<std::string> names;  // open the same parts again, in whatever form the source's program reads
+};
+
 // One registered scan, in any unit of length. It is read in bounded batches, from the first point to the last
 // and as often as wanted. Ids ascend. One thread at a time calls it, not always the same thread. Several
 // batches are in memory at once. Throws `Error` naming file and place.
@@ -63,20 +74,16 @@ class LACUNA_API PointSource {
   // Returns whether a pass costs more than to write and read a file of plain numbers, as in compressed
   // formats.
   virtual bool reads_slowly() const { return false; }
-  // Returns about how many points each part of the source has, such as a file. Parts can be read apart. The
-  // result is empty where they cannot.
-  virtual std::vector<std::uint64_t> parts() const { return {}; }
-  // Lets passes read the parts [first, last) alone. Their first point gets the id `id`.
-  virtual void select(std::size_t /*first*/, std::size_t /*last*/, PointId /*id*/) {}
-  // Returns one line for each part of the source. Lines are equal only where the points are.
-  // The result is empty where a source cannot identify its parts. Then no part is kept.
-  virtual std::vector<std::string> identity() const { return {}; }
-  // Returns names that open the same parts again, in whatever form the source's program reads.
-  virtual std::vector<std::string> names() const { return {}; }
+  virtual SourceParts parts() const { return {}; }
+  // Lets the next pass read these parts alone. Their first point gets the id `first`. Other passes read all.
+  virtual void rewind_to(const IndexRange& /*parts*/, PointId /*first*/) { rewind(); }
   // Returns counts of the last pass, such as rows that filters left out. They are kept for runs that
-  // do not read again.
+  // do not read again. Those of parts add up to those of the source.
   virtual std::vector<std::uint64_t> pass_counts() const { return {}; }
   virtual void set_pass_counts(std::span<const std::uint64_t>) {}
+  // Throws `Error` that says why a pass over all parts has found no finite point. For most sources it is no
+  // error.
+  virtual void refuse_empty() const {}
 };
 
 }  // namespace lacuna

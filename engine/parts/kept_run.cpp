@@ -43,14 +43,13 @@ std::optional<PartReader> open_run(const fs::path& folder) {
   return PartReader::open(folder / kRunPart, std::nullopt);
 }
 
-void write_run(const fs::path& folder, const PointSource& scan, const std::string& note,
-               const std::string& made_from) {
+void write_run(const fs::path& folder, const Parts& parts, const std::string& note) {
   std::string inputs;
-  for (const std::string& name : scan.names()) inputs += name + '\0';
+  for (const std::string& name : parts.source.names) inputs += name + '\0';
   PartWriter part(folder / kRunPart);
   part.add("inputs", 0, std::span<const char>(inputs));
   part.add("note", 0, std::span<const char>(note));
-  part.seal(made_from);
+  part.seal(parts.made_from);
 }
 
 // Refuses files of others that have names of parts: they would be replaced.
@@ -66,8 +65,8 @@ void refuse_others(const fs::path& folder) {
 
 }  // namespace
 
-bool can_share_reading(const PointSource& scan, const Config& config) {
-  return !scan.parts().empty() && first_edge(config.scale) == 0;
+bool can_share_reading(const SourceParts& source, const Config& config) {
+  return !source.points.empty() && first_edge(config.scale) == 0;
 }
 
 std::string evaluation_parameters(const Config& config) {
@@ -128,11 +127,12 @@ KeptRun read_run(const fs::path& folder) {
 Parts open_parts(const PointSource& scan, const Config& config, Progress& progress, Opener opener) {
   const fs::path folder = config.run.workspace;
   if (folder.empty()) return {};
-  const std::vector<std::string> identity = scan.identity();
-  if (identity.empty())
+  SourceParts source = scan.parts();
+  if (source.identity.empty())
     throw Error(folder.string() + ": no workspace can be kept for points that are not read from files");
   Parts parts{.folder = folder,
-              .made_from = made_from(identity, config),
+              .made_from = made_from(source.identity, config),
+              .source = std::move(source),
               .plan = opener == Opener::kUnit ? require_plan(folder) : read_plan(folder).value_or(TaskPlan()),
               .is_unit = opener != Opener::kRun,
               .progress = &progress};
@@ -145,7 +145,7 @@ Parts open_parts(const PointSource& scan, const Config& config, Progress& progre
     throw Error(folder.string() + ": was planned for another run: \"" + line + "\" there, \"" + now +
                 "\" here; allowed: the input and parameters of the plan, or lacuna plan again");
   }
-  if (parts.plan.reads && !can_share_reading(scan, config)) {  // it was planned for another run
+  if (parts.plan.reads && !can_share_reading(parts.source, config)) {  // it was planned for another run
     parts.plan.reads = false;
     write_plan(folder, parts.plan);
   }
@@ -155,8 +155,7 @@ Parts open_parts(const PointSource& scan, const Config& config, Progress& progre
   }
   // A process that is given no note keeps the one that is there.
   const std::string& note = config.run.note;
-  if (!is_same || (!note.empty() && before->text("note") != note))
-    write_run(folder, scan, note, parts.made_from);
+  if (!is_same || (!note.empty() && before->text("note") != note)) write_run(folder, parts, note);
   return parts;
 }
 

@@ -18,9 +18,9 @@ namespace lacuna {
 // processes at work: its input and parameters must be those of the plan.
 enum class Opener { kRun, kPlan, kUnit };
 
-// Returns whether tasks can share the reading of the scan. It has parts, and all of its points are in the
+// Returns whether tasks can share the reading of the source. It has parts, and all of its points are in the
 // first level. Tasks that thin alone would leave several points in cells at their borders.
-bool can_share_reading(const PointSource& scan, const Config& config);
+bool can_share_reading(const SourceParts& source, const Config& config);
 
 // Opens the kept folder that the config names, for this input; without a name, nothing is kept. Where it is
 // of another input or other parameters, the parts that differ are made again. Tasks share only what they
@@ -35,7 +35,7 @@ std::string output_parameters(const Config& config);
 
 // The data of a run from which another process can do a part of it.
 struct KeptRun {
-  std::vector<std::string> names;  // `PointSource::names`
+  std::vector<std::string> names;  // `SourceParts::names`
   std::string note;                // as `RunConfig::note` was
 };
 // Reads the data of the run. Throws `Error` where the folder keeps no run.

@@ -6,6 +6,7 @@
 // never mixed. Several processes may make parts at a time: two parts of one key have the same content.
 #pragma once
 
+#include "engine/model/points.hpp"
 #include "engine/model/task_share.hpp"
 #include "engine/parts/reason.hpp"
 #include "engine/parts/task_plan.hpp"
@@ -36,6 +37,7 @@ struct PartKey {
 struct Parts {
   std::filesystem::path folder;  // the kept folder; empty: nothing is kept
   std::string made_from;         // input and parameters of the points, a line each
+  SourceParts source;            // empty where nothing is kept
   TaskPlan plan;
   bool is_unit = false;          // one of several processes that make parts of the run: it removes none
   Progress* progress = nullptr;  // hears why a part is made again

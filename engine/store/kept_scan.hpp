@@ -24,6 +24,8 @@ class KeptScan final : public PointSource {
   bool next(PointBatch& batch) override;
   std::optional<std::uint64_t> expected_points() const override { return scan_.expected_points(); }
   bool has_normals() const override { return scan_.has_normals(); }
+  std::vector<std::uint64_t> pass_counts() const override { return scan_.pass_counts(); }
+  void refuse_empty() const override { scan_.refuse_empty(); }
 
  private:
   bool next_of_source(PointBatch& batch);

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t kBatches = 4;  // in flight
 
+// Counts the points of a pass that has begun.
 void count_points(Survey& survey, PointSource& scan, std::uint64_t expected, Job& job) {
   Phase phase(job, "survey", expected);
   struct Counted {
@@ -16,7 +17,6 @@ void count_points(Survey& survey, PointSource& scan, std::uint64_t expected, Job
     std::optional<CellCounts> counts;  // none while the cell size is not known
   };
   std::vector<Counted> batches(kBatches);
-  scan.rewind();
   job.arena.pipeline([&](std::size_t slot) { return scan.next(batches[slot].batch); },
                      [&](std::size_t slot) {
                        Counted& counted = batches[slot];
@@ -37,7 +37,9 @@ SurveyedScan survey_scan(PointSource& scan, Job& job) {
   const std::uint64_t expected = scan.expected_points().value_or(0);
   const MemoryLedger::Lease reading = job.ledger.take(job.memory.reading);
   Survey survey(job.memory.cells, expected, job.file("cells"));
+  scan.rewind();
   count_points(survey, scan, expected, job);
+  if (!survey.is_sized()) scan.refuse_empty();
   return survey.finish();
 }
 
@@ -45,10 +47,10 @@ SurveyedScan survey_parts(PointSource& scan, const IndexRange& parts, Job& job) 
   const MemoryLedger::Lease reading = job.ledger.take(job.memory.reading);
   Survey survey(job.memory.cells, scan.expected_points().value_or(0), job.file("cells"));
   // All tasks count from one size on: the size for the first points of the scan.
-  scan.select(0, scan.parts().size(), PointId{0});
   scan.rewind();
   for (PointBatch batch; !survey.is_sized() && scan.next(batch);) survey.choose_size(batch);
-  scan.select(parts.first, parts.last, PointId{0});
+  if (!survey.is_sized()) scan.refuse_empty();
+  scan.rewind_to(parts, PointId{0});
   count_points(survey, scan, 0, job);
   return survey.counts();
 }

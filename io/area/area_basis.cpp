@@ -20,19 +20,19 @@ std::string print(double value, const std::string& unit) {
   return text.str();
 }
 
-std::size_t files_with(const FileScan& scan, const char* column) {
+std::size_t files_with(const ScanFiles& scan, const char* column) {
   return static_cast<std::size_t>(std::ranges::count_if(
       scan.files(), [&](const ScanFile& file) { return file.layout.find_alike(column) != nullptr; }));
 }
 
-std::string returns_of(const FileScan& scan) {
+std::string returns_of(const ScanFiles& scan) {
   const std::size_t stated = files_with(scan, "return_number"), files = scan.files().size();
   if (stated == 0) return "all: no file states them";
   if (stated == files) return "first ones alone";
   return "first ones alone; all points of " + counted(files - stated, "file") + ", which state none";
 }
 
-std::string classes_of(const FileScan& scan, const InputConfig& config) {
+std::string classes_of(const ScanFiles& scan, const InputConfig& config) {
   const bool is_stated = files_with(scan, "classification") > 0;
   std::string text = !is_stated          ? "all: no file states them"
                      : config.keep_noise ? "all"
@@ -41,7 +41,7 @@ std::string classes_of(const FileScan& scan, const InputConfig& config) {
   return text;
 }
 
-std::string swaths_of(const PlanOfPoints& points, const FileScan& scan) {
+std::string swaths_of(const PlanOfPoints& points, const ScanFiles& scan) {
   if (files_with(scan, "point_source_id") == 0) return "all: no file states them";
   return counted(points.swaths.size(), "value") + " of point_source_id, taken together";
 }
@@ -49,7 +49,7 @@ std::string swaths_of(const PlanOfPoints& points, const FileScan& scan) {
 }  // namespace
 
 std::vector<BasisLine> basis_of(const AreaCheck& check, const Area& area, const PlanOfPoints& points,
-                                const FileScan& scan, const FilesConfig& config) {
+                                const ScanFiles& scan, const FilesConfig& config) {
   const std::string& unit = scan.length_unit();
   std::string polygons =
       (area.bay > 0 ? "the scan's own outline, with bays up to " + print(area.bay, unit) + " wide"

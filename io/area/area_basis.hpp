@@ -11,6 +11,6 @@ namespace lacuna::io {
 
 // Returns a line for each thing that decides what a figure is of: area, returns, classes, swaths, points.
 std::vector<BasisLine> basis_of(const AreaCheck& check, const Area& area, const PlanOfPoints& points,
-                                const FileScan& scan, const FilesConfig& config);
+                                const ScanFiles& scan, const FilesConfig& config);
 
 }  // namespace lacuna::io

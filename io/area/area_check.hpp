@@ -4,6 +4,7 @@
 
 #include "io/area/height_groups.hpp"
 #include "io/area/plan_polygon.hpp"
+#include "io/scan/scan_pass.hpp"
 
 #include <array>
 #include <cmath>
@@ -116,6 +117,7 @@ struct AreaCheck {
   std::vector<BasisLine> basis;       // of all figures
   // These are as in PlanOfPoints.
   std::uint64_t points = 0, later_returns = 0, synthetic = 0, repeated = 0, near = 0;
+  ScanCounts counts;
   bool counts_once = true;
   std::vector<HeightGroup> apart;
   double height_gap = 0;    // between them and the others

@@ -2,7 +2,6 @@
 #include "io/area/area_tiles.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace lacuna::io {
 

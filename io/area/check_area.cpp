@@ -50,12 +50,12 @@ void check_files(const std::filesystem::path& file) {
 }
 
 // Returns so many metres in units of the scan. A scan without a unit is taken to be in metres.
-double from_metres(double metres, const FileScan& scan) {
+double from_metres(double metres, const ScanFiles& scan) {
   return metres / metres_of_unit(scan.length_unit()).value_or(1);
 }
 
 // Returns the diameter of the least void, in units of the scan.
-double void_size_in(const FileScan& scan, const AreaConfig& config) {
+double void_size_in(const ScanFiles& scan, const AreaConfig& config) {
   const VoidSize size = void_size_of(config);
   const std::optional<double> metres = metres_of_unit(scan.length_unit());
   const std::string rule = "void_rule = " + config.void_rule;
@@ -76,7 +76,7 @@ double void_size_in(const FileScan& scan, const AreaConfig& config) {
 // Reads the files of an area, whose corners share the memory.
 class PolygonFiles {
  public:
-  PolygonFiles(const FileScan& scan, const FilesConfig& config, double void_size)
+  PolygonFiles(const ScanFiles& scan, const FilesConfig& config, double void_size)
       : scan_(scan), memory_(Memory::share(config.run.memory_limit).limit / 8 * 3), void_size_(void_size) {}
 
   std::vector<PlanPolygon> read(const std::string& file) {
@@ -117,7 +117,7 @@ class PolygonFiles {
                  polygons.accuracy.print());
   }
 
-  const FileScan& scan_;
+  const ScanFiles& scan_;
   std::uint64_t memory_, corners_ = 0, most_in_one_ = 0;
   double void_size_, off_ = 0;
 };
@@ -436,13 +436,13 @@ void add_class(const ClassPolygons& polygons, const PlanGrid& grid, AreaCheck& c
   }
 }
 
-bool has_other_systems(const FileScan& scan) {
+bool has_other_systems(const ScanFiles& scan) {
   return scan.common_crs().empty() &&
          std::ranges::any_of(scan.files(), [](const ScanFile& file) { return !file.crs.empty(); });
 }
 
 std::vector<Undecided> undecided_reasons(const PlanOfPoints& points, const AreaCheck& check,
-                                         const FileScan& scan) {
+                                         const ScanFiles& scan) {
   std::vector<Undecided> reasons;
   const bool has_others = points.later_returns + points.synthetic > 0;
   if (points.hull.empty()) reasons.push_back(has_others ? Undecided::kNoFirstReturn : Undecided::kNoPoint);
@@ -495,7 +495,7 @@ AreaPolygon measure(PlanPolygon outline, const PlanGrid& grid, const PlanRaster&
 // ---- the points
 
 // With bounds of heights, the user has said which points count.
-double height_gap_of(const FileScan& scan, const FilesConfig& config, double void_size) {
+double height_gap_of(const ScanFiles& scan, const FilesConfig& config, double void_size) {
   constexpr double kMetres = 100, kVoidSizes = 10;
   constexpr std::size_t kNumbersWithHeights = 6;
   if (config.input.bounds.size() == kNumbersWithHeights) return 0;
@@ -504,19 +504,15 @@ double height_gap_of(const FileScan& scan, const FilesConfig& config, double voi
 
 // Copies that files round differently lie some millimetres apart. Without times they must lie far nearer to
 // each other than the points of the scan. Their spacing is no less than if all were in the area.
-CopyDistance copy_distance_of(const FileScan& scan, double void_size, double area) {
+CopyDistance copy_distance_of(const ScanFiles& scan, double void_size, double area) {
   constexpr double kOfVoidSize = 200, kOfSpacing = 25, kLeast = 1e-6;
-  const std::vector<std::uint64_t> rows = scan.parts();
+  const std::vector<std::uint64_t> rows = estimated_rows(scan);
   const double all =
       std::max(1.0, static_cast<double>(std::accumulate(rows.begin(), rows.end(), std::uint64_t{0})));
   const double with_time = void_size / kOfVoidSize;
   const double least = kLeast * void_size;
   return {with_time, std::clamp(std::sqrt(area / all) / kOfSpacing, least, std::max(with_time, least))};
 }
-
-}  // namespace
-
-namespace {
 
 // The box around all points, seen from above.
 class BoundsObserver : public RowObserver {
@@ -536,7 +532,7 @@ class BoundsObserver : public RowObserver {
 };
 
 // `points`: the box around them; without one, the area has a file.
-Area make_area(const FileScan& scan, const FilesConfig& config,
+Area make_area(const ScanFiles& scan, const FilesConfig& config,
                const std::optional<Eigen::AlignedBox2d>& points) {
   require_plan(scan, points ? "check" : "--area");
   Area area;
@@ -561,21 +557,21 @@ Area make_area(const FileScan& scan, const FilesConfig& config,
 
 }  // namespace
 
-std::optional<Area> read_area(const FileScan& scan, const FilesConfig& config) {
+std::optional<Area> read_area(const ScanFiles& scan, const FilesConfig& config) {
   if (config.area.area.empty()) return std::nullopt;
   return make_area(scan, config, std::nullopt);
 }
 
-Area area_or_outline(FileScan& scan, const FilesConfig& config, Progress& progress) {
+Area area_or_outline(const ScanFiles& scan, const FilesConfig& config, Progress& progress) {
   if (!config.area.area.empty()) return make_area(scan, config, std::nullopt);
   BoundsObserver points(progress);
   progress.begin("bounds", scan.expected_points().value_or(0));
-  scan.read_all(points);
+  read_all(scan, points);
   if (points.bounds.isEmpty()) throw Error("no point takes part, so that the scan has no outline");
   return make_area(scan, config, points.bounds);
 }
 
-AreaCheck check_area(Area area, FileScan& scan, const FilesConfig& config, Progress& progress) {
+AreaCheck check_area(Area area, const ScanFiles& scan, const FilesConfig& config, Progress& progress) {
   // What is empty: the cells of the area without a point near them.
   const PlanGrid& grid = area.grid;
   const bool is_outline = area.polygons.empty();
@@ -618,6 +614,7 @@ AreaCheck check_area(Area area, FileScan& scan, const FilesConfig& config, Progr
                   .synthetic = points.synthetic,
                   .repeated = points.repeated,
                   .near = points.near,
+                  .counts = points.counts,
                   .counts_once = points.counts_once,
                   .apart = points.apart,
                   .height_gap = rules.height_gap,

@@ -7,7 +7,7 @@
 #include "io/area/area_check.hpp"
 #include "io/area/plan_raster.hpp"
 #include "io/options/options.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_files.hpp"
 
 #include <optional>
 #include <string>
@@ -32,12 +32,12 @@ struct Area {
 
 // Returns nothing where the config has no area. Throws `Error`: a file that cannot be used, or too many
 // corners or cells for the memory limit.
-LACUNA_API std::optional<Area> read_area(const FileScan& scan, const FilesConfig& config);
+LACUNA_API std::optional<Area> read_area(const ScanFiles& scan, const FilesConfig& config);
 
 // Returns the area of a check: that of `read_area`, or one without polygons over all points, whose polygons
 // `check_area` finds. They are the scan's own outline (io/area/scan_outline.hpp), with bays up to a third as
 // wide as the shorter side of the scan. Reads the scan once, then. Throws `Error`.
-LACUNA_API Area area_or_outline(FileScan& scan, const FilesConfig& config, Progress& progress);
+LACUNA_API Area area_or_outline(const ScanFiles& scan, const FilesConfig& config, Progress& progress);
 
 // A place is empty if no point lies nearer to it than half of the void size, seen from above. Voids are what
 // the circles around empty places cover within the area.
@@ -62,6 +62,7 @@ LACUNA_API Area area_or_outline(FileScan& scan, const FilesConfig& config, Progr
 // Reads the scan once or twice, and once or twice more where heights lie apart or points do not fit in
 // memory. Memory: 3 or 4 bits for each cell in the bounds of the area, and the outlines. Cost: linear in
 // points and in cells. Throws `Error` where outlines do not fit in memory.
-LACUNA_API AreaCheck check_area(Area area, FileScan& scan, const FilesConfig& config, Progress& progress);
+LACUNA_API AreaCheck check_area(Area area, const ScanFiles& scan, const FilesConfig& config,
+                                Progress& progress);
 
 }  // namespace lacuna::io

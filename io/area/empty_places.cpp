@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -205,18 +205,21 @@ class NearPoints {
 }  // namespace
 
 PlanOfPoints find_empty_places(const PlanGrid& grid, const PlanRaster& inside, const PointRules& rules,
-                               std::uint64_t memory, FileScan& scan, AreaTiles& tiles, Progress& progress,
+                               std::uint64_t memory, const ScanFiles& scan, AreaTiles& tiles,
+                               Progress& progress,
                                const std::function<bool(const PlanRaster& empty)>& has_voids) {
   // All is synthetic, not all points can be held, or heights lie apart: that shows in the end alone.
   Counting counting{.height_gap = rules.height_gap};
   std::vector<HeightGroup> apart;
   bool has_voids_with_apart = false;
-  std::optional<MarkingObserver> marking;
+  ScanCounts counts;
+  std::unique_ptr<MarkingObserver> marking;
   for (bool is_again = true; is_again;) {
     marking.reset();
-    marking.emplace(grid, inside, tiles, counting, rules.copies, memory, progress);
+    marking =
+        std::make_unique<MarkingObserver>(grid, inside, tiles, counting, rules.copies, memory, progress);
     progress.begin("area", scan.expected_points().value_or(0));
-    scan.read_all(*marking);
+    counts = read_all(scan, *marking);
     const bool takes_synthetic = !marking->has_measured(), once = marking->repeated.is_exact();
     is_again = (takes_synthetic && !counting.takes_synthetic) || (!once && counting.once);
     HeightGroups::Parts heights = marking->heights.parts();
@@ -230,6 +233,7 @@ PlanOfPoints find_empty_places(const PlanGrid& grid, const PlanRaster& inside, c
     counting.once = once;
   }
   PlanOfPoints plan = std::move(marking->plan);
+  plan.counts = std::move(counts);
   plan.hull = marking->hull.corners();
   plan.repeated = marking->repeated.count();
   plan.near = marking->repeated.near();
@@ -246,7 +250,7 @@ PlanOfPoints find_empty_places(const PlanGrid& grid, const PlanRaster& inside, c
   if (undecided.count() > 0) {
     NearObserver collecting(grid, undecided, counting, memory, progress);
     progress.begin("voids", scan.expected_points().value_or(0));
-    scan.read_all(collecting);
+    read_all(scan, collecting);
     const NearPoints near(std::move(collecting.near));
     std::vector<std::pair<std::size_t, std::size_t>> alone;  // row, column
     for (std::size_t row = 0; row < grid.rows; ++row) {

@@ -4,14 +4,12 @@
 
 #include "engine/run/progress.hpp"
 #include "io/area/area_tiles.hpp"
-#include "io/area/convex_hull.hpp"
 #include "io/area/height_groups.hpp"
 #include "io/area/plan_raster.hpp"
 #include "io/area/point_density.hpp"
 #include "io/area/repeated_points.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_pass.hpp"
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <set>
@@ -33,6 +31,7 @@ struct PlanOfPoints {
   std::set<double> swaths;     // values of point_source_id of the points in the area
   std::uint64_t repeated = 0;  // points that are there once more; about so many where they do not count once
   std::uint64_t near = 0;      // points without a time that lie as near to another as its rounded copy may
+  ScanCounts counts;           // of the pass over the scan
   bool counts_once = true;     // false: `points` has them as often as they are there
   bool all_synthetic = false;  // so that the whole scan has no other points, and these count
   std::vector<HeightGroup> apart;     // heights of points in the bounds of the area that cover nothing
@@ -53,7 +52,8 @@ struct PointRules {
 // nothing. `has_voids` gets the cells with empty middles after such a pass, and after the first one that
 // holds; it may throw. Throws `Error` where the points near undecided cells need more than `memory` bytes.
 PlanOfPoints find_empty_places(const PlanGrid& grid, const PlanRaster& inside, const PointRules& rules,
-                               std::uint64_t memory, FileScan& scan, AreaTiles& tiles, Progress& progress,
+                               std::uint64_t memory, const ScanFiles& scan, AreaTiles& tiles,
+                               Progress& progress,
                                const std::function<bool(const PlanRaster& empty)>& has_voids);
 
 }  // namespace lacuna::io

@@ -13,7 +13,7 @@ namespace lacuna::io {
 
 struct HeldPolygons {
   std::string file;                   // GeoPackage, GeoJSON or Shapefile
-  std::string crs;                    // of the scan, as FileScan::common_crs; empty if not known
+  std::string crs;                    // of the scan, as CommonSystem::crs; empty if not known
   std::vector<PlanPolygon> polygons;  // in coordinates of the scan
   std::string file_crs;               // name of the file's system; empty if it has none
   bool is_converted = false;          // from that system

@@ -4,7 +4,6 @@
 #include "engine/run/error.hpp"
 #include "io/crs/gdal_session.hpp"
 
-#include <memory>
 #include <vector>
 
 #include <gdal_alg.h>

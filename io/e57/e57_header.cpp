@@ -4,7 +4,6 @@
 #include "io/files/little_endian.hpp"
 
 #include <bit>
-#include <cstring>
 
 namespace lacuna::io {
 namespace {

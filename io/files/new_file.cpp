@@ -4,7 +4,6 @@
 #include "engine/run/error.hpp"
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <optional>
 #include <string>

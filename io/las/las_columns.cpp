@@ -8,7 +8,6 @@
 #include "io/rows/scalar.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <utility>
 

@@ -6,7 +6,6 @@
 #include "io/laz/laz_encoder.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <string>
 #include <utility>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/loops/json.hpp"
 
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_files.hpp"
 
 #include <cmath>
 #include <variant>
@@ -65,7 +65,7 @@ Json counts_of(const FilteredOut& filtered) {
   return counts;
 }
 
-void put_crs(const FileScan& scan, Json& json) {
+void put_crs(const ScanFiles& scan, Json& json) {
   json["crs"] = scan.common_crs().empty() ? Json() : Json(scan.common_crs());
   json["unit"] = scan.length_unit();
 }

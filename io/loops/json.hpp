@@ -3,7 +3,6 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
-#include "engine/model/points.hpp"
 #include "io/files/json_file.hpp"
 #include "io/options/options.hpp"
 #include "io/scan/row_filter.hpp"
@@ -15,7 +14,7 @@
 
 namespace lacuna::io {
 
-class FileScan;
+class ScanFiles;
 
 // The form of holes.json, which docs/holes.schema.json describes.
 inline constexpr std::string_view kHolesSchema = "holes 3";
@@ -35,7 +34,7 @@ Json strays_json(const Strays& strays);
 Json counts_of(const FilteredOut& filtered);  // by filter
 
 // Adds the keys `crs`, null if there is none, and `unit`, empty if it is not known.
-void put_crs(const FileScan& scan, Json& json);
+void put_crs(const ScanFiles& scan, Json& json);
 // Returns the values of the sections that `is_wanted` names, by section and key.
 Json parameter_values(FilesConfig config, const std::function<bool(std::string_view section)>& is_wanted);
 

@@ -215,8 +215,9 @@ std::vector<Parameter> parameters(FilesConfig& config) {
     std::ranges::find(all, "orient_normals", &Parameter::key)->missing = "--points --points-normals";
   const std::vector<Parameter> of_files = file_parameters(config);
   all.insert(all.end(), of_files.begin(), of_files.end());
-  std::ranges::stable_sort(all, {}, [](const Parameter& parameter) {
-    return parameter.section == "run" ? 2 : parameter.section == "output" ? 1 : 0;  // the last sections
+  constexpr std::string_view kLastSections[] = {"run", "output"};  // from the end
+  std::ranges::stable_sort(all, {}, [&](const Parameter& parameter) {
+    return std::end(kLastSections) - std::ranges::find(kLastSections, parameter.section);
   });
   return all;
 }

@@ -6,7 +6,6 @@
 #include "io/pcd/pcd_rows.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace lacuna::io {
 namespace {

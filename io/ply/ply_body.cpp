@@ -3,8 +3,6 @@
 
 #include "io/ply/ply_rows.hpp"
 
-#include <bit>
-
 namespace lacuna::io {
 namespace {
 

@@ -4,7 +4,6 @@
 
 #include "io/report/canvas.hpp"
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

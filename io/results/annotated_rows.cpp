@@ -3,7 +3,6 @@
 
 #include "engine/criteria/criteria.hpp"
 #include "io/rows/scalar.hpp"
-#include "io/rows/vectors.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -27,7 +26,7 @@ std::vector<const Property*> find_sources(const RowLayout& from, std::span<const
 
 }  // namespace
 
-std::vector<ResultColumn> result_columns(const FileScan& scan, const OutputConfig& config) {
+std::vector<ResultColumn> result_columns(const ScanFiles& scan, const OutputConfig& config) {
   const PointResult sample{};
   std::vector<ResultColumn> columns;
   const auto add = [&](std::string name, Scalar type, const void* place) {
@@ -100,8 +99,8 @@ void copy_results(std::span<const PointResult> results, std::span<const ResultCo
   }
 }
 
-JoinedRows::JoinedRows(const FileScan& scan, RowLayout joined, FileRange files, const LocalOffset& offset)
-    : scan_(scan), joined_(std::move(joined)), file_(files.first), end_(files.end) {
+JoinedRows::JoinedRows(const ScanFiles& scan, RowLayout joined, IndexRange files, const LocalOffset& offset)
+    : scan_(scan), joined_(std::move(joined)), file_(files.first), end_(files.last) {
   LocalOffset added;
   if (offset) added = -*offset;
   for (const Property& column : joined_.properties) summands_.push_back(component_of(added, column.name));

@@ -6,7 +6,7 @@
 #include "io/options/options.hpp"
 #include "io/rows/local_offset.hpp"
 #include "io/rows/scan_reader.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_files.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -28,7 +28,7 @@ struct ResultColumn {
 
 // Returns scalar_probability, the criteria, scalar_boundary, scalar_coherent and scalar_loop; with
 // config.points_normals also nx ny nz, unless a file of the scan has normals.
-std::vector<ResultColumn> result_columns(const FileScan& scan, const OutputConfig& config);
+std::vector<ResultColumn> result_columns(const ScanFiles& scan, const OutputConfig& config);
 // PLY files have `quality` directly behind scalar_loop, too: the probability for MeshLab.
 inline constexpr std::string_view kQuality = "quality", kBeforeQuality = "scalar_loop";
 bool is_earlier_quality(const RowLayout& layout, std::size_t index);
@@ -50,11 +50,6 @@ class InputRows {
   virtual std::size_t next(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) = 0;
 };
 
-// The files [first, end) of a scan.
-struct FileRange {
-  std::size_t first, end;
-};
-
 // Returns the union of the files' properties by name, in order of first appearance, packed. A property is
 // double if types differ. It is NaN or 0 in the rows of a file that has no such property. `is_left_out`
 // marks, by the index of a property, the ones that do not count.
@@ -64,13 +59,13 @@ RowLayout join_layouts(std::span<const RowLayout> layouts, const LeftOut& is_lef
 // The joined rows of files. Positions are relative to the offset, if there is one: x y z are floats then.
 class JoinedRows final : public InputRows {
  public:
-  JoinedRows(const FileScan& scan, RowLayout joined, FileRange files, const LocalOffset& offset);
+  JoinedRows(const ScanFiles& scan, RowLayout joined, IndexRange files, const LocalOffset& offset);
   std::size_t next(std::size_t max_rows, std::size_t stride, std::vector<std::byte>& block) override;
 
  private:
   void copy_columns(std::size_t stride, std::byte* out) const;
 
-  const FileScan& scan_;
+  const ScanFiles& scan_;
   RowLayout joined_;
   std::vector<const Property*> sources_;         // in the reader's layout, one for each column
   std::vector<std::optional<double>> summands_;  // of each column; empty if the column stays as it is

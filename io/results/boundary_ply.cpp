@@ -5,7 +5,7 @@
 
 namespace lacuna::io {
 
-void write_boundary(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+void write_boundary(const Detection& detection, const ScanFiles& scan, const OutputConfig& config,
                     OutputFile& out) {
   PlyElement vertex{.name = "vertex",
                     .count = detection.summary.counts.boundary_points,

@@ -3,13 +3,11 @@
 
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
-#include "io/rows/vectors.hpp"
-#include "io/scan/row_filter.hpp"
+#include "io/scan/scan_pass.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <utility>
 
 namespace lacuna::io {
 namespace {
@@ -41,27 +39,17 @@ CoverageGrid empty_grid(const Detection& detection, const FilesConfig& config) {
 }
 
 // Points beyond the grid, as strays are, count nowhere.
-void count_points(const FileScan& scan, const InputConfig& config, CoverageGrid& grid) {
-  RowBatch rows;
-  std::vector<Eigen::Vector3d> positions;
-  FilteredOut filtered;
-  BeforeFilters before;
-  for (std::size_t file = 0; file < scan.files().size(); ++file) {
-    const auto reader = scan.open(file);
-    RowFilter filter(config, scan.files()[file].name, *reader);
-    while (reader->next(rows, scan.batch_rows(file))) {
-      positions.clear();
-      load_vectors(rows, reader->layout(), kPositionNames, positions);
-      filter.apply(rows, positions, filtered, before);
-      for (const Eigen::Vector3d& p : positions) {
-        if (!p.allFinite()) continue;
-        const double column = std::floor(p.x() / grid.edge) - std::round(grid.corner.x() / grid.edge);
-        const double row = std::round(grid.corner.y() / grid.edge) - 1 - std::floor(p.y() / grid.edge);
-        if (column < 0 || row < 0 || column >= static_cast<double>(grid.columns) ||
-            row >= static_cast<double>(grid.rows))
-          continue;
-        ++grid.points[static_cast<std::size_t>(row) * grid.columns + static_cast<std::size_t>(column)];
-      }
+void count_points(const ScanFiles& scan, CoverageGrid& grid) {
+  ScanPass pass(scan);
+  for (PointBatch batch; pass.next(batch);) {
+    for (const Eigen::Vector3d& p : batch.positions) {
+      if (!p.allFinite()) continue;
+      const double column = std::floor(p.x() / grid.edge) - std::round(grid.corner.x() / grid.edge);
+      const double row = std::round(grid.corner.y() / grid.edge) - 1 - std::floor(p.y() / grid.edge);
+      if (column < 0 || row < 0 || column >= static_cast<double>(grid.columns) ||
+          row >= static_cast<double>(grid.rows))
+        continue;
+      ++grid.points[static_cast<std::size_t>(row) * grid.columns + static_cast<std::size_t>(column)];
     }
   }
 }
@@ -112,10 +100,10 @@ void add_polygon(const std::vector<Ring2>& rings, CoverageGrid& grid) {
   }
 }
 
-CoverageGrid cover(const Detection& detection, const FileScan& scan, const FilesConfig& config) {
+CoverageGrid cover(const Detection& detection, const ScanFiles& scan, const FilesConfig& config) {
   CoverageGrid grid = empty_grid(detection, config);
   if (grid.size() == 0) return grid;
-  count_points(scan, config.input, grid);
+  count_points(scan, grid);
   std::vector<Ring2> rings;
   const auto add_ring = [&](std::size_t loop) {
     Ring2& ring = rings.emplace_back();

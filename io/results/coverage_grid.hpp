@@ -4,10 +4,9 @@
 
 #include "engine/model/detection.hpp"
 #include "io/options/options.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_files.hpp"
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -29,7 +28,7 @@ struct CoverageGrid {
 // are no part of their hole. If holes overlap, their sum counts, up
 // to 1. Throws `Error` if there would be more cells than the memory limit has space for. Memory: 8 bytes a
 // cell. Cost: linear in points, and in the cells that holes cross.
-CoverageGrid cover(const Detection& detection, const FileScan& scan, const FilesConfig& config);
+CoverageGrid cover(const Detection& detection, const ScanFiles& scan, const FilesConfig& config);
 
 // Adds the share of each cell within a closed polygon, without its inner rings. Rows are cut into eight
 // strips, and each strip's share is exact along its middle.

@@ -7,7 +7,6 @@
 #include "io/results/voids_gis.hpp"
 
 #include <mutex>
-#include <string>
 
 #include <spdlog/spdlog.h>
 
@@ -16,12 +15,12 @@ namespace {
 
 constexpr const char* kUser = "--gpkg, --geojson, --coverage and --area";
 
-GisOutput gis_output(const FileScan& scan, const OutputFile& out) {
+GisOutput gis_output(const ScanFiles& scan, const OutputFile& out) {
   return {.crs = scan.common_crs(), .name = out.path(), .place = out.place()};
 }
 
 // A run gives one warning for all files.
-void warn_not_understood(const FileScan& scan) {
+void warn_not_understood(const ScanFiles& scan) {
   static std::once_flag warned;
   std::call_once(warned, [&] {
     spdlog::warn(
@@ -43,7 +42,7 @@ void check_gis_library() {
   check_gis_module(kUser);
 }
 
-void write_loops_gis(const ExplainedDetection& detection, const FileScan& scan, const OutputConfig& config,
+void write_loops_gis(const ExplainedDetection& detection, const ScanFiles& scan, const OutputConfig& config,
                      GisFormat format, OutputFile& out) {
   static auto* const write = reinterpret_cast<WriteLoopsGis*>(load_gis_function(kWriteLoopsGis, kUser));
   const bool is_geojson = format == GisFormat::kGeoJson;
@@ -72,7 +71,7 @@ void write_loops_gis(const ExplainedDetection& detection, const FileScan& scan, 
   }
 }
 
-void write_coverage(const Detection& detection, const FileScan& scan, const FilesConfig& config,
+void write_coverage(const Detection& detection, const ScanFiles& scan, const FilesConfig& config,
                     OutputFile& out) {
   static auto* const write = reinterpret_cast<WriteCoverage*>(load_gis_function(kWriteCoverage, kUser));
   const CoverageGrid grid = cover(detection, scan, config);
@@ -80,7 +79,7 @@ void write_coverage(const Detection& detection, const FileScan& scan, const File
   if (!write(grid, gis_output(scan, out))) warn_not_understood(scan);
 }
 
-void write_voids_gpkg(const AreaCheck& check, const FileScan& scan, OutputFile& out) {
+void write_voids_gpkg(const AreaCheck& check, const ScanFiles& scan, OutputFile& out) {
   static auto* const write = reinterpret_cast<WriteVoidsGis*>(load_gis_function(kWriteVoidsGis, kUser));
   if (!write(check, gis_output(scan, out))) warn_not_understood(scan);
 }

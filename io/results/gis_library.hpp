@@ -7,7 +7,7 @@
 #include "io/files/output_file.hpp"
 #include "io/options/options.hpp"
 #include "io/results/loops_gis.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_files.hpp"
 
 namespace lacuna::io {
 
@@ -17,14 +17,14 @@ void check_gis_library();
 // Loads the library on first use and writes the loops. The log has a warning if the scan has a coordinate
 // reference system and the file has none. Another warning comes if GIS will read metres as degrees. Throws
 // `Error`.
-void write_loops_gis(const ExplainedDetection& detection, const FileScan& scan, const OutputConfig& config,
+void write_loops_gis(const ExplainedDetection& detection, const ScanFiles& scan, const OutputConfig& config,
                      GisFormat format, OutputFile& out);
 
 // Writes coverage.tif in the same way (io/results/coverage_tif.hpp); writes no file if no point takes part.
-void write_coverage(const Detection& detection, const FileScan& scan, const FilesConfig& config,
+void write_coverage(const Detection& detection, const ScanFiles& scan, const FilesConfig& config,
                     OutputFile& out);
 
 // Writes voids.gpkg in the same way (io/results/voids_gis.hpp).
-void write_voids_gpkg(const AreaCheck& check, const FileScan& scan, OutputFile& out);
+void write_voids_gpkg(const AreaCheck& check, const ScanFiles& scan, OutputFile& out);
 
 }  // namespace lacuna::io

@@ -8,7 +8,7 @@
 namespace lacuna::io {
 
 struct GisOutput {
-  std::string crs;              // as FileScan::common_crs
+  std::string crs;              // as CommonSystem::crs
   std::filesystem::path name;   // what errors call it
   std::filesystem::path place;  // where it is made
 };

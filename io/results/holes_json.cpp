@@ -2,7 +2,6 @@
 #include "io/loops/json.hpp"
 #include "io/results/local_coordinates.hpp"
 #include "io/results/results.hpp"
-#include "io/rows/scalar.hpp"
 
 #include <functional>
 #include <string>
@@ -20,7 +19,8 @@ Json rows_of(const Pose& pose) {
   return rows;
 }
 
-Json inputs(const FileScan& scan) {
+Json inputs(const ScanFiles& scan, const ScanCounts& counts) {
+  const std::vector<std::uint64_t> rows = rows_of(scan, counts);
   Json files = Json::array();
   std::uint64_t first_id = 0;
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
@@ -29,8 +29,8 @@ Json inputs(const FileScan& scan) {
     if (const auto& pose = scan.files()[i].pose) file["pose"] = rows_of(*pose);
     if (!scan.files()[i].crs.empty()) file["crs"] = scan.files()[i].crs;
     file["first_id"] = first_id;
-    file["points"] = scan.files()[i].rows();
-    first_id += scan.files()[i].rows();
+    file["points"] = rows[i];
+    first_id += rows[i];
     Json::object_t properties;  // names differ, so none is searched for
     for (const Property& property : scan.files()[i].layout.properties) {
       properties.emplace_back(property.name, ply_name(property.type));
@@ -82,13 +82,13 @@ Json cause_json(const LoopCause& cause) {
   return json;
 }
 
-Json head(const ExplainedDetection& detection, const FileScan& scan, const FilesConfig& config) {
+Json head(const ExplainedDetection& detection, const ScanFiles& scan, const FilesConfig& config) {
   const Summary& summary = detection.summary;
   Json json = begin_json(kHolesSchema);
   put_crs(scan, json);
   json["parameters"] = parameter_values(config, [](std::string_view section) { return section != "run"; });
-  json["inputs"] = inputs(scan);
-  json["counts"] = counts(summary.counts, scan.filtered_out(), detection.loops);
+  json["inputs"] = inputs(scan, detection.counts);
+  json["counts"] = counts(summary.counts, detection.counts.filtered_out, detection.loops);
   json["bounds"] = corners(summary.bounds);
   json["strays"] = strays_json(summary.strays);
   const LocalOffset offset = local_offset(detection, config.output);
@@ -168,7 +168,7 @@ void write_loop(std::size_t id, const ExplainedDetection& detection, bool with_c
 
 }  // namespace
 
-void write_holes(const ExplainedDetection& detection, const FileScan& scan, const FilesConfig& config,
+void write_holes(const ExplainedDetection& detection, const ScanFiles& scan, const FilesConfig& config,
                  OutputFile& out) {
   std::string text = print(head(detection, scan, config), 2);
   text.resize(text.size() - 2);  // without its "\n}": the loops follow

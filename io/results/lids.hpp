@@ -5,7 +5,7 @@
 #include "engine/model/detection.hpp"
 #include "io/files/output_file.hpp"
 #include "io/options/options.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_files.hpp"
 
 #include <filesystem>
 
@@ -21,7 +21,7 @@ void write_lids_obj(const Detection& detection, OutputFile& out);
 //
 // lids.ply: element vertex with x y z in the coordinates of loops.ply, and scalar_loop, the id of the hole.
 // Element face has list vertex_indices alone, since meshio 5 reads no faces with more.
-void write_lids_ply(const std::filesystem::path& lids_obj, const Detection& detection, const FileScan& scan,
+void write_lids_ply(const std::filesystem::path& lids_obj, const Detection& detection, const ScanFiles& scan,
                     const OutputConfig& config, OutputFile& out);
 // lids.csv: a line for each hole. lid_area is empty if the hole has no lid, and reason if it has one.
 void write_lids_table(const std::filesystem::path& lids_obj, OutputFile& out);

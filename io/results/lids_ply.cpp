@@ -10,7 +10,7 @@
 
 namespace lacuna::io {
 
-void write_lids_ply(const std::filesystem::path& lids_obj, const Detection& detection, const FileScan& scan,
+void write_lids_ply(const std::filesystem::path& lids_obj, const Detection& detection, const ScanFiles& scan,
                     const OutputConfig& config, OutputFile& out) {
   std::uint64_t vertices = 0, triangles = 0;
   read_lids(lids_obj, {.hole = [&](const LidRecord& hole) {

@@ -16,11 +16,11 @@ LocalOffset local_offset(const Detection& detection, const OutputConfig& config)
   return bounds.center().unaryExpr([](double middle) { return std::round(middle) + 0.0; });
 }
 
-Scalar coordinate_type(const FileScan& scan, const OutputConfig& config) {
+Scalar coordinate_type(const ScanFiles& scan, const OutputConfig& config) {
   return config.local_coordinates || has_single_precision(scan) ? Scalar::kFloat32 : Scalar::kFloat64;
 }
 
-std::vector<RowLayout> written_layouts(const FileScan& scan, const OutputConfig& config) {
+std::vector<RowLayout> written_layouts(const ScanFiles& scan, const OutputConfig& config) {
   std::vector<RowLayout> layouts = layouts_of(scan);
   if (!config.local_coordinates) return layouts;
   for (RowLayout& layout : layouts) layout = with_components_as(Scalar::kFloat32, kPositionNames, layout);

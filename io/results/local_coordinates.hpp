@@ -6,7 +6,7 @@
 #include "engine/model/detection.hpp"
 #include "io/options/options.hpp"
 #include "io/rows/local_offset.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_files.hpp"
 
 #include <vector>
 
@@ -18,9 +18,9 @@ namespace lacuna::io {
 LocalOffset local_offset(const Detection& detection, const OutputConfig& config);
 
 // Returns the type of the coordinates of vertices.
-Scalar coordinate_type(const FileScan& scan, const OutputConfig& config);
+Scalar coordinate_type(const ScanFiles& scan, const OutputConfig& config);
 
 // Returns the columns of the scan's files as a run writes them: with --local-coordinates, x y z are floats.
-std::vector<RowLayout> written_layouts(const FileScan& scan, const OutputConfig& config);
+std::vector<RowLayout> written_layouts(const ScanFiles& scan, const OutputConfig& config);
 
 }  // namespace lacuna::io

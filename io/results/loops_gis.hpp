@@ -25,7 +25,7 @@ struct GisTask {
   const ExplainedDetection& detection;
   GisFormat format;
   bool with_polygons;
-  std::string unit;  // as FileScan::length_unit
+  std::string unit;  // as CommonSystem::unit
   GisOutput out;
   std::function<void(std::string_view text)> take;  // of a GeoJSON; may throw
 };

@@ -18,7 +18,7 @@ std::uint64_t count_points(const Detection& detection) {
 
 }  // namespace
 
-void write_loops(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+void write_loops(const Detection& detection, const ScanFiles& scan, const OutputConfig& config,
                  OutputFile& out) {
   const std::uint64_t points = count_points(detection);
   if (points > std::numeric_limits<std::int32_t>::max()) {

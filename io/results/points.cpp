@@ -28,21 +28,20 @@ struct FileFormat {
 };
 
 constexpr FileFormat kPly{".ply", ply_form}, kCsv{".csv", csv_form}, kLas{".las", las_form},
-    kLaz{".laz", laz_form};
+    kLaz{".laz", las_form};
 
 // A file of the annotated scan.
 struct PointsFile {
   std::string name;
   const FileFormat* format;
-  FileRange files;  // of the scan
+  IndexRange files;  // of the scan
 };
 
-const FileFormat* own_format(const FileScan& scan, std::size_t file) {
-  const std::string& format = scan.files()[file].format;
+const FileFormat* own_format(const ScanFiles& scan, std::size_t file) {
+  const std::optional<Format> format = scan.files()[file].format;
   const bool has_pose = scan.files()[file].pose.has_value();
-  if (format.starts_with("text")) return &kCsv;
-  if (format.starts_with("LAS") && !has_pose) return &kLas;
-  if (format.starts_with("LAZ") && !has_pose) return &kLaz;
+  if (format == Format::kText) return &kCsv;
+  if (format == Format::kLas && !has_pose) return is_compressed_las(scan.files()[file].name) ? &kLaz : &kLas;
   return &kPly;
 }
 
@@ -57,7 +56,7 @@ std::string points_name(const OutputConfig& config) {
 }
 
 // Throws `Error` if two files would have the same name.
-std::vector<PointsFile> points_files(const FileScan& scan, const OutputConfig& config) {
+std::vector<PointsFile> points_files(const ScanFiles& scan, const OutputConfig& config) {
   if (!is_in_folder(config)) {
     const bool is_csv = config.points_format == PointsFormat::kCsv;
     return {{points_name(config), is_csv ? &kCsv : &kPly, {0, scan.files().size()}}};
@@ -77,7 +76,7 @@ std::vector<PointsFile> points_files(const FileScan& scan, const OutputConfig& c
   return files;
 }
 
-std::vector<PointsFile> wanted_files(const FileScan& scan, const FilesConfig& config) {
+std::vector<PointsFile> wanted_files(const ScanFiles& scan, const FilesConfig& config) {
   return config.results.points ? points_files(scan, config.output) : std::vector<PointsFile>();
 }
 
@@ -89,10 +88,10 @@ bool has_own_quality(const RowLayout& layout) {
 }
 
 // The results include the quality of MeshLab in PLY, unless the input has its own.
-std::vector<ResultColumn> results_of(const FileScan& scan, const OutputConfig& config,
+std::vector<ResultColumn> results_of(const ScanFiles& scan, const OutputConfig& config,
                                      const PointsFile& file) {
   std::vector<ResultColumn> results = result_columns(scan, config);
-  const auto files = std::span(scan.files()).subspan(file.files.first, file.files.end - file.files.first);
+  const auto files = std::span(scan.files()).subspan(file.files.first, file.files.last - file.files.first);
   const auto has_quality = [](const ScanFile& input) { return has_own_quality(input.layout); };
   if (file.format != &kPly || std::ranges::any_of(files, has_quality)) return results;
   const auto loop = std::find_if(results.begin(), results.end(),
@@ -101,7 +100,7 @@ std::vector<ResultColumn> results_of(const FileScan& scan, const OutputConfig& c
   return results;
 }
 
-PointsPlan plan_of(const FileScan& scan, const OutputConfig& config, const PointsFile& file,
+PointsPlan plan_of(const ScanFiles& scan, const OutputConfig& config, const PointsFile& file,
                    const LocalOffset& offset) {
   std::string name = is_in_folder(config) ? std::string(kPointsFolder) + "/" + file.name : file.name;
   return {.scan = scan,
@@ -163,17 +162,18 @@ class AnnotatedFile {
 
 }  // namespace
 
-void check_points(const FileScan& scan, const FilesConfig& config) {
+void check_points(const ScanFiles& scan, const FilesConfig& config) {
   for (const PointsFile& file : wanted_files(scan, config))
     file.format->form(plan_of(scan, config.output, file, {}));
 }
 
-void write_points(const Detection& detection, const FileScan& scan, const FilesConfig& config,
+void write_points(const ExplainedDetection& detection, const ScanFiles& scan, const FilesConfig& config,
                   const ResultFolder& folder) {
   const OutputConfig& output = config.output;
   const std::vector<PointsFile> files = wanted_files(scan, config);
   if (files.empty()) return;
   const LocalOffset offset = local_offset(detection, output);
+  const std::vector<std::uint64_t> rows_of_files = rows_of(scan, detection.counts);
   std::unique_ptr<AnnotatedFile> open;
   std::size_t next = 0;
   const auto open_next = [&] {
@@ -182,7 +182,7 @@ void write_points(const Detection& detection, const FileScan& scan, const FilesC
     const PointsFile& file = files[next++];
     const PointsPlan plan = plan_of(scan, output, file, offset);
     const std::uint64_t rows =
-        files.size() == 1 ? detection.summary.counts.points : scan.files()[file.files.first].rows();
+        files.size() == 1 ? detection.summary.counts.points : rows_of_files[file.files.first];
     open = std::make_unique<AnnotatedFile>(plan, *file.format, folder.open(plan.name), rows);
   };
   open_next();

@@ -16,19 +16,17 @@
 #include "engine/model/detection.hpp"
 #include "io/files/result_folder.hpp"
 #include "io/options/options.hpp"
-#include "io/scan/file_scan.hpp"
-
-#include <filesystem>
+#include "io/scan/scan_files.hpp"
 
 namespace lacuna::io {
 
 // Throws `Error` if the annotated scan of the config cannot be written, as far as headers and names show it.
 // Two files of the scan may have the same name, or a format may not hold its results. Cheap, for a program to
 // check before the work.
-void check_points(const FileScan& scan, const FilesConfig& config);
+void check_points(const ScanFiles& scan, const FilesConfig& config);
 
 // Writes the annotated scan, if the config wants it. Memory: a batch of one file at a time. Throws `Error`.
-void write_points(const Detection& detection, const FileScan& scan, const FilesConfig& config,
+void write_points(const ExplainedDetection& detection, const ScanFiles& scan, const FilesConfig& config,
                   const ResultFolder& folder);
 
 }  // namespace lacuna::io

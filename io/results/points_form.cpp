@@ -3,7 +3,6 @@
 
 #include "io/ply/ply_writer.hpp"
 #include "io/results/local_coordinates.hpp"
-#include "io/rows/scalar.hpp"
 #include "io/text/csv_writer.hpp"
 
 namespace lacuna::io {
@@ -18,7 +17,7 @@ class JoinedForm : public PointsForm {
         offset_(plan.offset),
         results_(plan.results),
         input_(join_layouts(
-            std::span(layouts).subspan(files_.first, files_.end - files_.first),
+            std::span(layouts).subspan(files_.first, files_.last - files_.first),
             [&](const RowLayout& layout, std::size_t i) { return is_earlier_result(layout, i, results_); })) {
   }
   std::size_t row_bytes() const final { return input_.stride; }
@@ -39,8 +38,8 @@ class JoinedForm : public PointsForm {
   const LocalOffset& offset() const { return offset_; }
 
  private:
-  const FileScan& scan_;
-  FileRange files_;
+  const ScanFiles& scan_;
+  IndexRange files_;
   LocalOffset offset_;
   std::vector<ResultColumn> results_;
   RowLayout input_;

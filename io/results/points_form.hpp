@@ -7,7 +7,7 @@
 #include "io/results/annotated_rows.hpp"
 #include "io/rows/local_offset.hpp"
 #include "io/rows/rows_writer.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_files.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -19,9 +19,9 @@ namespace lacuna::io {
 
 // The input of the forms. The scan must outlive them.
 struct PointsPlan {
-  const FileScan& scan;
+  const ScanFiles& scan;
   const OutputConfig& config;
-  FileRange files;                    // of the scan: their rows become the file
+  IndexRange files;                   // of the scan: their rows become the file
   std::vector<ResultColumn> results;  // written behind each row
   LocalOffset offset;                 // of PLY
   std::string name;                   // of the file, for errors
@@ -50,6 +50,6 @@ std::unique_ptr<PointsForm> csv_form(const PointsPlan& plan);
 // probability, angle and so on. Throws `Error` where the format cannot hold the points with their results.
 // Reads the header alone.
 std::unique_ptr<PointsForm> las_form(const PointsPlan& plan);
-std::unique_ptr<PointsForm> laz_form(const PointsPlan& plan);
+bool is_compressed_las(const std::filesystem::path& file);
 
 }  // namespace lacuna::io

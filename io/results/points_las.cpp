@@ -8,7 +8,6 @@
 #include "io/rows/scan_reader.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cstring>
 #include <optional>
 #include <utility>
@@ -52,14 +51,14 @@ LasInput examine(const std::filesystem::path& file) {
 // Its header counts the points that were read: those that `--trust` chose.
 LasHeader header_as_read(InputFile& in, const ScanFile& file) {
   LasHeader header = read_las_header(in);
-  header.points = file.rows();
+  header.points = file.expected_rows.value();
   return header;
 }
 
 // Reads the points of the file as records of the parts that are kept.
 class LasRows final : public InputRows {
  public:
-  LasRows(const FileScan& scan, std::size_t file, const std::vector<Kept>& kept)
+  LasRows(const ScanFiles& scan, std::size_t file, const std::vector<Kept>& kept)
       : in_(scan.files()[file].name),
         header_(header_as_read(in_, scan.files()[file])),
         // Its counts were checked when the scan was read.
@@ -117,7 +116,7 @@ void add_results(std::span<const ResultColumn> results, std::vector<LasExtraByte
 
 class LasForm final : public PointsForm {
  public:
-  LasForm(const PointsPlan& plan, bool is_compressed)
+  explicit LasForm(const PointsPlan& plan)
       : scan_(plan.scan), file_(plan.files.first), input_(examine(scan_.files()[file_].name)) {
     constexpr std::size_t kMostRecordBytes = 65535, kMostDescriptors = 341;  // 192 bytes each in 65535
     const std::size_t extra = input_.extra.size();
@@ -127,7 +126,7 @@ class LasForm final : public PointsForm {
       throw Error(plan.name + ": " + std::to_string(extra) + " extra values and " +
                   std::to_string(input_.record_bytes) +
                   " bytes a point leave no room for the results in LAS" + kWayOut);
-    if (is_compressed) compress(plan.name);
+    if (input_.header.is_compressed) compress(plan.name);
   }
 
   std::size_t row_bytes() const override { return input_.record_bytes; }
@@ -153,7 +152,7 @@ class LasForm final : public PointsForm {
     compression_ = {.layout = layout, .memory = scan_.memory() / 2};  // the other half is for reading
   }
 
-  const FileScan& scan_;
+  const ScanFiles& scan_;
   std::size_t file_;
   LasInput input_;
   std::size_t written_bytes_ = 0;  // of a record, with results
@@ -162,12 +161,13 @@ class LasForm final : public PointsForm {
 
 }  // namespace
 
-std::unique_ptr<PointsForm> las_form(const PointsPlan& plan) {
-  return std::make_unique<LasForm>(plan, false);
+bool is_compressed_las(const std::filesystem::path& file) {
+  InputFile in(file);
+  return read_las_header(in).is_compressed;
 }
 
-std::unique_ptr<PointsForm> laz_form(const PointsPlan& plan) {
-  return std::make_unique<LasForm>(plan, true);
+std::unique_ptr<PointsForm> las_form(const PointsPlan& plan) {
+  return std::make_unique<LasForm>(plan);
 }
 
 }  // namespace lacuna::io

@@ -3,7 +3,6 @@
 
 #include "engine/run/error.hpp"
 #include "engine/run/parallel.hpp"
-#include "io/ply/ply_writer.hpp"
 #include "io/report/report.hpp"
 #include "io/report/scene.hpp"
 #include "io/results/gis_library.hpp"
@@ -13,6 +12,7 @@
 #include "io/results/points.hpp"
 #include "io/results/voids.hpp"
 #include "io/scan/plan_system.hpp"
+#include "io/scan/scan_identity.hpp"
 
 #include <functional>
 #include <limits>
@@ -37,7 +37,7 @@ bool needs_gis_library(const FilesConfig& config) {
   return config.output.gpkg || config.output.geojson || config.output.coverage > 0 || has_area(config);
 }
 
-std::vector<ResultFile> results_of(const ExplainedDetection& detection, const FileScan& scan,
+std::vector<ResultFile> results_of(const ExplainedDetection& detection, const ScanFiles& scan,
                                    const FilesConfig& config) {
   const OutputConfig& output = config.output;
   return {{"loops.ply", true, [&](OutputFile& out) { write_loops(detection, scan, output, out); }},
@@ -59,7 +59,7 @@ std::vector<ResultFile> results_of(const ExplainedDetection& detection, const Fi
 }
 
 // Results that are made of other ones, which are complete. `folder`: where these are.
-std::vector<ResultFile> results_of_results(const Detection& detection, const FileScan& scan,
+std::vector<ResultFile> results_of_results(const Detection& detection, const ScanFiles& scan,
                                            const OutputConfig& output, const std::filesystem::path& folder) {
   const std::filesystem::path lids = folder / "lids.obj";
   return {
@@ -71,14 +71,14 @@ std::vector<ResultFile> results_of_results(const Detection& detection, const Fil
 
 }  // namespace
 
-void check_results(const FileScan& scan, const FilesConfig& config, const ResultFolder& folder) {
+void check_results(const ScanFiles& scan, const FilesConfig& config, const ResultFolder& folder) {
   check_points(scan, config);
   if (needs_gis_library(config)) check_gis_library();
   if (config.output.coverage > 0) require_plan(scan, "--coverage");
   check_not_input(folder, scan);
 }
 
-std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection, const FileScan& scan,
+std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection, const ScanFiles& scan,
                                                  const FilesConfig& config, ResultFolder& folder) {
   check_results(scan, config, folder);
   if (has_area(config) && !detection.area)
@@ -98,14 +98,14 @@ std::vector<std::filesystem::path> write_results(const ExplainedDetection& detec
   return folder.commit();
 }
 
-std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection, const FileScan& scan,
+std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection, const ScanFiles& scan,
                                                  const FilesConfig& config,
                                                  const std::filesystem::path& folder) {
   ResultFolder results(folder);
   return write_results(detection, scan, config, results);
 }
 
-std::vector<PlyProperty> position_and_id(const Detection& detection, const FileScan& scan,
+std::vector<PlyProperty> position_and_id(const Detection& detection, const ScanFiles& scan,
                                          const OutputConfig& config) {
   const Scalar coordinate = coordinate_type(scan, config);
   const bool small = detection.summary.counts.points <= std::numeric_limits<std::uint32_t>::max();

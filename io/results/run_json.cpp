@@ -14,7 +14,8 @@ double points_per_second(std::uint64_t points, double seconds) {
 
 }  // namespace
 
-void write_run(const Detection& detection, const FileScan& scan, const FilesConfig& config, OutputFile& out) {
+void write_run(const Detection& detection, const ScanFiles& scan, const FilesConfig& config,
+               OutputFile& out) {
   const Summary& summary = detection.summary;
   Json json = begin_json("run 1");
   json["parameters"] = parameter_values(config, [](std::string_view section) { return section == "run"; });

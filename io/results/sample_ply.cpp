@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -21,7 +20,7 @@ bool is_colour(std::string_view property) {
   return std::find(std::begin(kColourNames), std::end(kColourNames), property) != std::end(kColourNames);
 }
 
-RowLayout colour_columns(const FileScan& scan, const OutputConfig& config) {
+RowLayout colour_columns(const ScanFiles& scan, const OutputConfig& config) {
   const bool with_colours = config.report || !scan.reads_slowly();
   return join_layouts(layouts_of(scan), [&](const RowLayout& layout, std::size_t i) {
     return !with_colours || !is_colour(layout.properties[i].name);
@@ -33,7 +32,7 @@ constexpr std::array kComputed = {"nx", "ny", "nz", "scalar_probability"};
 // Colours of chosen rows, which are requested in ascending id.
 class ColourRows {
  public:
-  ColourRows(const FileScan& scan, const RowLayout& layout)
+  ColourRows(const ScanFiles& scan, const RowLayout& layout)
       : stride_(layout.stride), rows_(scan, layout, {0, scan.files().size()}, std::nullopt) {}
 
   std::span<const std::byte> find(PointId id) {
@@ -56,7 +55,7 @@ class ColourRows {
 
 }  // namespace
 
-void write_sample(const Detection& detection, const FileScan& scan, const OutputConfig& config,
+void write_sample(const Detection& detection, const ScanFiles& scan, const OutputConfig& config,
                   OutputFile& out) {
   PlyElement vertex{.name = "vertex",
                     .count = detection.sampled_points,

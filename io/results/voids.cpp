@@ -79,7 +79,7 @@ void write_list(std::string_view key, const List& elements, const Write& write, 
   out.write("]");
 }
 
-void write_json(const AreaCheck& check, const FileScan& scan, const AreaConfig& config, OutputFile& out) {
+void write_json(const AreaCheck& check, const ScanFiles& scan, const AreaConfig& config, OutputFile& out) {
   Json head = begin_json(kVoidsSchema);
   put_crs(scan, head);
   head["file"] = config.area.empty() ? Json() : Json(config.area);
@@ -140,7 +140,7 @@ void write_table(const AreaCheck& check, OutputFile& out) {
 
 }  // namespace
 
-void add_voids(const AreaCheck& check, const FileScan& scan, const AreaConfig& config,
+void add_voids(const AreaCheck& check, const ScanFiles& scan, const AreaConfig& config,
                const ResultFolder& folder) {
   folder.add(
       "voids.gpkg", [&](OutputFile& out) { write_voids_gpkg(check, scan, out); }, Writer::kLibrary);
@@ -148,7 +148,7 @@ void add_voids(const AreaCheck& check, const FileScan& scan, const AreaConfig& c
   folder.add(kVoidsFile, [&](OutputFile& out) { write_json(check, scan, config, out); });
 }
 
-std::vector<std::filesystem::path> write_voids(const AreaCheck& check, const FileScan& scan,
+std::vector<std::filesystem::path> write_voids(const AreaCheck& check, const ScanFiles& scan,
                                                const FilesConfig& config, ResultFolder& folder) {
   add_voids(check, scan, config.area, folder);
   if (config.output.report) {

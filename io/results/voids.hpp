@@ -4,10 +4,9 @@
 
 #include "engine/export.hpp"
 #include "io/area/area_check.hpp"
-#include "io/area/voids_form.hpp"
 #include "io/files/result_folder.hpp"
 #include "io/options/options.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_files.hpp"
 
 #include <filesystem>
 #include <vector>
@@ -17,12 +16,12 @@ namespace lacuna::io {
 // Writes voids.json, voids.csv and voids.gpkg to the folder. The first has the sums, the voids with their
 // outlines, and the table; what is not finite is null. The second has a line for each void; what is not
 // finite is empty. Memory: one void. Throws `Error`.
-void add_voids(const AreaCheck& check, const FileScan& scan, const AreaConfig& config,
+void add_voids(const AreaCheck& check, const ScanFiles& scan, const AreaConfig& config,
                const ResultFolder& folder);
 
 // Writes these files alone to the folder, and the sheet of the check (io/report/area_sheet.hpp) where the
 // config wants a report, which then takes its name. Returns the files. Throws `Error`.
-LACUNA_API std::vector<std::filesystem::path> write_voids(const AreaCheck& check, const FileScan& scan,
+LACUNA_API std::vector<std::filesystem::path> write_voids(const AreaCheck& check, const ScanFiles& scan,
                                                           const FilesConfig& config, ResultFolder& folder);
 
 }  // namespace lacuna::io

@@ -23,7 +23,7 @@ bool is_on_earth(const Eigen::Vector3d& place) {
 
 }  // namespace
 
-std::optional<Eigen::Vector3d> find_place(const FileScan& scan, std::size_t file) {
+std::optional<Eigen::Vector3d> find_place(const ScanFiles& scan, std::size_t file) {
   constexpr std::size_t kRows = 1000;
   const auto reader = scan.open(file);
   RowBatch rows;
@@ -40,7 +40,7 @@ std::string utm_zone(double longitude, double latitude) {
   return "EPSG:" + std::to_string((latitude < 0 ? 32700 : 32600) + zone);
 }
 
-void require_plan(const FileScan& scan, const std::string& option) {
+void require_plan(const ScanFiles& scan, const std::string& option) {
   const std::string& stated = scan.stated_crs().crs;
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
     const std::string& crs = stated.empty() ? scan.files()[i].crs : stated;
@@ -55,12 +55,12 @@ void require_plan(const FileScan& scan, const std::string& option) {
     std::optional<std::vector<Eigen::Vector3d>> degrees;
     if (place) degrees = to_degrees(is_guess ? kGeocentricCode : crs, {*place}, scan.files()[i].name);
     const std::string zone = degrees ? utm_zone(degrees->front().x(), degrees->front().y()) : "EPSG:N";
-    throw Error(scan.files()[i].name.string() + ": " +
-                (is_guess ? "its places are geocentric, as of EPSG:4978" : name_of_crs(text) + " is geocentric") +
-                ", and " + option + " needs a plan; `pdal translate IN OUT reprojection " +
-                (is_guess ? "--filters.reprojection.in_srs=EPSG:4978 " : "") +
-                "--filters.reprojection.out_srs=" + zone + "` projects it" +
-                (is_guess ? "; if they are not, --unit m or --crs says so" : ""));
+    throw Error(
+        scan.files()[i].name.string() + ": " +
+        (is_guess ? "its places are geocentric, as of EPSG:4978" : name_of_crs(text) + " is geocentric") +
+        ", and " + option + " needs a plan; `pdal translate IN OUT reprojection " +
+        (is_guess ? "--filters.reprojection.in_srs=EPSG:4978 " : "") + "--filters.reprojection.out_srs=" +
+        zone + "` projects it" + (is_guess ? "; if they are not, --unit m or --crs says so" : ""));
   }
 }
 

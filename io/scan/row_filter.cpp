@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/scan/row_filter.hpp"
 
-#include "engine/run/error.hpp"
 #include "io/rows/vectors.hpp"
 
 #include <algorithm>
@@ -41,8 +40,7 @@ RowFilter::RowFilter(const InputConfig& config, const std::filesystem::path& fil
       config.drop_origin || bounds_ || !boxes_.empty() || withheld_ || class_ || synthetic_ || where_;
 }
 
-std::string describe_no_row_left(const InputConfig& config, const FilteredOut& filtered,
-                                 const BeforeFilters& before) {
+std::string describe_no_row_left(const InputConfig& config, const FilteredOut& filtered) {
   std::ostringstream text;
   text.precision(10);
   text << "the filters leave none of the " << filtered.total() << " points";
@@ -55,8 +53,8 @@ std::string describe_no_row_left(const InputConfig& config, const FilteredOut& f
   if (config.drop_origin && filtered.origin > 0) add("--drop-origin", filtered.origin);
   if (!config.bounds.empty()) {
     add("--bounds", filtered.bounds);
-    if (!before.bounds.isEmpty()) {
-      const Eigen::Vector3d min = before.bounds.min(), max = before.bounds.max();
+    if (!filtered.bounds_before.isEmpty()) {
+      const Eigen::Vector3d min = filtered.bounds_before.min(), max = filtered.bounds_before.max();
       text << ", the scan lies from " << min.x() << " " << min.y() << " " << min.z() << " to " << max.x()
            << " " << max.y() << " " << max.z();
     }
@@ -73,8 +71,7 @@ std::string describe_no_row_left(const InputConfig& config, const FilteredOut& f
   return text.str();
 }
 
-void RowFilter::apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions, FilteredOut& filtered,
-                      BeforeFilters& before) {
+void RowFilter::apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions, FilteredOut& filtered) {
   if (!is_active_) return;
   load(rows, withheld_);
   load(rows, class_);
@@ -83,7 +80,7 @@ void RowFilter::apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions
   for (std::size_t row = 0; row < positions.size(); ++row) {
     Eigen::Vector3d& position = positions[row];
     if (!position.allFinite()) continue;
-    std::uint64_t* const count = refusing(row, position, filtered, before);
+    std::uint64_t* const count = refusing(row, position, filtered);
     if (count == nullptr) {
       filtered.synthetic += synthetic_ && synthetic_->values[row] != 0;
       continue;
@@ -94,15 +91,15 @@ void RowFilter::apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions
 }
 
 // Returns the count of the first filter that refuses the row; null if none does.
-std::uint64_t* RowFilter::refusing(std::size_t row, const Eigen::Vector3d& position, FilteredOut& filtered,
-                                   BeforeFilters& before) const {
+std::uint64_t* RowFilter::refusing(std::size_t row, const Eigen::Vector3d& position,
+                                   FilteredOut& filtered) const {
   constexpr double kLowNoise = 7, kHighNoise = 18;
   if (withheld_ && withheld_->values[row] != 0) return &filtered.withheld;
   if (class_ && (class_->values[row] == kLowNoise || class_->values[row] == kHighNoise))
     return &filtered.noise;
-  if (is_no_return(position)) return &filtered.origin;
+  if (std::count(no_return_places_.begin(), no_return_places_.end(), position) > 0) return &filtered.origin;
   if (bounds_) {
-    before.bounds.extend(position);
+    filtered.bounds_before.extend(position);
     if (!bounds_->contains(position)) return &filtered.bounds;
   }
   if (std::any_of(boxes_.begin(), boxes_.end(), [&](const auto& box) { return box.contains(position); }))
@@ -113,10 +110,6 @@ std::uint64_t* RowFilter::refusing(std::size_t row, const Eigen::Vector3d& posit
 void RowFilter::load(const RowBatch& rows, std::optional<Values>& column) const {
   if (!column) return;
   load_column(rows, stride_, column->property, column->values);
-}
-
-bool RowFilter::is_no_return(const Eigen::Vector3d& position) const {
-  return std::find(no_return_places_.begin(), no_return_places_.end(), position) != no_return_places_.end();
 }
 
 }  // namespace lacuna::io

@@ -17,7 +17,7 @@
 
 namespace lacuna::io {
 
-// Numbers of rows left out. Each is counted by the first filter that refuses it: withheld and noise first,
+// Which rows were left out. Each is counted by the first filter that refuses it: withheld and noise first,
 // then in this order. No filter counts a row that is not finite.
 struct FilteredOut {
   std::uint64_t origin = 0;
@@ -26,7 +26,8 @@ struct FilteredOut {
   std::uint64_t withheld = 0;
   std::uint64_t noise = 0;
   std::uint64_t where = 0;
-  std::uint64_t synthetic = 0;  // not left out: flagged as synthetic, of the rows that take part
+  std::uint64_t synthetic = 0;        // not left out: flagged as synthetic, of the rows that take part
+  Eigen::AlignedBox3d bounds_before;  // where there are bounds: of the finite rows that they filter
 
   std::uint64_t total() const;
 };
@@ -51,14 +52,8 @@ inline std::uint64_t FilteredOut::total() const {
   return sum;
 }
 
-// Facts about the rows, for the error if the filters leave no row.
-struct BeforeFilters {
-  Eigen::AlignedBox3d bounds;  // of all finite rows but those without a return
-};
-
 // Returns the message of an error: which filter left out how many rows, and what these are.
-std::string describe_no_row_left(const InputConfig& config, const FilteredOut& filtered,
-                                 const BeforeFilters& before);
+std::string describe_no_row_left(const InputConfig& config, const FilteredOut& filtered);
 
 class RowFilter {
  public:
@@ -66,8 +61,7 @@ class RowFilter {
   RowFilter(const InputConfig& config, const std::filesystem::path& file, const ScanReader& reader);
 
   // Makes the positions of rows that do not take part NaN, and counts them.
-  void apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions, FilteredOut& filtered,
-             BeforeFilters& before);
+  void apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions, FilteredOut& filtered);
 
  private:
   struct Values {  // of one column, for the rows at hand
@@ -75,9 +69,7 @@ class RowFilter {
     std::vector<double> values;
   };
   void load(const RowBatch& rows, std::optional<Values>& column) const;
-  std::uint64_t* refusing(std::size_t row, const Eigen::Vector3d& position, FilteredOut& filtered,
-                          BeforeFilters& before) const;
-  bool is_no_return(const Eigen::Vector3d& position) const;
+  std::uint64_t* refusing(std::size_t row, const Eigen::Vector3d& position, FilteredOut& filtered) const;
   bool is_active_;
   std::size_t stride_;
   std::vector<Eigen::Vector3d> no_return_places_;

@@ -4,6 +4,7 @@
 
 #include "engine/model/detection.hpp"
 #include "io/area/area_check.hpp"
+#include "io/scan/scan_pass.hpp"
 #include "io/stations/trajectory.hpp"
 #include "io/stations/upward.hpp"
 
@@ -14,6 +15,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -92,6 +94,10 @@ struct ExplainedLoop : LoopMeasures {
 
 // What a run on files has found.
 struct ExplainedDetection : Detection {
+  ExplainedDetection(Detection found, ScanCounts counts)
+      : Detection(std::move(found)), counts(std::move(counts)) {}
+
+  ScanCounts counts;                          // of the pass over the scan
   std::vector<StationSummary> stations = {};  // that are known
   PointsOfNone points_of_none = {};
   std::optional<Upward> upward = {};   // where stations are known, and z does not seem to point upwards

@@ -230,10 +230,9 @@ std::optional<Upward> upward_in_sample(const Detection& detection) {
 
 }  // namespace
 
-void find_causes(StationViews& stations, FileScan& scan, const RunConfig& run,
-                 ExplainedDetection& detection) {
+void find_causes(StationViews& stations, const RunConfig& run, ExplainedDetection& detection) {
   const TaskArena arena(static_cast<std::size_t>(run.threads));
-  const std::span<const StationView> views = stations.complete(scan, arena);
+  const std::span<const StationView> views = stations.complete(arena);
   const PathView* const path = stations.path();
   detection.stations = stations.summaries();
   detection.points_of_none = stations.points_of_none();

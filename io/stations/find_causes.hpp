@@ -6,8 +6,6 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
-#include "io/options/options.hpp"
-#include "io/scan/file_scan.hpp"
 #include "io/stations/cause.hpp"
 #include "io/stations/inside_places.hpp"
 #include "io/stations/station_views.hpp"
@@ -46,6 +44,6 @@ double tolerance_of(const LoopMeasures& loop);  // two mean edges of it
 
 // Sets the cause of each hole, the stations, and what is up by the sample, as floors are found by z. Throws
 // `Error` where the scan is read, as `StationViews::complete` does.
-void find_causes(StationViews& stations, FileScan& scan, const RunConfig& run, ExplainedDetection& detection);
+void find_causes(StationViews& stations, const RunConfig& run, ExplainedDetection& detection);
 
 }  // namespace lacuna::io

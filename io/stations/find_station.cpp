@@ -6,7 +6,6 @@
 #include "io/stations/station.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <random>
 #include <string>
@@ -142,9 +141,9 @@ std::optional<FoundStation> find_station(std::span<const Jump> jumps) {
   return FoundStation{place, static_cast<double>(same) / static_cast<double>(jumps.size())};
 }
 
-std::vector<Sweep> read_sweeps(FileScan& scan) {
+std::vector<Sweep> read_sweeps(const ScanFiles& scan) {
   SweepReader reader;
-  scan.read_all(reader);
+  read_all(scan, reader);
   std::vector<Sweep> sweeps;
   for (auto& [key, sweep] : reader.sweeps) sweeps.push_back(std::move(sweep));
   return sweeps;

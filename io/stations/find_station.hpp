@@ -7,7 +7,7 @@
 // wider.
 #pragma once
 
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_pass.hpp"
 
 #include <array>
 #include <cstddef>
@@ -59,6 +59,6 @@ struct Sweep {
 
 // Reads the scan. Returns sweeps in the order of files and numbers, at most kMostSweeps. Throws `Error`.
 inline constexpr std::size_t kMostSweeps = 1000;
-std::vector<Sweep> read_sweeps(FileScan& scan);
+std::vector<Sweep> read_sweeps(const ScanFiles& scan);
 
 }  // namespace lacuna::io

@@ -3,8 +3,6 @@
 
 #include "engine/store/openvdb.hpp"
 
-#include <cmath>
-
 #include <openvdb/math/DDA.h>
 #include <openvdb/math/Ray.h>
 

@@ -4,7 +4,6 @@
 #include "engine/store/store_file.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 

@@ -77,24 +77,24 @@ double StationView::certainty() const {
   return 1 - static_cast<double>(conflicts) / static_cast<double>(points);
 }
 
-StationViews::StationViews(const FileScan& scan, const std::filesystem::path& stated,
+StationViews::StationViews(const ScanFiles& scan, const std::filesystem::path& stated,
                            std::filesystem::path folder, Ranges ranges)
-    : folder_(std::move(folder)),
+    : scan_(scan),
+      folder_(std::move(folder)),
       memory_(scan.memory()),
-      files_(names_of(scan)),
       stated_(stated),
       has_ranges_(ranges == Ranges::kKept) {
   if (stated.empty()) return;
   if (std::optional<Trajectory> path = read_trajectory(stated, memory_)) {
-    for (std::size_t i = 0; i < files_.size(); ++i) {
-      if (!time_of(scan.files()[i].layout))
-        throw Error(files_[i].string() + ": has no column gps_time or time, which a trajectory needs");
+    for (const ScanFile& file : scan.files()) {
+      if (!time_of(file.layout))
+        throw Error(file.name.string() + ": has no column gps_time or time, which a trajectory needs");
     }
     const double metre = 1 / metres_of_unit(scan.length_unit()).value_or(1);
     path_ = std::make_unique<PathView>(std::move(*path), stated, metre, folder_, memory_);
     return;
   }
-  for (Station& station : read_stations(stated, files_, layouts_of(scan))) add(std::move(station));
+  for (Station& station : read_stations(stated, names_of(scan), layouts_of(scan))) add(std::move(station));
 }
 
 void StationViews::add(Station station) {
@@ -113,7 +113,7 @@ void StationViews::add_scanners(std::size_t file, const ScanReader& reader) {
   for (; scanners_known_ < scanners.size(); ++scanners_known_) {
     const ScannerPose& scanner = scanners[scanners_known_];
     const std::string number = scanner.source ? " " + std::to_string(*scanner.source) : "";
-    add({.name = files_[file].stem().string() + number,
+    add({.name = scan_.files()[file].name.stem().string() + number,
          .place = scanner.place,
          .axis = scanner.axis,
          .file = file,
@@ -137,7 +137,7 @@ StationView* StationViews::find(std::size_t file, std::uint64_t source) {
 std::string StationViews::subject_of(std::uint64_t file, std::uint64_t source) const {
   const std::string number = source == kAny ? "" : "number " + std::to_string(source);
   if (file == kAny) return number;
-  return (number.empty() ? "" : number + " of ") + files_[file].string();
+  return (number.empty() ? "" : number + " of ") + scan_.files()[file].name.string();
 }
 
 void StationViews::begin() {
@@ -221,9 +221,8 @@ void StationViews::end() {
               first.subject + ", and the scan has points of " + of_none_.subject);
 }
 
-std::span<const StationView> StationViews::complete(FileScan& scan, const TaskArena& arena) {
-  if (!is_complete_) scan.read_all(*this);
-  scan.observe(nullptr);
+std::span<const StationView> StationViews::complete(const TaskArena& arena) {
+  if (!is_complete_) read_all(scan_, *this);
   if (path_) path_->complete();
   if (!has_ranges_) return views_;
   const std::vector<std::uint64_t> needs(views_.size(), 2 * RangeImage::kBytes);
@@ -255,12 +254,10 @@ std::uint64_t StationViews::disk_bytes() const {
   return bytes;
 }
 
-std::unique_ptr<StationViews> watch_stations(FileScan& scan, const OutputConfig& config,
+std::unique_ptr<StationViews> watch_stations(const ScanFiles& scan, const OutputConfig& config,
                                              const std::filesystem::path& folder, Ranges ranges) {
   if (config.stations.empty() && !scan.has_scanners()) return nullptr;
-  auto views = std::make_unique<StationViews>(scan, config.stations, folder, ranges);
-  scan.observe(views.get());
-  return views;
+  return std::make_unique<StationViews>(scan, config.stations, folder, ranges);
 }
 
 }  // namespace lacuna::io

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/run/parallel.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_pass.hpp"
 #include "io/stations/cause.hpp"
 #include "io/stations/field_of_view.hpp"
 #include "io/stations/path_view.hpp"
@@ -48,8 +48,9 @@ enum class Ranges : std::uint8_t { kKept, kNone };
 // with a viewpoint, PLY with a camera, and files with a pose. Each image is a file of 25 MiB in the folder.
 class StationViews final : public RowObserver {
  public:
-  // `stated` is that file; it may be empty. `folder` is empty if files are in memory. Throws `Error`.
-  StationViews(const FileScan& scan, const std::filesystem::path& stated, std::filesystem::path folder,
+  // `stated` is that file; it may be empty. The scan must outlive the views. `folder` is empty if files are
+  // in memory. Throws `Error`.
+  StationViews(const ScanFiles& scan, const std::filesystem::path& stated, std::filesystem::path folder,
                Ranges ranges = Ranges::kKept);
 
   void begin() override;
@@ -60,7 +61,7 @@ class StationViews final : public RowObserver {
 
   // Completes the views, in the order of the file, or of the scans. Reads the scan if no pass over it has
   // ended yet. Call it once.
-  std::span<const StationView> complete(FileScan& scan, const TaskArena& arena);
+  std::span<const StationView> complete(const TaskArena& arena);
   std::span<const StationView> views() const { return views_; }  // once complete
   const PathView* path() const { return path_.get(); }           // null if no scanner moves
   // Notes that so many places of images were touched. Their pages leave memory where they may be more than
@@ -78,11 +79,11 @@ class StationViews final : public RowObserver {
   void add_scanners(std::size_t file, const ScanReader& reader);
   void put(StationView& view, const Eigen::Vector3d& position, bool is_kept);
 
+  const ScanFiles& scan_;
   std::filesystem::path folder_;
   std::uint64_t memory_;                            // of pages of images
   mutable std::atomic<std::uint64_t> touched_ = 0;  // places of images, since the pages last left memory
-  std::vector<std::filesystem::path> files_;
-  std::filesystem::path stated_;  // file of stations; empty: the scan has them
+  std::filesystem::path stated_;                    // file of stations; empty: the scan has them
   bool is_complete_ = false, has_ranges_;
   std::unique_ptr<PathView> path_;
   std::vector<StationView> views_;
@@ -94,9 +95,9 @@ class StationViews final : public RowObserver {
   std::size_t scanners_known_ = 0;  // of that file
 };
 
-// Observes the scan if a station can be known: the config states a file, or a scan names a scanner. The
-// result is valid as long as the scan. Throws `Error`.
-std::unique_ptr<StationViews> watch_stations(FileScan& scan, const OutputConfig& config,
+// Returns the views that a pass over the scan is to have as its observer. Returns null where no station can
+// be known: the config states no file, and no scan names a scanner. Throws `Error`.
+std::unique_ptr<StationViews> watch_stations(const ScanFiles& scan, const OutputConfig& config,
                                              const std::filesystem::path& folder,
                                              Ranges ranges = Ranges::kKept);
 

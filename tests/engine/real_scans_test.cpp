@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tiling never shows, on real scans: every byte of the result for every tile size, thread count and memory
 // limit. Slow: minutes.
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_pass.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/golden.hpp"
 
@@ -24,8 +24,9 @@ std::string bytes_of(const fs::path& file, const Setting& setting, bool orient) 
   config.normals.orient = orient;
   config.run = {
       .threads = setting.threads, .memory_limit = setting.memory_limit, .tile_points = setting.tile_points};
-  FileScan scan({file}, {});
-  return run_engine(scan, config).bytes();
+  const ScanFiles scan({file}, {});
+  ScanPass pass(scan);
+  return run_engine(pass, config).bytes();
 }
 
 const std::vector<Setting> kAll = {

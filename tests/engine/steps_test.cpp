@@ -206,6 +206,29 @@ TEST_CASE("any two exchanged parts of a planned folder are made again") {
   }
 }
 
+TEST_CASE("a shared scan without a finite point is refused by the first pass over it") {
+  // Counts the passes over it.
+  struct CountedScan final : MemoryScan {
+    using MemoryScan::MemoryScan;
+    void rewind_to(const IndexRange& parts, PointId first) override {
+      ++passes;
+      MemoryScan::rewind_to(parts, first);
+    }
+    void refuse_empty() const override { throw Error("has no point"); }
+    int passes = 0;
+  };
+  SharedRun run;
+  run.cloud.positions.assign(1000, Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  run.planned(2);
+  for (const char* const step : {"survey", "tiles", "bucket", "level-0"}) {
+    CountedScan input(run.cloud);
+    const ScratchFolder scratch;
+    NoProgress quiet;
+    CHECK_THROWS_WITH(work(input, run.config, run.step(step), 0, scratch.path(), quiet), "has no point");
+    CHECK(input.passes == 1);
+  }
+}
+
 TEST_CASE("a level that the scan does not have is nothing to do") {
   SharedRun run;
   run.planned(2);

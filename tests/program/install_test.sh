@@ -135,7 +135,7 @@ int main(int, char** arguments) {
     std::printf("usage, ");
   }
   try {
-    lacuna::io::FileScan missing({arguments[0] + std::string(".ply")}, config.input);
+    const lacuna::io::ScanFiles missing({arguments[0] + std::string(".ply")}, config.input);
   } catch (const lacuna::Error&) {
     std::printf("error, ");
   }
@@ -146,7 +146,7 @@ int main(int, char** arguments) {
     std::printf("%d, ", own);
   }
   config.input.crs = "EPSG:25832";  // lacuna_gis.so looks it up
-  std::printf("%s\n", lacuna::io::FileScan({arguments[1]}, config.input).length_unit().c_str());
+  std::printf("%s\n", lacuna::io::ScanFiles({arguments[1]}, config.input).length_unit().c_str());
 }
 END
   cmake -S "$work/user" -B "$work/user/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON \

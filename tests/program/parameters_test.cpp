@@ -3,7 +3,7 @@
 // offers the parameters that change what it does, and no others.
 #include "io/options/options.hpp"
 #include "io/rows/vectors.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_pass.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/json.hpp"
@@ -320,12 +320,12 @@ std::set<std::string> offered_by(const std::string& command) {
 class Sweep {
  public:
   Sweep() {
-    io::FileScan scan(
+    io::const ScanFiles scan(
         {synth("scan", scratch_ / "plant.ply", {"--scene", "plant", "--stations", "1", "--points", "6000"})},
         {});
     PointBatch batch;
     std::vector<Eigen::Vector3d> sweep;
-    for (scan.rewind(); scan.next(batch);)
+    for (io::ScanPass pass(scan); pass.next(batch);)
       sweep.insert(sweep.end(), batch.positions.begin(), batch.positions.end());
     write("plain.txt", sweep, " 1 1 0\n", "");
     write("origin.txt", sweep, " 1 1 0\n", "0 0 0 2 1 1 0\n");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/golden.hpp"
 
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_pass.hpp"
 #include "tests/support/skip.hpp"
 
 namespace lacuna {
@@ -76,9 +76,10 @@ GoldenLoops in_golden_form(const std::vector<std::vector<PointId>>& loops) {
 }
 
 Cloud read_cloud(const fs::path& file) {
-  FileScan scan({file}, {});
+  const ScanFiles scan({file}, {});
+  ScanPass pass(scan);
   Cloud cloud;
-  for (PointBatch batch; scan.next(batch);) {
+  for (PointBatch batch; pass.next(batch);) {
     cloud.positions.insert(cloud.positions.end(), batch.positions.begin(), batch.positions.end());
     cloud.normals.insert(cloud.normals.end(), batch.normals.begin(), batch.normals.end());
   }

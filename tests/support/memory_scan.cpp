@@ -19,23 +19,20 @@ bool MemoryScan::next(PointBatch& batch) {
   return batch.size() > 0;
 }
 
-std::vector<std::uint64_t> MemoryScan::parts() const {
-  std::vector<std::uint64_t> parts;
-  for (std::size_t part = 0; part < kParts; ++part) parts.push_back(first_of(part + 1) - first_of(part));
-  return parts;
-}
-
-void MemoryScan::select(std::size_t first, std::size_t last, PointId id) {
-  next_ = first_ = first_of(first);
-  end_ = first_of(last);
-  id_ = id;
-}
-
-std::vector<std::string> MemoryScan::identity() const {
+SourceParts MemoryScan::parts() const {
   const auto text_of = [](const std::vector<Eigen::Vector3d>& vectors) {
     return std::to_string(digest_of(std::as_bytes(std::span(vectors)))[0]);
   };
-  return {text_of(cloud_.positions), text_of(cloud_.normals)};
+  SourceParts parts{.identity = {text_of(cloud_.positions), text_of(cloud_.normals)}};
+  for (std::size_t part = 0; part < kParts; ++part)
+    parts.points.push_back(first_of(part + 1) - first_of(part));
+  return parts;
+}
+
+void MemoryScan::rewind_to(const IndexRange& parts, PointId first) {
+  next_ = first_ = first_of(parts.first);
+  end_ = first_of(parts.last);
+  id_ = first;
 }
 
 }  // namespace lacuna

@@ -8,17 +8,16 @@
 
 namespace lacuna {
 
-class MemoryScan final : public PointSource {
+class MemoryScan : public PointSource {
  public:
   explicit MemoryScan(const Cloud& cloud, std::size_t batch = 1000) : cloud_(cloud), batch_(batch) {}
 
-  void rewind() override { next_ = first_; }
+  void rewind() override { rewind_to({0, kParts}, PointId{0}); }
   bool next(PointBatch& batch) override;
   std::optional<std::uint64_t> expected_points() const override { return cloud_.size(); }
   bool has_normals() const override { return !cloud_.normals.empty(); }
-  std::vector<std::uint64_t> parts() const override;
-  void select(std::size_t first, std::size_t last, PointId id) override;
-  std::vector<std::string> identity() const override;
+  SourceParts parts() const override;
+  void rewind_to(const IndexRange& parts, PointId first) override;
 
  private:
   static constexpr std::size_t kParts = 5;  // of equal sizes

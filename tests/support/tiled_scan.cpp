@@ -13,6 +13,7 @@ Level make_level(PointSource& scan, Job& job) {
   SurveyedScan survey = survey_scan(scan, job);
   const TilePlan plan = plan_tiles(survey, job);
   const PointForm form{survey.precision(), scan.has_normals()};
+  scan.rewind();
   const ScatteredPoints scattered = scatter_points(scan, plan, form.precision, plan.points, job);
   TileStore store = store_tiles(
       plan, {}, survey.bounds, form,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/run/input_files.hpp"
 
+#include "io/scan/scan_identity.hpp"
+#include "io/scan/scan_pass.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/support/las_file.hpp"
 
@@ -13,7 +15,7 @@ using Paths = std::vector<fs::path>;
 
 Paths files_of(const std::vector<fs::path>& given) {
   Paths files;
-  for (const ScanInput& input : expand_inputs(given)) files.push_back(input.file);
+  for (const ScanInput& input : expand_inputs(given)) files.push_back(input.name);
   return files;
 }
 
@@ -72,8 +74,8 @@ TEST_CASE("text with binary scans is not read, and options read deeper folders a
   config.input.recursive = config.input.skip_damaged = true;
   const std::vector<ScanInput> inputs = expand_inputs({scratch / "in"}, config);
   REQUIRE(inputs.size() == 2);
-  CHECK(inputs[0].file == a);
-  CHECK(inputs[1].file == deep);
+  CHECK(inputs[0].name == a);
+  CHECK(inputs[1].name == deep);
   CHECK_THROWS_WITH(expand_inputs({broken}, config), Contains("no other file is left"));
 }
 
@@ -97,12 +99,12 @@ TEST_CASE("a pose follows a name in a list, as numbers or as the file that holds
       scratch.write("list.txt", "a b.xyz pose=turned.xf\nc.xyz\tpose=4 5 6 0 0 0 1\nd.xyz\npose=e.xyz\n");
   const std::vector<ScanInput> inputs = expand_inputs({as_list(list)});
   REQUIRE(inputs.size() == 4);
-  CHECK(inputs[0].file == scratch / "a b.xyz");
+  CHECK(inputs[0].name == scratch / "a b.xyz");
   CHECK(inputs[0].pose->translation() == Eigen::Vector3d(1, 2, 3));
-  CHECK(inputs[1].file == scratch / "c.xyz");
+  CHECK(inputs[1].name == scratch / "c.xyz");
   CHECK(inputs[1].pose->translation() == Eigen::Vector3d(4, 5, 6));
   CHECK_FALSE(inputs[2].pose);
-  CHECK(inputs[3].file == scratch / "pose=e.xyz");
+  CHECK(inputs[3].name == scratch / "pose=e.xyz");
   CHECK_FALSE(inputs[3].pose);
   check_list_refused("d.xyz\na.xyz pose=1 2 3\n", "list.txt: line 2: a pose of 3 numbers");
   check_list_refused("a.xyz pose=none.xf\n", "none.xf");
@@ -114,14 +116,15 @@ TEST_CASE("a pose in a list may be the viewpoint of a PCD, whose scanner stands 
   pcd.replace(pcd.find(" 1 0 0 0"), 8, " 0.70710678 0 0 0.70710678");  // a quarter turn around z
   scratch.write("a.pcd", pcd);
   scratch.write("b.xyz", "1 2 3\n");
-  FileScan scan(expand_inputs({as_list(scratch.write("list.txt", "a.pcd pose=viewpoint\n"))}), {});
+  const ScanFiles scan(expand_inputs({as_list(scratch.write("list.txt", "a.pcd pose=viewpoint\n"))}), {});
   PointBatch batch;
-  REQUIRE(scan.next(batch));
+  REQUIRE(ScanPass(scan).next(batch));
   CHECK((batch.positions[0] - Eigen::Vector3d(8, 21, 33)).norm() < 1e-6);
   const auto reader = scan.open(0);
   REQUIRE(reader->scanners().size() == 1);
   CHECK((reader->scanners()[0].place - Eigen::Vector3d(10, 20, 30)).norm() < 1e-6);
-  CHECK(FileScan(inputs_of(scan.names()), {}).open(0)->scanners()[0].place == reader->scanners()[0].place);
+  CHECK(ScanFiles(inputs_of(kept_names(scan)), {}).open(0)->scanners()[0].place ==
+        reader->scanners()[0].place);
   check_list_refused((scratch / "b.xyz").string() + " pose=viewpoint\n", "b.xyz has no VIEWPOINT");
 }
 

@@ -38,15 +38,15 @@ TEST_CASE("a file with another coordinate reference system than the first is a w
   const auto a = folder.write("a.las", las("PROJCS[\"UTM 32N\",X]")),
              b = folder.write("b.las", las("EPSG:4258")), none = folder.write("c.xyz", "1 2 3\n");
   for (const auto& inputs : {std::vector<ScanInput>{a, b, none}, {none, a, b}}) {
-    const FileScan scan(inputs, {});
+    const ScanFiles scan(inputs, {});
     const std::vector<std::string> warnings = input_warnings(scan);
     REQUIRE(warnings.size() == 1);
     CHECK_THAT(warnings[0], Contains("b.las: its coordinate reference system differs from the first file: "
                                      "EPSG:4258, not UTM 32N; results name none"));
     CHECK(scan.common_crs().empty());
   }
-  CHECK(FileScan({b}, {}).common_crs() == "EPSG:4258");
-  CHECK(FileScan({{b, parse_pose("1 2 3 0 0 0 1")}}, {}).common_crs().empty());  // not in these coordinates
+  CHECK(ScanFiles({b}, {}).common_crs() == "EPSG:4258");
+  CHECK(ScanFiles({{b, parse_pose("1 2 3 0 0 0 1")}}, {}).common_crs().empty());  // not in these coordinates
 }
 
 TEST_CASE("files without a system take that of the others, and one warning names the first of them") {
@@ -54,16 +54,16 @@ TEST_CASE("files without a system take that of the others, and one warning names
   const auto a = folder.write("a.las", las(kFeet)), b = folder.write("b.las", LasFile().bytes()),
              c = folder.write("c.xyz", "1 2 3\n"), d = folder.write("d.las", las(kFeet));
   for (const auto& inputs : {std::vector<ScanInput>{a, b, c, d}, {b, a, c}, {b, c, d}}) {
-    const FileScan scan(inputs, {});
+    const ScanFiles scan(inputs, {});
     CHECK(scan.common_crs() == kFeet);
     CHECK(scan.length_unit() == "ft");
     CHECK(input_warnings(scan) ==
           Strings{b + ", and 1 more file: without a coordinate reference system; the system of the other "
                       "files holds, Oregon"});
   }
-  CHECK(input_warnings(FileScan({b, c}, {})).empty());
+  CHECK(input_warnings(ScanFiles({b, c}, {})).empty());
   // A pose puts its points into the coordinates of the others.
-  const FileScan posed({a, {c, parse_pose("1 2 3 0 0 0 1")}}, {});
+  const ScanFiles posed({a, {c, parse_pose("1 2 3 0 0 0 1")}}, {});
   CHECK(posed.common_crs() == kFeet);
   CHECK(input_warnings(posed).empty());
 }
@@ -71,7 +71,7 @@ TEST_CASE("files without a system take that of the others, and one warning names
 TEST_CASE("files in different units are a warning, and the scan has no unit") {
   const ScratchFolder folder;
   const auto a = folder.write("a.las", las(kFeet)), b = folder.write("b.e57", e57(""));
-  const FileScan scan({a, b}, {});
+  const ScanFiles scan({a, b}, {});
   CHECK(scan.length_unit().empty());
   const std::vector<std::string> warnings = input_warnings(scan);
   REQUIRE(warnings.size() == 2);
@@ -79,7 +79,7 @@ TEST_CASE("files in different units are a warning, and the scan has no unit") {
   CHECK_THAT(warnings[1], Contains("b.e57: its unit is m, not ft as in ") && Contains("--unit"));
   // Systems that differ may have other units than the one that is known.
   const auto code = folder.write("c.las", las("EPSG:25832"));
-  CHECK(FileScan({a, code}, {}).length_unit().empty());
+  CHECK(ScanFiles({a, code}, {}).length_unit().empty());
 }
 
 TEST_CASE("given normals that are off at one point in a hundred are a warning") {
@@ -101,18 +101,17 @@ TEST_CASE("z in another unit is brought into the unit of x and y, but for the an
   las.points = {las_point(20, 1, 2, 1000)};
   las.scale = {1, 1, 1};
   const auto file = folder.write("a.las", las.bytes());
-  FileScan scan({file}, {});
+  const ScanFiles scan({file}, {});
   CHECK(scan.length_unit() == "m");
   CHECK(scan.common_crs() == kUtm);
   PointBatch batch;
-  scan.rewind();
-  REQUIRE(scan.next(batch));
+  REQUIRE(ScanPass(scan).next(batch));
   CHECK(batch.positions[0].z() == Approx(304.8));
   CHECK_THAT(input_warnings(scan).back(),
              Contains("a.las: z is in ft, and is brought into the unit of x and y"));
   InputConfig config;
   config.unit_z = LengthUnit::kM;
-  FileScan stated({file}, config);
+  const ScanFiles stated({file}, config);
   CHECK(stated.files()[0].z_factor == 1);
   CHECK(input_warnings(stated).empty());
 }
@@ -120,12 +119,12 @@ TEST_CASE("z in another unit is brought into the unit of x and y, but for the an
 TEST_CASE("a unit that contradicts the system of its file is a warning, unless the user states it") {
   const ScratchFolder folder;
   const auto scan = folder.write("a.e57", e57(kFeet));  // E57 is in metres
-  const Strings warned = input_warnings(FileScan({scan}, {}));
+  const Strings warned = input_warnings(ScanFiles({scan}, {}));
   REQUIRE(warned.size() == 1);
   CHECK_THAT(warned[0], Contains(scan + ": Oregon: ") && Contains("m holds, and --unit ft states the other"));
   InputConfig stated;
   stated.unit = LengthUnit::kM;
-  CHECK(input_warnings(FileScan({scan}, stated)).empty());
+  CHECK(input_warnings(ScanFiles({scan}, stated)).empty());
 }
 
 TEST_CASE("a scan with neither a hole nor an outer curve is a warning that says what is likelier") {
@@ -302,14 +301,14 @@ std::string pcd(double corner, const std::string& viewpoint) {
 }
 
 Strings warnings_of_filters(const std::string& file, const InputConfig& config) {
-  FileScan scan({file}, config);
+  const ScanFiles scan({file}, config);
   Eigen::AlignedBox3d bounds;
-  scan.rewind();
-  for (PointBatch batch; scan.next(batch);) {
+  ScanPass pass(scan);
+  for (PointBatch batch; pass.next(batch);) {
     for (const Eigen::Vector3d& position : batch.positions)
       if (position.allFinite()) bounds.extend(position);
   }
-  return filter_warnings(scan, config, bounds);
+  return filter_warnings(scan, pass.counts(), bounds);
 }
 
 TEST_CASE("files around 0 0 0 whose viewpoints are elsewhere are a warning") {
@@ -323,14 +322,13 @@ TEST_CASE("files around 0 0 0 whose viewpoints are elsewhere are a warning") {
     return folder.write(name, ascii_pcd(rows, viewpoint));
   };
   const auto warnings = [](const std::vector<ScanInput>& files) {
-    FileScan scan(files, {});
-    scan.rewind();
-    for (PointBatch batch; scan.next(batch);) {
+    const ScanFiles scan(files, {});
+    ScanPass pass(scan), kept(scan);
+    for (PointBatch batch; pass.next(batch);) {
     }
-    FileScan kept(files, {});
-    kept.set_pass_counts(scan.pass_counts());  // as of a run that goes on
-    CHECK(filter_warnings(kept, {}, {}) == filter_warnings(scan, {}, {}));
-    return filter_warnings(scan, {}, {});
+    kept.set_pass_counts(pass.pass_counts());  // as of a run that goes on
+    CHECK(filter_warnings(scan, kept.counts(), {}) == filter_warnings(scan, pass.counts(), {}));
+    return filter_warnings(scan, pass.counts(), {});
   };
   const auto first = file("first.pcd", 0, "0 0 0"), own = file("own.pcd", 0, "3 0 1.5"),
              other = file("other.pcd", 0, "0 -9 0"), world = file("world.pcd", 3, "3 0 1.5"),
@@ -367,7 +365,7 @@ TEST_CASE("records of a LAS file that name two systems are a warning with both, 
       std::string bytes = file.bytes();
       put(bytes, 6, static_cast<std::uint16_t>(bits));
       const auto las = folder.write("a.las", bytes);
-      const Strings warned = input_warnings(FileScan({las}, {}));
+      const Strings warned = input_warnings(ScanFiles({las}, {}));
       REQUIRE(warned.size() == 1);
       CHECK_THAT(warned[0], Contains("EPSG:25832") && Contains("UTM 33N") &&
                                 Contains(std::string("; ") + holds + " holds"));
@@ -386,7 +384,7 @@ TEST_CASE("faces of a mesh are a warning with their number, in every format that
     return ply_header(vertices(3) + "element " + element + list) + places + rows;
   };
   const auto warnings = [&](const std::vector<ScanInput>& files) {
-    return input_warnings(FileScan(files, {}));
+    return input_warnings(ScanFiles(files, {}));
   };
   std::vector<ScanInput> files;
   for (const auto& [name, content, faces] :

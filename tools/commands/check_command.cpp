@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // `lacuna check`: whether a scan covers an area. It reads the scan once and finds no loops.
-#include "engine/run/error.hpp"
 #include "io/area/check_area.hpp"
 #include "io/results/voids.hpp"
+#include "io/scan/scan_identity.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/detect_command.hpp"
 #include "tools/console/area_text.hpp"
@@ -45,34 +45,34 @@ void run_check(const CheckArguments& arguments) {
     spdlog::warn("--area-tile changes nothing without --out");
   if (config.output.report && arguments.run.out.empty())
     spdlog::warn("--report changes nothing without --out");
-  const std::unique_ptr<FileScan> scan = open_inputs(expand_inputs(arguments.scans, config), config);
+  const ScanFiles scan = open_inputs(expand_inputs(arguments.scans, config), config);
   std::optional<OutFolder> out;
   if (!arguments.run.out.empty()) {
     out.emplace(arguments.run.out, kVoidsFile);
-    check_not_input(out->results(), *scan);
+    check_not_input(out->results(), scan);
   }
   const std::unique_ptr<Progress> progress = arguments.run.show_progress();
-  Area area = area_or_outline(*scan, config, *progress);
+  Area area = area_or_outline(scan, config, *progress);
   const double bay = area.bay;
   const PlanGrid grid = area.grid;
-  const AreaCheck check = check_area(std::move(area), *scan, config, *progress);
+  const AreaCheck check = check_area(std::move(area), scan, config, *progress);
   if (bay > 0)
     spdlog::info("without --area, the area is the scan's own outline in plan, with bays up to {} wide",
-                 print_length(bay, scan->length_unit()));
-  print_warnings(area_warnings(check, scan->length_unit()));
+                 print_length(bay, scan.length_unit()));
+  print_warnings(area_warnings(check, scan.length_unit()));
   const Eigen::Vector2d size(static_cast<double>(grid.columns), static_cast<double>(grid.rows));
   const Eigen::Vector2d min = grid.from_cells({0, 0}), max = grid.from_cells(size);
   const Eigen::AlignedBox3d bounds(Eigen::Vector3d(min.x(), min.y(), 0),
                                    Eigen::Vector3d(max.x(), max.y(), 0));
-  print_warnings(filter_warnings(*scan, config.input, bounds));
-  const std::string_view unit = scan->length_unit();
+  print_warnings(filter_warnings(scan, check.counts, bounds));
+  const std::string_view unit = scan.length_unit();
   const std::string answer = print_answer(check, unit);
   std::string text = answer + "\n\n";
   if (const std::string voids = print_voids(check, unit); !voids.empty()) text += voids + "\n";
   text += "  area  " + print_covered(check, unit) + "\n" + print_classes(check, unit) + "\n" +
           print_basis(check) + "\n";
   if (out) {
-    for (const auto& file : write_voids(check, *scan, config, out->results()))
+    for (const auto& file : write_voids(check, scan, config, out->results()))
       text += "written: " + visible(file.string()) + "\n";
     note_complete_results();
   }

@@ -3,11 +3,10 @@
 
 #include "engine/kept_state.hpp"
 #include "engine/pipeline.hpp"
-#include "engine/run/error.hpp"
 #include "engine/store/temporary_folder.hpp"
 #include "io/area/check_area.hpp"
 #include "io/results/results.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_pass.hpp"
 #include "io/stations/find_causes.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/summary.hpp"
@@ -24,7 +23,6 @@
 #include "tools/run/scan_warnings.hpp"
 #include "tools/run/signals.hpp"
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <filesystem>
@@ -76,6 +74,27 @@ std::unique_ptr<KeptFolder> use_workspace(const fs::path& folder) {
   return workspace;
 }
 
+// What a run holds until its results are written. Each member may use the ones before, and goes before them.
+struct RunParts {
+  RunParts(const std::vector<ScanInput>& inputs, const FilesConfig& config, const ResultArguments& arguments)
+      : scan(open_inputs(inputs, config)), area(read_area(scan, config)), out(arguments.out, "holes.json") {
+    check_results(scan, config, out.results());
+    workspace = use_workspace(config.run.workspace);
+    scratch.emplace(scratch_parent(config.run, out.results()));
+    print_warnings(memory_warnings(config));
+    progress = arguments.show_progress(steps_of_run(config, area.has_value()));
+    stations = watch_stations(scan, config.output, scratch->path());
+  }
+
+  ScanFiles scan;
+  std::optional<Area> area;                // before any folder is made: a file that is refused leaves none
+  OutFolder out;                           // no other run may take its name meanwhile
+  std::unique_ptr<KeptFolder> workspace;   // null: nothing is kept
+  std::optional<ScratchFolder> scratch;    // in one of these two folders, unless it has its own place
+  std::unique_ptr<Progress> progress;      // its line ends before the folders go
+  std::unique_ptr<StationViews> stations;  // have files in the scratch folder
+};
+
 }  // namespace
 
 RunArguments::RunArguments(const Command& command, const ReadParameters& read) : parameters(command, read) {
@@ -99,13 +118,14 @@ std::unique_ptr<Progress> RunArguments::show_progress(RunSteps steps) const {
 FilesConfig config_of(const KeptRun& run, const fs::path& workspace) {
   FilesConfig config;
   read_parameters(run.note, workspace, parameters(config));
+  config.run.workspace = workspace.string();
   return config;
 }
 
-std::unique_ptr<FileScan> open_inputs(const std::vector<ScanInput>& inputs, const FilesConfig& config) {
-  auto scan = std::make_unique<FileScan>(inputs, config.input, read_options(config).memory);
-  require_lengths(*scan);
-  print_warnings(input_warnings(*scan));
+ScanFiles open_inputs(const std::vector<ScanInput>& inputs, const FilesConfig& config) {
+  ScanFiles scan(inputs, config.input, read_options(config).memory);
+  require_lengths(scan);
+  print_warnings(input_warnings(scan));
   return scan;
 }
 
@@ -122,37 +142,25 @@ void detect_to(const std::vector<ScanInput>& inputs, FilesConfig config, const R
   const Clock::time_point start = Clock::now();
   require_outside_results(config.run.workspace, arguments.out, "--workspace");
   require_outside_results(config.run.scratch, arguments.out, "--scratch");
-  const std::unique_ptr<FileScan> opened = open_inputs(inputs, config);
-  FileScan& scan = *opened;
-
-  std::optional<Area> area = read_area(scan, config);
-  // Each of these may use the one before, and goes before it.
-  OutFolder out(arguments.out, "holes.json");
-  ResultFolder& results = out.results();
-  check_results(scan, config, results);
-  const std::unique_ptr<KeptFolder> workspace = use_workspace(config.run.workspace);
-  const ScratchFolder scratch(scratch_parent(config.run, results));
-
-  print_warnings(memory_warnings(config));
-  const std::unique_ptr<Progress> progress = arguments.show_progress(steps_of_run(config, area.has_value()));
-
-  const std::unique_ptr<StationViews> stations = watch_stations(scan, config.output, scratch.path());
-  ExplainedDetection detection{*detect(scan, config, scratch.path(), *progress)};
-  if (stations) find_causes(*stations, scan, config.run, detection);
-  if (area) detection.area = check_area(std::move(*area), scan, config, *progress);
-  progress->begin("write", 0);
-  const std::vector<fs::path> written = write_results(detection, scan, with_min_hole(config), results);
+  RunParts run(inputs, config, arguments);
+  ScanPass pass(run.scan, run.stations.get());
+  const std::unique_ptr<Detection> found = detect(pass, config, run.scratch->path(), *run.progress);
+  ExplainedDetection detection(*found, pass.counts());
+  if (run.stations) find_causes(*run.stations, config.run, detection);
+  if (run.area) detection.area = check_area(std::move(*run.area), run.scan, config, *run.progress);
+  run.progress->begin("write", 0);
+  const auto written = write_results(detection, run.scan, with_min_hole(config), run.out.results());
   note_complete_results();
-  progress->end();
-  if (detection.area) print_warnings(area_warnings(*detection.area, scan.length_unit()));
+  run.progress->end();
+  if (detection.area) print_warnings(area_warnings(*detection.area, run.scan.length_unit()));
   print_warnings(station_warnings(detection.stations, detection.points_of_none, detection.upward));
-  print_warnings(scan_warnings(scan, detection, config));
+  print_warnings(scan_warnings(run.scan, detection, config));
 
   if (arguments.quiet) return;
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  std::string summary = print_summary(detection, scan, seconds);
+  std::string summary = print_summary(detection, run.scan, seconds);
   for (const fs::path& file : written) summary += "written: " + visible(file.string()) + "\n";
-  if (workspace)
+  if (run.workspace)
     summary += "kept: " + visible(config.run.workspace) +
                ", from which the same command goes on; lacuna clean removes it\n";
   std::cout << summary;

@@ -3,14 +3,13 @@
 #pragma once
 
 #include "engine/parts/kept_run.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_files.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/progress.hpp"
 #include "tools/run/parameter_options.hpp"
 
 #include <filesystem>
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace lacuna::tools {
@@ -41,8 +40,7 @@ struct ResultArguments : RunArguments {
 io::FilesConfig config_of(const KeptRun& run, const std::filesystem::path& workspace);
 
 // Opens the files of a run as one scan. Warns of oddities, and refuses degrees. Throws `Error`.
-std::unique_ptr<io::FileScan> open_inputs(const std::vector<io::ScanInput>& inputs,
-                                          const io::FilesConfig& config);
+io::ScanFiles open_inputs(const std::vector<io::ScanInput>& inputs, const io::FilesConfig& config);
 
 // Finds the holes and writes the results. Prints their summary, unless the arguments are quiet.
 void detect_to(const std::vector<io::ScanInput>& inputs, io::FilesConfig config,

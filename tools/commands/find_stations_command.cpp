@@ -20,7 +20,6 @@
 #include <memory>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace lacuna::tools {
@@ -65,7 +64,7 @@ std::string without_divisors(std::string name) {
 }
 
 // Returns the last part of the file's name alone, if no other file has it.
-std::string name_in_list(std::size_t file, const FileScan& scan) {
+std::string name_in_list(std::size_t file, const ScanFiles& scan) {
   const fs::path last = scan.files()[file].name.filename();
   const auto same = std::ranges::count_if(
       scan.files(), [&](const ScanFile& other) { return other.name.filename() == last; });
@@ -73,12 +72,12 @@ std::string name_in_list(std::size_t file, const FileScan& scan) {
 }
 
 // Returns the subject of the sweep: the file, and the number.
-std::string subject_of(const Sweep& sweep, const FileScan& scan) {
+std::string subject_of(const Sweep& sweep, const ScanFiles& scan) {
   const std::string number = sweep.source ? " " + std::to_string(*sweep.source) : "";
   return scan.files()[sweep.file].name.string() + number;
 }
 
-Listed listed(const Sweep& sweep, const FoundStation& found, const FileScan& scan) {
+Listed listed(const Sweep& sweep, const FoundStation& found, const ScanFiles& scan) {
   const fs::path& file = scan.files()[sweep.file].name;
   const std::string source = sweep.source ? std::to_string(*sweep.source) : "";
   Listed station{.line = without_divisors(file.stem().string()) + (source.empty() ? "" : "_" + source),
@@ -91,7 +90,7 @@ Listed listed(const Sweep& sweep, const FoundStation& found, const FileScan& sca
 }
 
 // Finds shares of points that can have been measured from the stations, by their lines.
-void find_certainties(std::vector<Listed>& stations, FileScan& scan, const RunConfig& run) {
+void find_certainties(std::vector<Listed>& stations, const ScanFiles& scan, const RunConfig& run) {
   const ScratchFolder scratch(temporary_parent(run.scratch));
   const fs::path list = scratch.path() / "stations.txt";
   std::ofstream out(list);
@@ -99,15 +98,14 @@ void find_certainties(std::vector<Listed>& stations, FileScan& scan, const RunCo
   out.close();
   if (!out) throw Error(list.string() + ": cannot be written");
   StationViews views(scan, list, scratch.path());
-  views.complete(scan, TaskArena(static_cast<std::size_t>(run.threads)));
+  views.complete(TaskArena(static_cast<std::size_t>(run.threads)));
   const std::vector<StationSummary> summaries = views.summaries();
   for (std::size_t i = 0; i < stations.size(); ++i) stations[i].certainty = summaries[i].certainty;
 }
 
 void run_find_stations(const FindArguments& arguments) {
   const FilesConfig config = arguments.parameters.start();
-  const std::unique_ptr<FileScan> opened = open_inputs(expand_inputs(arguments.scans, config), config);
-  FileScan& scan = *opened;
+  const ScanFiles scan = open_inputs(expand_inputs(arguments.scans, config), config);
   std::vector<Listed> stations;
   std::vector<std::string> others;
   for (const Sweep& sweep : read_sweeps(scan)) {

@@ -3,11 +3,10 @@
 
 #include "engine/config/config.hpp"
 #include "engine/inspect.hpp"
-#include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
 #include "io/formats.hpp"
 #include "io/loops/json.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_files.hpp"
 #include "io/stations/station_views.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/summary.hpp"
@@ -28,7 +27,6 @@
 #include <iterator>
 #include <memory>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -63,6 +61,7 @@ struct RunInfo {
   Inspection inspection;
   std::vector<StationSummary> stations;
   PointsOfNone points_of_none;
+  ScanCounts counts;
   std::uint64_t stations_bytes = 0;
 };
 
@@ -102,8 +101,9 @@ AttributeCounts counts_of_file(ScanReader& reader, std::size_t rows_at_a_time) {
   return count_attributes(reader, rows_at_a_time);
 }
 
-FileInfo read_file_info(const FileScan& scan, std::size_t file, const ReadOptions& options) {
-  const std::unique_ptr<ScanReader> reader = open_scan(scan.files()[file].name, options);
+FileInfo read_file_info(const ScanFiles& scan, std::size_t file, const ReadOptions& options) {
+  const std::unique_ptr<ScanReader> reader =
+      open_scan(*scan.files()[file].format, scan.files()[file].name, options);
   return {.file = scan.files()[file].name,
           .format = reader->format(),
           .crs = reader->crs(),
@@ -113,15 +113,17 @@ FileInfo read_file_info(const FileScan& scan, std::size_t file, const ReadOption
           .counts = counts_of_file(*reader, scan.batch_rows(file))};
 }
 
-RunInfo inspect_run(FileScan& scan, const FilesConfig& config) {
+RunInfo inspect_run(const ScanFiles& scan, const FilesConfig& config) {
   RunInfo run;
   NoProgress silence;
   const ScratchFolder scratch(temporary_parent(config.run.scratch));
   const auto stations = watch_stations(scan, config.output, scratch.path(), Ranges::kNone);
-  run.inspection = inspect(scan, config, scratch.path(), silence);
+  ScanPass pass(scan, stations.get());
+  run.inspection = inspect(pass, config, scratch.path(), silence);
+  run.counts = pass.counts();
   if (stations) {
     const TaskArena arena(static_cast<std::size_t>(config.run.threads));
-    stations->complete(scan, arena);
+    stations->complete(arena);
     run.stations = stations->summaries();
     run.points_of_none = stations->points_of_none();
     run.stations_bytes = stations->disk_bytes();
@@ -151,7 +153,7 @@ std::string print_stations(const std::vector<StationSummary>& stations, std::str
   return print_table(rows);
 }
 
-void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const RunInfo& run) {
+void print_text(const std::vector<FileInfo>& files, const ScanFiles& scan, const RunInfo& run) {
   for (const FileInfo& file : files) {
     std::cout << visible(file.file.string()) << "\n  format      " << file.format << "\n  points      "
               << print_count(file.counts.rows);
@@ -170,7 +172,7 @@ void print_text(const std::vector<FileInfo>& files, const FileScan& scan, const 
   const Summary& summary = run.inspection.summary;
   const Needs needs = needs_of(summary);
   std::cout << "\na run of lacuna detect\n  points        " << print_count(summary.counts.points);
-  std::cout << print_left_out(summary.counts, scan.filtered_out());
+  std::cout << print_left_out(summary.counts, run.counts.filtered_out);
   if (!scan.common_crs().empty()) std::cout << "\n  crs           " << crs_name(scan.common_crs());
   if (!scan.length_unit().empty()) std::cout << "\n  unit          " << scan.length_unit();
   const auto is_other = [](const ScanFile& file) { return !file.z_unit.empty(); };
@@ -205,7 +207,7 @@ Json returns_of(const AttributeCounts& counts) {
   return {{"only", counts.only}, {"first", counts.first}, {"later", counts.later}};
 }
 
-std::string json_of(const std::vector<FileInfo>& files, const FileScan& scan, const RunInfo& run) {
+std::string json_of(const std::vector<FileInfo>& files, const ScanFiles& scan, const RunInfo& run) {
   Json root;
   root["files"] = Json::array();
   for (const FileInfo& file : files) {
@@ -227,8 +229,8 @@ std::string json_of(const std::vector<FileInfo>& files, const FileScan& scan, co
   const Summary& summary = run.inspection.summary;
   put_crs(scan, root);
   root["points"] = summary.counts.points;
-  root["dropped"] = summary.counts.dropped - scan.filtered_out().total();
-  root["filtered_out"] = counts_of(scan.filtered_out());
+  root["dropped"] = summary.counts.dropped - run.counts.filtered_out.total();
+  root["filtered_out"] = counts_of(run.counts.filtered_out);
   root["bounds"] = corners(summary.bounds);
   root["strays"] = strays_json(summary.strays);
   root["resolution"] = summary.resolution;
@@ -258,17 +260,17 @@ struct ScanInfo {
     run = inspect_run(scan, config);
   }
 
-  std::vector<std::string> warnings(const FilesConfig& config) const {
+  std::vector<std::string> warnings() const {
     std::vector<std::string> all = input_warnings(scan);
     const Summary& summary = run.inspection.summary;
-    std::ranges::copy(filter_warnings(scan, config.input, summary.strays.rest), std::back_inserter(all));
+    std::ranges::copy(filter_warnings(scan, run.counts, summary.strays.rest), std::back_inserter(all));
     if (std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
       all.push_back(std::move(strays));
     std::ranges::copy(station_warnings(run.stations, run.points_of_none), std::back_inserter(all));
     return all;
   }
 
-  FileScan scan;
+  ScanFiles scan;
   std::vector<FileInfo> files;
   RunInfo run;
 };
@@ -281,7 +283,7 @@ void run_info(const InfoArguments& arguments) {
   } else {
     print_text(info.files, info.scan, info.run);
   }
-  print_warnings(info.warnings(config));
+  print_warnings(info.warnings());
 }
 
 }  // namespace
@@ -289,7 +291,7 @@ void run_info(const InfoArguments& arguments) {
 std::string info_json(const std::vector<fs::path>& scans, const FilesConfig& config,
                       std::vector<std::string>& warnings) {
   const ScanInfo info(scans, config);
-  warnings = info.warnings(config);
+  warnings = info.warnings();
   return json_of(info.files, info.scan, info.run);
 }
 

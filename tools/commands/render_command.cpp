@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/run/error.hpp"
 #include "io/files/new_file.hpp"
 #include "io/files/number.hpp"
 #include "io/report/render.hpp"

@@ -25,7 +25,6 @@
 #include <numbers>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <spdlog/spdlog.h>

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <utility>
@@ -36,11 +35,11 @@ std::string print_share(double value) {
 
 constexpr std::size_t kMostRows = 10;
 
-std::string print_input(const Counts& counts, const FileScan& scan) {
+std::string print_input(const Counts& counts, const FilteredOut& left_out, const ScanFiles& scan) {
   std::string text = print_count(counts.points) + " points";
   text += scan.files().size() == 1 ? " in " + visible(scan.files().front().name.string())
                                    : " in " + std::to_string(scan.files().size()) + " files, as one scan";
-  text += print_left_out(counts, scan.filtered_out());
+  text += print_left_out(counts, left_out);
   if (counts.thinned_out > 0) text += "; " + print_count(counts.thinned_out) + " thinned out";
   if (counts.duplicates > 0) text += "; " + counted(counts.duplicates, "duplicate", "duplicates");
   return text;
@@ -132,10 +131,12 @@ std::string print_plan(const Detection& detection, std::string_view unit) {
          " (estimates); lacuna check shows them";
 }
 
-std::vector<std::pair<std::string, std::string>> findings(const Summary& summary, const FileScan& scan,
-                                                          std::string_view unit) {
+std::vector<std::pair<std::string, std::string>> findings(const ExplainedDetection& detection,
+                                                          const ScanFiles& scan, std::string_view unit) {
+  const Summary& summary = detection.summary;
   const Counts& counts = summary.counts;
-  std::vector<std::pair<std::string, std::string>> facts = {{"input", print_input(counts, scan)}};
+  std::vector<std::pair<std::string, std::string>> facts = {
+      {"input", print_input(counts, detection.counts.filtered_out, scan)}};
   if (!scan.common_crs().empty()) facts.emplace_back("crs", crs_name(scan.common_crs()));
   if (summary.resolution > 0) {
     const std::uint64_t representatives = counts.points - counts.dropped - counts.thinned_out;
@@ -174,7 +175,7 @@ std::string print_left_out(const Counts& counts, const FilteredOut& filtered) {
   return text;
 }
 
-std::string print_summary(const ExplainedDetection& detection, const FileScan& scan, double seconds) {
+std::string print_summary(const ExplainedDetection& detection, const ScanFiles& scan, double seconds) {
   const std::string& unit = scan.length_unit();
   const Summary& summary = detection.summary;
   const std::vector<LoopMeasures>& loops = detection.loops;
@@ -186,7 +187,7 @@ std::string print_summary(const ExplainedDetection& detection, const FileScan& s
   std::string text = counted(holes.size(), "hole", "holes") + ", " +
                      counted(outer, "outer curve", "outer curves") + "\n" +
                      print_largest(loops, holes, extent, unit) + "\n";
-  auto facts = findings(summary, scan, unit);
+  auto facts = findings(detection, scan, unit);
   if (detection.area) {
     facts.emplace_back("area", print_answer(*detection.area, unit));
     facts.emplace_back("", print_covered(*detection.area, unit));

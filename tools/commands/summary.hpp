@@ -2,8 +2,7 @@
 // The summary that a person reads after a run.
 #pragma once
 
-#include "engine/run/disk_space.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_files.hpp"
 #include "io/stations/cause.hpp"
 
 #include <string>
@@ -11,7 +10,7 @@
 namespace lacuna::tools {
 
 // Returns the counts of loops, the largest holes by area, and facts of the scan and of the run.
-std::string print_summary(const io::ExplainedDetection& detection, const io::FileScan& scan, double seconds);
+std::string print_summary(const io::ExplainedDetection& detection, const io::ScanFiles& scan, double seconds);
 
 // Returns points that do not take part, by reason: "; 12 not finite, dropped; 3 outside of the bounds".
 std::string print_left_out(const Counts& counts, const io::FilteredOut& filtered);

@@ -6,6 +6,8 @@
 #include "engine/run/error.hpp"
 #include "engine/run/job.hpp"
 #include "engine/steps.hpp"
+#include "io/scan/scan_identity.hpp"
+#include "io/scan/scan_pass.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/detect_command.hpp"
 #include "tools/console/command_line.hpp"
@@ -14,7 +16,6 @@
 #include "tools/run/input_files.hpp"
 #include "tools/run/signals.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -73,12 +74,13 @@ void run_plan(const PlanArguments& arguments) {
   require_outside_results(workspace, "", "--workspace");
   constexpr std::uint64_t kMemoryOfTask = std::uint64_t{4} << 30;
   if (config.run.memory_limit == 0) config.run.memory_limit = kMemoryOfTask;
-  const std::unique_ptr<FileScan> scan = open_inputs(expand_inputs(arguments.scans, config), config);
+  const ScanFiles scan = open_inputs(expand_inputs(arguments.scans, config), config);
   config.run.note = print_config(config);
   const KeptFolder folder(workspace);
-  const std::vector<std::uint64_t> parts = scan->parts();
-  const std::uint64_t points = std::accumulate(parts.begin(), parts.end(), std::uint64_t{0});
-  print_plan(arguments, plan(*scan, config, arguments.tasks, points), config.run.memory_limit);
+  const std::vector<std::uint64_t> rows = estimated_rows(scan);
+  const std::uint64_t points = std::accumulate(rows.begin(), rows.end(), std::uint64_t{0});
+  ScanPass pass(scan);
+  print_plan(arguments, plan(pass, config, arguments.tasks, points), config.run.memory_limit);
 }
 
 struct WorkArguments {
@@ -93,17 +95,17 @@ struct WorkArguments {
 void run_work(const WorkArguments& arguments) {
   const KeptRun stored = read_run(arguments.workspace);
   FilesConfig config = arguments.run.start(config_of(stored, arguments.workspace));
-  config.run.workspace = arguments.workspace.string();
   const std::optional<Step> step = step_of_name(arguments.step, arguments.workspace);
   if (!step) throw WrongOption("--step", "allowed: a step of lacuna plan, such as evaluate-0");
   if (arguments.task >= step->tasks)
     throw WrongOption("--task", "allowed: 0 to " + std::to_string(step->tasks - 1));
-  FileScan scan(inputs_of(stored.names), config.input, read_options(config).memory);
+  const ScanFiles scan(inputs_of(stored.names), config.input, read_options(config).memory);
   watch_workspace(arguments.workspace);
   const fs::path parent = config.run.scratch.empty() ? arguments.workspace : fs::path(config.run.scratch);
   const ScratchFolder scratch(parent);
   const std::unique_ptr<Progress> progress = arguments.run.show_progress({});
-  const bool exists = work(scan, config, *step, arguments.task, scratch.path(), *progress);
+  ScanPass pass(scan);
+  const bool exists = work(pass, config, *step, arguments.task, scratch.path(), *progress);
   if (!fs::exists(arguments.workspace / kRunPart))
     throw Error(arguments.workspace.string() +
                 ": its run was removed meanwhile; lacuna clean removes what this task has left");
@@ -121,7 +123,6 @@ struct FinishArguments {
 void run_finish(const FinishArguments& arguments) {
   const KeptRun stored = read_run(arguments.workspace);
   FilesConfig config = arguments.run.start(config_of(stored, arguments.workspace));
-  config.run.workspace = arguments.workspace.string();
   config.run.note = stored.note;
   detect_to(inputs_of(stored.names), config, arguments.run);
 }

@@ -9,7 +9,6 @@
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/measures_text.hpp"
-#include "tools/console/terminal.hpp"
 #include "tools/console/visible_text.hpp"
 #include "tools/run/folders.hpp"
 

@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <utility>
 
 namespace lacuna::matching {
 namespace {

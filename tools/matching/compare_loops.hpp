@@ -6,7 +6,6 @@
 #include "engine/model/loop.hpp"
 
 #include <cstddef>
-#include <span>
 #include <string_view>
 #include <vector>
 

@@ -9,7 +9,6 @@
 #include <mutex>
 #include <string>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include <unistd.h>

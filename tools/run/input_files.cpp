@@ -51,11 +51,8 @@ Folder list_folder(const fs::path& folder) {
   std::sort(inside.begin(), inside.end());
   std::sort(found.folders.begin(), found.folders.end());
   for (const fs::path& file : inside) {
-    const Recognised recognised = recognise(file);
-    (recognised == Recognised::kYes      ? found.binary
-     : recognised == Recognised::kAsText ? found.texts
-                                         : found.others)
-        .push_back(file);
+    const std::optional<Format> format = find_format(file);
+    (!format ? found.others : format == Format::kText ? found.texts : found.binary).push_back(file);
   }
   return found;
 }
@@ -116,7 +113,7 @@ void add_folder(const fs::path& folder, const ReadOptions& options, const InputC
 std::string damage_of(const ScanInput& input, const ReadOptions& options) {
   constexpr std::size_t kRows = 4096;
   try {
-    const auto reader = open_scan(input.file, options);
+    const auto reader = open_scan(input.name, options);
     RowBatch rows;
     while (reader->next(rows, kRows)) {
     }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "io/options/options.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_files.hpp"
 #include "tools/console/command_line.hpp"
 
 #include <filesystem>

@@ -3,8 +3,6 @@
 
 #include "engine/thin/thin.hpp"
 
-#include <vector>
-
 namespace lacuna::tools {
 
 RunSteps steps_of_run(const Config& config, bool has_area) {

@@ -6,8 +6,8 @@
 #include "engine/run/machine_memory.hpp"
 #include "io/crs/crs_text.hpp"
 #include "io/crs/stated_crs.hpp"
-#include "io/results/points.hpp"
 #include "io/scan/plan_system.hpp"
+#include "io/scan/scan_identity.hpp"
 #include "io/stations/own_frames.hpp"
 #include "io/stations/station_views.hpp"
 #include "tools/console/measures_text.hpp"
@@ -20,12 +20,10 @@
 #include <cstdio>
 #include <functional>
 #include <iomanip>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
 #include <sstream>
-#include <system_error>
 #include <utility>
 
 namespace lacuna::tools {
@@ -44,17 +42,8 @@ std::string print_in_steps(double value, double step) {
   return text.data();
 }
 
-std::string file_name(const FileScan& scan, std::size_t i) {
+std::string file_name(const ScanFiles& scan, std::size_t i) {
   return visible(scan.files()[i].name.string());
-}
-
-// Returns the first of the files for which the condition holds.
-template <class IsIt>
-std::optional<std::size_t> find_file(const FileScan& scan, const IsIt& is_it) {
-  for (std::size_t i = 0; i < scan.files().size(); ++i) {
-    if (is_it(i)) return i;
-  }
-  return std::nullopt;
 }
 
 std::string more_files(std::size_t count) {
@@ -62,25 +51,28 @@ std::string more_files(std::size_t count) {
   return ", and " + print_count(count) + (count == 1 ? " more file" : " more files");
 }
 
-// Returns the number of later files for which it holds, as ", and 3 more files".
-template <class IsIt>
-std::string and_more(const FileScan& scan, std::size_t first, const IsIt& is_it) {
-  std::size_t count = 0;
-  for (std::size_t i = first + 1; i < scan.files().size(); ++i) count += is_it(i) ? 1 : 0;
-  return more_files(count);
+// One warning names the first of the files for which the condition holds, and counts the others. `text` says
+// what it is, of the first one.
+template <class IsIt, class Text>
+void warn_of_files(const ScanFiles& scan, std::vector<std::string>& warnings, const IsIt& is_it,
+                   const Text& text) {
+  const auto first = std::ranges::find_if(scan.files(), is_it);
+  if (first == scan.files().end()) return;
+  const auto others = static_cast<std::size_t>(std::count_if(first + 1, scan.files().end(), is_it));
+  warnings.push_back(visible(first->name.string()) + more_files(others) + ": " + text(*first));
 }
 
-// One warning has the notes of all files that are alike. `notes_of_file` returns those of a file.
+// One warning has the notes of all files that are alike. `notes_of_file` returns those of file i.
 template <class NotesOfFile>
-void warn_of_notes(const FileScan& scan, const NotesOfFile& notes_of_file,
-                   std::vector<std::string>& warnings) {
+void warn_of_notes(const ScanFiles& scan, std::vector<std::string>& warnings,
+                   const NotesOfFile& notes_of_file) {
   struct Alike {
     std::size_t first, others = 0;  // files
     std::uint64_t count = 0;
   };
   std::map<std::pair<std::string, std::string>, Alike> notes;
   for (std::size_t i = 0; i < scan.files().size(); ++i) {
-    for (const ReaderNote& note : notes_of_file(scan.files()[i])) {
+    for (const ReaderNote& note : notes_of_file(i)) {
       if (note.count == 0) continue;
       const auto [at, is_new] = notes.try_emplace({note.thing, note.what}, Alike{.first = i});
       at->second.others += is_new ? 0 : 1;
@@ -94,128 +86,113 @@ void warn_of_notes(const FileScan& scan, const NotesOfFile& notes_of_file,
 }
 
 // Warns of files that lie on each other where each has its scanner at 0 0 0, and its viewpoint elsewhere.
-void warn_of_own_axes(const FileScan& scan, std::vector<std::string>& warnings) {
-  const auto place_of = [&](std::size_t i) {
-    return scan.files()[i].scanner.value_or(Eigen::Vector3d::Zero());
+void warn_of_own_axes(const ScanFiles& scan, const ScanCounts& counts, std::vector<std::string>& warnings) {
+  const std::vector<ScanFile>& files = scan.files();
+  const auto is_moved = [](const ScanFile& file) { return file.scanner.has_value(); };
+  const auto first = std::ranges::find_if(files, is_moved);
+  if (first == files.end()) return;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (is_moved(files[i]) && 2 * counts.files[i].nearer_to_zero < 3 * counts.files[i].nearer_to_scanner)
+      return;
+  }
+  const auto is_elsewhere = [&](const ScanFile& file) {
+    const bool has_place = is_moved(file) || file.has_scanner_at_zero;
+    return has_place && file.scanner.value_or(Eigen::Vector3d::Zero()) != *first->scanner;
   };
-  const auto is_moved = [&](std::size_t i) { return scan.files()[i].scanner.has_value(); };
-  const auto is_around_scanner = [&](std::size_t i) {
-    const ScanFile& file = scan.files()[i];
-    return file.scanner && 2 * file.nearer_to_zero < 3 * file.nearer_to_scanner;
-  };
-  const auto first = find_file(scan, is_moved);
-  if (!first || find_file(scan, is_around_scanner)) return;
-  const auto is_elsewhere = [&](std::size_t i) {
-    const bool has_place = is_moved(i) || scan.files()[i].has_scanner_at_zero;
-    return has_place && place_of(i) != place_of(*first);
-  };
-  if (!find_file(scan, is_elsewhere)) return;
-  std::ostringstream place;
-  place.precision(10);
-  place << place_of(*first).transpose().format(kOnePlace);
-  warnings.push_back(file_name(scan, *first) + and_more(scan, *first, is_moved) +
-                     ": points lie around 0 0 0, and not around the viewpoint " + place.str() +
-                     "; if they are in the axes of their scanner, `FILE pose=viewpoint` in a list moves each "
-                     "PCD to its place, and `pose=` with numbers any file");
+  if (std::ranges::none_of(files, is_elsewhere)) return;
+  std::ostringstream text;
+  text.precision(10);
+  text << "points lie around 0 0 0, and not around the viewpoint "
+       << first->scanner->transpose().format(kOnePlace)
+       << "; if they are in the axes of their scanner, `FILE pose=viewpoint` in a list moves each PCD to its "
+          "place, and `pose=` with numbers any file";
+  warn_of_files(scan, warnings, is_moved, [&](const ScanFile&) { return text.str(); });
 }
 
-void warn_of_other_systems(const FileScan& scan, std::vector<std::string>& warnings) {
-  const auto first = find_file(scan, [&](std::size_t i) { return !scan.files()[i].crs.empty(); });
-  if (!first) return;
-  for (std::size_t i = *first; i < scan.files().size(); ++i) {
-    if (scan.files()[i].crs.empty() || is_same_crs(scan.files()[i].crs, scan.files()[*first].crs)) continue;
+void warn_of_other_systems(const ScanFiles& scan, std::vector<std::string>& warnings) {
+  const ScanFile* first = nullptr;
+  for (const ScanFile& file : scan.files()) {
+    if (file.crs.empty()) continue;
+    if (first == nullptr) first = &file;
+    if (is_same_crs(file.crs, first->crs)) continue;
     warnings.push_back(
-        file_name(scan, i) +
-        ": its coordinate reference system differs from the first file: " + crs_name(scan.files()[i].crs) +
-        ", not " + crs_name(scan.files()[*first].crs) + "; results name none, unless --crs states it");
+        visible(file.name.string()) + ": its coordinate reference system differs from the first file: " +
+        crs_name(file.crs) + ", not " + crs_name(first->crs) + "; results name none, unless --crs states it");
   }
 }
 
-void warn_of_two_systems(const FileScan& scan, std::vector<std::string>& warnings) {
-  const auto has_two = [&](std::size_t i) { return !scan.files()[i].other_crs.empty(); };
-  const auto first = find_file(scan, has_two);
-  if (!first) return;
-  const std::string holds = crs_name(scan.files()[*first].crs);
-  warnings.push_back(file_name(scan, *first) + and_more(scan, *first, has_two) +
-                     ": its records name two coordinate reference systems, " + holds + " and " +
-                     crs_name(scan.files()[*first].other_crs) + "; " + holds +
-                     " holds, by a bit of the header (global encoding); --crs states another");
+void warn_of_two_systems(const ScanFiles& scan, std::vector<std::string>& warnings) {
+  const auto text = [](const ScanFile& first) {
+    const std::string holds = crs_name(first.crs);
+    return "its records name two coordinate reference systems, " + holds + " and " +
+           crs_name(first.other_crs) + "; " + holds +
+           " holds, by a bit of the header (global encoding); --crs states another";
+  };
+  warn_of_files(
+      scan, warnings, [](const ScanFile& file) { return !file.other_crs.empty(); }, text);
 }
 
 // A file with a pose is in the system of the others, not in its own.
-void warn_of_missing_systems(const FileScan& scan, std::vector<std::string>& warnings) {
-  if (scan.common_crs().empty()) return;
-  const auto is_without = [&](std::size_t i) { return scan.files()[i].crs.empty() && !scan.files()[i].pose; };
-  const auto first = find_file(scan, is_without);
-  if (!first) return;
-  warnings.push_back(file_name(scan, *first) + and_more(scan, *first, is_without) +
-                     ": without a coordinate reference system; the system of the other files holds, " +
-                     crs_name(scan.common_crs()));
+void warn_of_missing_systems(const ScanFiles& scan, std::vector<std::string>& warnings) {
+  const std::string& crs = scan.common_crs();
+  if (crs.empty()) return;
+  const auto text = [&](const ScanFile&) {
+    return "without a coordinate reference system; the system of the other files holds, " + crs_name(crs);
+  };
+  warn_of_files(
+      scan, warnings, [](const ScanFile& file) { return file.crs.empty() && !file.pose; }, text);
 }
 
-void warn_of_other_units(const FileScan& scan, std::vector<std::string>& warnings) {
-  const auto first = find_file(scan, [&](std::size_t i) { return !scan.files()[i].unit.empty(); });
-  if (!first || !scan.length_unit().empty()) return;
-  const auto is_other = [&](std::size_t i) {
-    return !scan.files()[i].unit.empty() && scan.files()[i].unit != scan.files()[*first].unit;
+void warn_of_other_units(const ScanFiles& scan, std::vector<std::string>& warnings) {
+  const auto has_unit = [](const ScanFile& file) { return !file.unit.empty(); };
+  const auto first = std::ranges::find_if(scan.files(), has_unit);
+  if (first == scan.files().end() || !scan.length_unit().empty()) return;
+  const auto text = [&](const ScanFile& other) {
+    return "its unit is " + other.unit + ", not " + first->unit + " as in " + visible(first->name.string()) +
+           "; results name none, unless --unit states it";
   };
-  if (const auto other = find_file(scan, is_other))
-    warnings.push_back(file_name(scan, *other) + and_more(scan, *other, is_other) + ": its unit is " +
-                       scan.files()[*other].unit + ", not " + scan.files()[*first].unit + " as in " +
-                       file_name(scan, *first) + "; results name none, unless --unit states it");
+  warn_of_files(
+      scan, warnings, [&](const ScanFile& file) { return has_unit(file) && file.unit != first->unit; }, text);
 }
 
 // Warns of files that contradict what the user states of all: `is_other` of a file.
 template <class IsOther>
-void warn_of_overridden(const FileScan& scan, std::string ScanFile::*text, const IsOther& is_other,
+void warn_of_overridden(const ScanFiles& scan, std::string ScanFile::*text, const IsOther& is_other,
                         const std::string& what, const std::string& stated,
                         std::vector<std::string>& warnings) {
-  const auto contradicts = [&](std::size_t i) {
-    const std::string& of_file = scan.files()[i].*text;
-    return !of_file.empty() && is_other(of_file, stated);
+  warn_of_files(
+      scan, warnings,
+      [&](const ScanFile& file) { return !(file.*text).empty() && is_other(file.*text, stated); },
+      [&](const ScanFile& first) {
+        return "its " + what + " is " + crs_name(first.*text) + "; the stated one holds, " + crs_name(stated);
+      });
+}
+
+void warn_of_contradictions(const ScanFiles& scan, std::vector<std::string>& warnings) {
+  warn_of_files(
+      scan, warnings, [](const ScanFile& file) { return !file.contradiction.empty(); },
+      [](const ScanFile& first) { return crs_name(first.crs) + ": " + first.contradiction; });
+}
+
+void warn_of_z_units(const ScanFiles& scan, std::vector<std::string>& warnings) {
+  const auto text = [](const ScanFile& first) {
+    return "z is in " + first.z_unit + ", and is brought into the unit of x and y; --unit-z states another " +
+           "unit; the annotated scan keeps its own z";
   };
-  if (const auto first = find_file(scan, contradicts))
-    warnings.push_back(file_name(scan, *first) + and_more(scan, *first, contradicts) + ": its " + what +
-                       " is " + crs_name(scan.files()[*first].*text) + "; the stated one holds, " +
-                       crs_name(stated));
+  warn_of_files(
+      scan, warnings, [](const ScanFile& file) { return file.z_factor != 1; }, text);
 }
 
-void warn_of_contradictions(const FileScan& scan, std::vector<std::string>& warnings) {
-  const auto contradicts = [&](std::size_t i) { return !scan.files()[i].contradiction.empty(); };
-  if (const auto first = find_file(scan, contradicts))
-    warnings.push_back(file_name(scan, *first) + and_more(scan, *first, contradicts) + ": " +
-                       crs_name(scan.files()[*first].crs) + ": " + scan.files()[*first].contradiction);
+void warn_of_degrees(const ScanFiles& scan, std::vector<std::string>& warnings) {
+  constexpr const char* kText =
+      "x and y look like longitude and latitude in degrees, and holes need lengths; project them first, as "
+      "with `gdaltransform`; if they are lengths, --unit m or another unit says so";
+  warn_of_files(scan, warnings, std::mem_fn(&ScanFile::may_be_degrees),
+                [](const ScanFile&) { return kText; });
 }
-
-void warn_of_z_units(const FileScan& scan, std::vector<std::string>& warnings) {
-  const auto is_scaled = [&](std::size_t i) { return scan.files()[i].z_factor != 1; };
-  if (const auto first = find_file(scan, is_scaled))
-    warnings.push_back(file_name(scan, *first) + and_more(scan, *first, is_scaled) + ": z is in " +
-                       scan.files()[*first].z_unit +
-                       ", and is brought into the unit of x and y; --unit-z states " +
-                       "another unit; the annotated scan keeps its own z");
-}
-
-void warn_of_degrees(const FileScan& scan, std::vector<std::string>& warnings) {
-  const auto is_like = [&](std::size_t i) { return scan.files()[i].may_be_degrees; };
-  if (const auto first = find_file(scan, is_like))
-    warnings.push_back(
-        file_name(scan, *first) + and_more(scan, *first, is_like) +
-        ": x and y look like longitude and latitude in degrees, and holes need lengths; project "
-        "them first, as with `gdaltransform`; if they are lengths, --unit m or another unit "
-        "says so");
-}
-
-}  // namespace
-
-std::string crs_name(const std::string& crs) {
-  return visible(name_of_crs(crs));
-}
-
-namespace {
 
 // Throws `Error` if lengths in the system are not those on the ground, where a file lies.
-void refuse_other_scale(const FileScan& scan, std::size_t file, const std::string& name,
+void refuse_other_scale(const ScanFiles& scan, std::size_t file, const std::string& name,
                         const std::string& crs) {
   constexpr double kMost = 0.01;
   const auto place = find_place(scan, file);
@@ -237,7 +214,7 @@ void refuse_other_scale(const FileScan& scan, std::size_t file, const std::strin
   throw Error(text.str());
 }
 
-[[noreturn]] void refuse_longitudes(const FileScan& scan, std::size_t file) {
+[[noreturn]] void refuse_longitudes(const ScanFiles& scan, std::size_t file) {
   const std::string name = scan.files()[file].crs.empty() ? "its system" : crs_name(scan.files()[file].crs);
   std::ostringstream text;
   text.precision(10);
@@ -257,7 +234,11 @@ void refuse_other_scale(const FileScan& scan, std::size_t file, const std::strin
 
 }  // namespace
 
-void require_lengths(const FileScan& scan) {
+std::string crs_name(const std::string& crs) {
+  return visible(name_of_crs(crs));
+}
+
+void require_lengths(const ScanFiles& scan) {
   const std::string& stated = scan.stated_crs().crs;
   if (is_geographic(stated))
     throw Error("--crs: " + crs_name(stated) + kDegrees + "; allowed: a projected or geocentric system");
@@ -279,12 +260,11 @@ void require_lengths(const FileScan& scan) {
   }
 }
 
-std::vector<std::string> input_warnings(const FileScan& scan) {
+std::vector<std::string> input_warnings(const ScanFiles& scan) {
   std::vector<std::string> warnings;
   for (const std::size_t i : repeated_files(scan))
     warnings.push_back(file_name(scan, i) + ": given more than once; its points are the same");
-  warn_of_notes(
-      scan, [](const ScanFile& file) { return file.notes; }, warnings);
+  warn_of_notes(scan, warnings, [&](std::size_t i) { return scan.files()[i].notes; });
   if (scan.stated_crs().crs.empty()) {
     warn_of_two_systems(scan, warnings);
     warn_of_other_systems(scan, warnings);
@@ -351,28 +331,26 @@ std::string normals_warning(const Counts& counts, NormalsUse use) {
   return text.str();
 }
 
-std::vector<std::string> filter_warnings(const FileScan& scan, const InputConfig& config,
+std::vector<std::string> filter_warnings(const ScanFiles& scan, const ScanCounts& counts,
                                          const Eigen::AlignedBox3d& bounds) {
   constexpr double kMostNoise = 0.03;
   std::vector<std::string> warnings;
-  warn_of_notes(
-      scan, [](const ScanFile& file) { return notes_of(file.findings); }, warnings);
-  warn_of_own_axes(scan, warnings);
+  warn_of_notes(scan, warnings, [&](std::size_t i) { return notes_of(counts.files[i].findings); });
+  warn_of_own_axes(scan, counts, warnings);
   std::uint64_t points = 0;
-  for (std::size_t i = 0; i < scan.files().size(); ++i) points += scan.files()[i].rows();
-  const FilteredOut& left_out = scan.filtered_out();
+  for (const std::uint64_t rows : rows_of(scan, counts)) points += rows;
+  const FilteredOut& left_out = counts.filtered_out;
   const double share =
       static_cast<double>(left_out.noise) / static_cast<double>(std::max<std::uint64_t>(points, 1));
   if (share > kMostNoise)
     warnings.push_back(print_count(left_out.noise) + " points, " + std::to_string(std::lround(100 * share)) +
                        " %, are left out as noise, of the classes 7 and 18; --keep-noise keeps them");
-  if (!config.drop_origin || left_out.origin > 0 || bounds.isEmpty()) return warnings;
-  const auto is_at_zero = [&](std::size_t i) { return scan.files()[i].has_scanner_at_zero; };
-  const auto first = find_file(scan, is_at_zero);
-  if (first && bounds.exteriorDistance(Eigen::Vector3d::Zero().eval()) > bounds.diagonal().norm())
-    warnings.push_back(file_name(scan, *first) + and_more(scan, *first, is_at_zero) +
-                       ": the place of the scanner is 0 0 0, far from the points, and --drop-origin dropped "
-                       "none; rays without return may be at the true place, where --leave-out drops a box");
+  if (!scan.config().drop_origin || left_out.origin > 0 || bounds.isEmpty()) return warnings;
+  if (bounds.exteriorDistance(Eigen::Vector3d::Zero().eval()) <= bounds.diagonal().norm()) return warnings;
+  warn_of_files(scan, warnings, std::mem_fn(&ScanFile::has_scanner_at_zero), [](const ScanFile&) {
+    return "the place of the scanner is 0 0 0, far from the points, and --drop-origin dropped none; rays "
+           "without return may be at the true place, where --leave-out drops a box";
+  });
   return warnings;
 }
 
@@ -388,12 +366,13 @@ bool are_lines(std::span<const LevelSummary> levels) {
          kMostDimension * std::log(last.edge / first->edge);
 }
 
-void warn_of_own_frames(const FileScan& scan, const Detection& detection,
+void warn_of_own_frames(const ScanFiles& scan, const ExplainedDetection& detection,
                         std::vector<std::string>& warnings) {
   const auto has_pose = [](const ScanFile& file) { return file.pose.has_value(); };
   if (scan.has_scanners() || std::ranges::any_of(scan.files(), has_pose)) return;
   std::vector<std::uint64_t> ends;
-  for (const ScanFile& file : scan.files()) ends.push_back((ends.empty() ? 0 : ends.back()) + file.rows());
+  for (const std::uint64_t rows : rows_of(scan, detection.counts))
+    ends.push_back((ends.empty() ? 0 : ends.back()) + rows);
   if (const auto own = own_frames(detection, ends))
     warnings.push_back(
         file_name(scan, own->first) + " and " + file_name(scan, own->second) +
@@ -437,10 +416,10 @@ std::string nothing_warning(const Detection& detection, const SelectionConfig& s
          "closed";
 }
 
-std::vector<std::string> scan_warnings(const FileScan& scan, const Detection& detection,
+std::vector<std::string> scan_warnings(const ScanFiles& scan, const ExplainedDetection& detection,
                                        const FilesConfig& config) {
   const Summary& summary = detection.summary;
-  std::vector<std::string> warnings = filter_warnings(scan, config.input, summary.strays.rest);
+  std::vector<std::string> warnings = filter_warnings(scan, detection.counts, summary.strays.rest);
   if (std::string nothing = nothing_warning(detection, with_min_hole(config).selection); !nothing.empty())
     warnings.push_back(std::move(nothing));
   if (std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_pass.hpp"
 #include "io/stations/cause.hpp"
 
 #include <optional>
@@ -18,14 +18,13 @@ std::string crs_name(const std::string& crs);
 // Throws `Error` if positions are longitude and latitude, because nothing of a run fits degrees. Throws, too,
 // if lengths differ by more than 1 in 100 from true ones, at the first point of a file. This check is of
 // projected systems, and needs lacuna_gis.so.
-void require_lengths(const io::FileScan& scan);
+void require_lengths(const io::ScanFiles& scan);
 
 // Returns, before a run, one line for each file that is given more than once, also by another name. Another
 // line comes for each file whose coordinate reference system differs from the first. One line names all files
 // without a system if others have one. One line names files with another unit, and one names files that
-// contradict --crs or --unit. One line names files whose z is in another unit. Then come the notes of
-// readers.
-std::vector<std::string> input_warnings(const io::FileScan& scan);
+// contradict --crs or --unit. One names files whose z is in another unit. Then come the notes of readers.
+std::vector<std::string> input_warnings(const io::ScanFiles& scan);
 
 // Warns before a run of a memory limit above the machine's memory.
 std::vector<std::string> memory_warnings(const Config& config);
@@ -43,11 +42,10 @@ std::string stray_warning(const Strays& strays, double resolution);
 std::string normals_warning(const Counts& counts, NormalsUse use);
 
 // Returns, after the scan was read, what readers found in its rows. One line names files that lie around 0 0
-// 0 while they have viewpoints elsewhere. Another line comes where many points are left out as noise. Another
-// line comes where
-// --drop-origin dropped nothing, since the scanner's place in a file is 0 0 0. Then 0 0 0 lies farther from
-// the bounds of the points than these are wide.
-std::vector<std::string> filter_warnings(const io::FileScan& scan, const io::InputConfig& config,
+// 0 while they have viewpoints elsewhere. Others come where many points are left out as noise, and where
+// --drop-origin dropped nothing. Then the scanner's place in a file is 0 0 0, which lies farther from the
+// bounds of the points than these are wide.
+std::vector<std::string> filter_warnings(const io::ScanFiles& scan, const io::ScanCounts& counts,
                                          const Eigen::AlignedBox3d& bounds);
 
 // Names stations and trajectories that do not count, because they cannot have measured all of their points,
@@ -68,7 +66,7 @@ std::string nothing_warning(const Detection& detection, const SelectionConfig& s
 // Returns the warnings of filter_warnings and nothing_warning after a run. Others are of strays, given
 // normals that do not fit, and too few points for their neighbourhoods. The last ones are of coordinates in
 // steps too wide for their spacing, and of files that do not fit, as without their poses.
-std::vector<std::string> scan_warnings(const io::FileScan& scan, const Detection& detection,
+std::vector<std::string> scan_warnings(const io::ScanFiles& scan, const io::ExplainedDetection& detection,
                                        const io::FilesConfig& config);
 
 }  // namespace lacuna::tools

@@ -8,7 +8,6 @@
 
 #include <atomic>
 #include <csignal>
-#include <ctime>
 #include <mutex>
 #include <optional>
 #include <string>

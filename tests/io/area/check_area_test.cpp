@@ -23,7 +23,7 @@ TEST_CASE("outlines that are far too long are refused after the first pass", "[i
   for (int i = 0; i < 10'000; ++i)
     text += std::to_string(place(random)) + " " + std::to_string(place(random)) + " 0\n";
   const ScratchFolder folder;
-  FileScan scan({folder.write("a.xyz", text)}, {.columns = "x y z"});
+  const ScanFiles scan({folder.write("a.xyz", text)}, {.columns = "x y z"});
   constexpr auto kCells = static_cast<std::size_t>(kEdge / kVoid * PlanGrid::kCells);
   const Area area{.polygons = {{{{0, 0}, {kEdge, 0}, {kEdge, kEdge}, {0, kEdge}}}},
                   .grid = {.size = kVoid, .columns = kCells, .rows = kCells}};

@@ -61,7 +61,8 @@ struct FakeDetection {
                            std::span(results).subspan(first, std::min(block, results.size() - first)));
                  },
              .sampled_points = sample.size(),
-             .for_each_sampled_point = all_of(sample)}};
+             .for_each_sampled_point = all_of(sample)},
+            {.files = std::vector<io::FileCounts>(100)}};
   }
 
   std::vector<std::vector<InnerRing>> rings() const {

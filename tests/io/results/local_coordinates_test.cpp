@@ -85,7 +85,7 @@ TEST_CASE("with local coordinates, floats and the offset of a header are the coo
   const Point offset(500'050, 5'400'040, 300);
   Points local = points;
   for (Point& point : local) point -= offset;
-  FileScan scan({folder.write("a.txt", Cloud{points, {}}.text())}, {});
+  const ScanFiles scan({folder.write("a.txt", Cloud{points, {}}.text())}, {});
   write_results(detection, scan, local_config(PointsFormat::kPly), folder / "ply");
 
   // Their rows are those of floats: 12 bytes for x y z.

@@ -56,7 +56,7 @@ inline LasFile file_of(int format, int minor, std::size_t extra_bytes = 0, unsig
   return las;
 }
 
-inline std::string detect_to(const ScratchFolder& folder, io::FileScan& scan, std::size_t rows,
+inline std::string detect_to(const ScratchFolder& folder, const io::ScanFiles& scan, std::size_t rows,
                              const io::FilesConfig& config) {
   io::write_results(FakeDetection().with_results(rows), scan, config, folder / "out");
   return read_file(folder / "out" / "points" / "a.las");

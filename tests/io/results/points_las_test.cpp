@@ -39,7 +39,7 @@ TEST_CASE("the annotated LAS file has every byte of the points, records and head
       for (std::size_t i = 0; i < 5 && minor < 4; ++i) put<std::uint32_t>(bytes, 111 + 4 * i, 1 + i);
       for (std::size_t i = 0; i < 6; ++i) put<double>(bytes, 179 + 8 * i, 7.5 * static_cast<double>(i));
 
-      FileScan scan({folder.write("a.las", bytes)}, {});
+      const ScanFiles scan({folder.write("a.las", bytes)}, {});
       const std::string out = detect_to(folder, scan, 5, las_config());
       CHECK(out.substr(0, 4) == "LASF");
       CHECK(out.substr(4, 20) == bytes.substr(4, 20));
@@ -99,7 +99,7 @@ TEST_CASE("the annotated LAS file has every byte of the points, records and head
 
       // The next run replaces the results, not more.
       const ScratchFolder again;
-      FileScan second({folder / "out" / "points" / "a.las"}, {});
+      const ScanFiles second({folder / "out" / "points" / "a.las"}, {});
       const std::string twice = detect_to(again, second, 5, las_config());
       CHECK(twice.size() == out.size());
       CHECK((twice == out));
@@ -121,7 +121,7 @@ TEST_CASE("the annotated LAS file has the points that --trust chooses, and its h
       put<std::uint64_t>(bytes, 247, counted);
       FilesConfig config = las_config();
       config.input.trust = trust;
-      FileScan scan({folder.write("a.las", bytes)}, config.input);
+      const ScanFiles scan({folder.write("a.las", bytes)}, config.input);
       const std::string out = detect_to(folder, scan, rows, config);
       CHECK(at<std::uint64_t>(out, 247) == rows);
       CHECK(at<std::uint64_t>(out, 255 + 8) == (rows == counted ? 0 : rows));
@@ -138,7 +138,7 @@ TEST_CASE("waveforms of LAS 1.3 behind the points become an extended record", "[
   put<std::uint16_t>(bytes, 6, 2);
   put<std::uint64_t>(bytes, 227, bytes.size());
   const std::string waves = extended_record("LASF_Spec", 65535, "up and down");
-  FileScan scan({folder.write("a.las", bytes + waves)}, {});
+  const ScanFiles scan({folder.write("a.las", bytes + waves)}, {});
   const std::string out = detect_to(folder, scan, 5, las_config());
   CHECK(out.ends_with(waves));
   CHECK(at<std::uint64_t>(out, 227) == out.size() - waves.size());
@@ -150,7 +150,7 @@ TEST_CASE("extra bytes of another program with the name of a result stay", "[io]
   const ScratchFolder folder;
   LasFile las = file_of(6, 4, 1);
   las.records = {las_record("LASF_Spec", 4, las_extra_descriptor("probability", 1))};
-  FileScan scan({folder.write("a.las", las.bytes())}, {});
+  const ScanFiles scan({folder.write("a.las", las.bytes())}, {});
   detect_to(folder, scan, 5, las_config());
   const Table table = read_table(folder / "out" / "points" / "a.las");
   CHECK(table.column("probability") == read_table(folder / "a.las").column("probability"));
@@ -174,7 +174,7 @@ TEST_CASE("damaged LAS files are errors for the annotated scan, or read as they 
     damaged[place] = static_cast<char>(random());
     const auto file = folder.write("a.las", damaged);
     error_of([&] {
-      FileScan scan({file}, {});
+      const ScanFiles scan({file}, {});
       const std::uint64_t rows = scan.expected_points().value_or(0);
       if (rows > 100) return;
       detect_to(folder, scan, rows, las_config());

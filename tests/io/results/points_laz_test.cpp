@@ -24,7 +24,7 @@ std::string records_of(const fs::path& file) {
 
 // The annotated file of one file, with five points.
 fs::path write_points(const ScratchFolder& folder, const fs::path& file) {
-  FileScan scan({file}, {});
+  const ScanFiles scan({file}, {});
   write_results(FakeDetection().with_results(5), scan, las_config(), folder / "out");
   const auto points = folder / "out" / "points";
   return fs::directory_iterator(points)->path();
@@ -166,7 +166,7 @@ TEST_CASE("chunks of long points have fewer of them, and are read as they were w
 TEST_CASE("annotated LAZ refuses points too long for the memory limit before the work", "[io][results]") {
   const ScratchFolder folder;
   const auto refusal = [&](const LasFile& las, std::uint64_t memory) {
-    const FileScan scan({folder.write("b.laz", laz_bytes(las))}, {}, memory);
+    const ScanFiles scan({folder.write("b.laz", laz_bytes(las))}, {}, memory);
     return error_of([&] { check_points(scan, las_config()); });
   };
   constexpr std::uint64_t kMuch = std::uint64_t{1} << 30, kLittle = std::uint64_t{6} << 20;

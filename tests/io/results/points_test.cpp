@@ -18,7 +18,7 @@ FilesConfig with_points(PointsFormat format = PointsFormat::kInput) {
 
 std::string written(const ScratchFolder& folder, const std::vector<ScanInput>& inputs, std::size_t rows,
                     const std::string& name, const FilesConfig& config = with_points()) {
-  FileScan scan(inputs, {});
+  const ScanFiles scan(inputs, {});
   write_results(FakeDetection().with_results(rows), scan, config, folder / "out");
   return read_file(folder / "out" / name);
 }
@@ -48,7 +48,7 @@ TEST_CASE(
       {"e.LAS", las_bytes()}, {"f", kPly},     {"g.obj", "v 1 2 3\n"}};
   std::vector<ScanInput> names;
   for (const auto& [name, content] : inputs) names.emplace_back(folder.write("in/" + name, content));
-  FileScan scan(names, {});
+  const ScanFiles scan(names, {});
   const auto written = write_results(FakeDetection().with_results(7), scan, with_points(), folder / "out");
   CHECK(std::count(written.begin(), written.end(), folder / "out" / "points") == 1);
   CHECK(names_of(folder / "out" / "points") == Names{"a.csv", "b.ply", "c.d.ply", "e.las", "f.ply", "g.ply"});
@@ -70,7 +70,7 @@ TEST_CASE("files of one name from two folders are an error before the work, but 
           "[io][results]") {
   const ScratchFolder folder;
   for (const char* name : {"a", "b"}) fs::create_directory(folder / name);
-  const FileScan scan({folder.write("a/x.xyz", kText), folder.write("b/x.txt", kText)}, {});
+  const ScanFiles scan({folder.write("a/x.xyz", kText), folder.write("b/x.txt", kText)}, {});
   const auto check = [&](const FilesConfig& config) { return error_of([&] { check_points(scan, config); }); };
   CHECK_THAT(check(with_points()), Contains("b/x.txt: ") && Contains("would both be points/x.csv"));
   CHECK(check(with_points(PointsFormat::kPly)).empty());
@@ -82,7 +82,7 @@ TEST_CASE("a LAS file with a pose becomes PLY, at its place in the scan", "[io][
   Pose pose = Pose::Identity();
   pose.translate(Eigen::Vector3d(1, 2, 3));
   const std::string las = folder.write("a.las", las_bytes());
-  FileScan scan({ScanInput(las, pose)}, {});
+  const ScanFiles scan({ScanInput(las, pose)}, {});
   write_results(FakeDetection().with_results(1), scan, with_points(), folder / "out");
   const std::vector<double> before = read_table(las).rows.at(0),
                             after = read_table(folder / "out" / "points" / "a.ply").rows.at(0);
@@ -92,9 +92,9 @@ TEST_CASE("a LAS file with a pose becomes PLY, at its place in the scan", "[io][
 
 TEST_CASE("the annotated scan of an earlier run goes, whatever its files were", "[io][results]") {
   const ScratchFolder folder;
-  FileScan many(
+  const ScanFiles many(
       {folder.write("a.ply", kPly), folder.write("b.xyz", kText), folder.write("c.las", las_bytes())}, {});
-  FileScan one({folder.write("d.ply", kPly)}, {});
+  const ScanFiles one({folder.write("d.ply", kPly)}, {});
   const auto of_many = FakeDetection().with_results(4), of_one = FakeDetection().with_results(1);
   const auto out = folder / "out", points = out / "points";
   for (const PointsFormat format : {PointsFormat::kInput, PointsFormat::kPly, PointsFormat::kCsv}) {
@@ -189,7 +189,7 @@ TEST_CASE("blocks of results do not change the bytes of any format", "[io][resul
   for (const PointsFormat format : {PointsFormat::kInput, PointsFormat::kPly, PointsFormat::kCsv}) {
     std::string one;
     for (const std::size_t block : {1u, 3u, 99u, 1000u}) {
-      FileScan scan(inputs, {});
+      const ScanFiles scan(inputs, {});
       FakeDetection detection;
       detection.with_results(100).block = block;
       for (const int threads : {1, 4}) {

@@ -27,7 +27,7 @@ FilesConfig with_points_ply(bool has_normals = false) {
 
 TEST_CASE("a run without holes leaves an empty loops.ply and a report without loops", "[io]") {
   const ScratchFolder folder;
-  FileScan scan({folder.write("a.ply", ascii_ply("1 2 3\n"))}, {});
+  const ScanFiles scan({folder.write("a.ply", ascii_ply("1 2 3\n"))}, {});
   const auto out = folder / "new" / "out";
   write_results(FakeDetection().with_results(1), scan, FilesConfig{}, out);
   CHECK(read_table(out / "loops.ply").rows.empty());
@@ -45,7 +45,7 @@ TEST_CASE("a run without holes leaves an empty loops.ply and a report without lo
 
 TEST_CASE("openings are apart from missing surface, where the cause of a hole is known", "[io]") {
   const ScratchFolder folder;
-  FileScan scan({folder.write("a.xyz", "1 2 3\n")}, {});
+  const ScanFiles scan({folder.write("a.xyz", "1 2 3\n")}, {});
   FakeDetection found;
   for (int i = 0; i < 3; ++i) found.with_loop({1, 5, 3}, LoopKind::kHole);
   for (std::size_t i = 0; i < 3; ++i) found.measures[i].own_area = std::pow(10, i);
@@ -68,7 +68,7 @@ TEST_CASE("openings are apart from missing surface, where the cause of a hole is
 
 TEST_CASE("the report has every parameter, every count and one line per loop", "[io]") {
   const ScratchFolder folder;
-  FileScan scan({folder.write("a.xyz", "1 2 3\n")}, {});
+  const ScanFiles scan({folder.write("a.xyz", "1 2 3\n")}, {});
   FakeDetection detection;
   detection.with_loop({1, 5, 3}, LoopKind::kHole).with_loop({2, 4, 8, 6}, LoopKind::kOuter);
   detection.numbers.counts.points = 10;
@@ -124,7 +124,7 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
 
 TEST_CASE("loops.ply has the points of every loop and closes each with edges", "[io]") {
   const ScratchFolder folder;
-  FileScan scan({folder.write("a.ply", ascii_ply("1 2 3\n"))}, {});
+  const ScanFiles scan({folder.write("a.ply", ascii_ply("1 2 3\n"))}, {});
   FakeDetection detection;
   detection.with_loop({1, 5, 3}, LoopKind::kHole).with_loop({2, 4, 8, 6}, LoopKind::kOuter);
   write_results(detection, scan, FilesConfig{}, folder / "out");
@@ -141,7 +141,7 @@ TEST_CASE("loops.ply has the points of every loop and closes each with edges", "
 
 TEST_CASE("ids beyond 32 bits are written as double, and coordinates in the scan's precision", "[io]") {
   const ScratchFolder folder;
-  FileScan scan({folder.write("a.ply", ascii_ply("1 2 3\n", kWideXyz))}, {});
+  const ScanFiles scan({folder.write("a.ply", ascii_ply("1 2 3\n", kWideXyz))}, {});
   FakeDetection detection;
   detection.with_loop({1, 2, 5'000'000'001}, LoopKind::kHole);
   detection.numbers.counts.points = 5'000'000'002;
@@ -159,7 +159,7 @@ TEST_CASE("points.ply keeps every property of the input and adds the results", "
   const auto file =
       folder.write("a.ply", ascii_ply("9 0.1 nan 3 77\n8 4 5 6 77\n7 7 8 9 77\n",
                                       "property uchar red\n" + kXyz + "property int scalar_loop\n"));
-  FileScan scan({file}, {});
+  const ScanFiles scan({file}, {});
   write_results(FakeDetection().with_results(3), scan, with_points_ply(true), folder / "out");
   const Table table = read_table(folder / "out/points.ply");
   CHECK(table.names == Names{"red", "x", "y", "z", "scalar_probability", "scalar_angle", "scalar_halfdisc",
@@ -184,7 +184,7 @@ TEST_CASE("points.ply joins files by property name, whatever the blocks of resul
       folder.write("c.ply", ascii_ply("-5 0.1 2 3 300\n-6 0 0 0 301\n",
                                       "property short tag\n" + kWideXyz + "property ushort red\n"));
   for (const std::size_t block : {1u, 2u, 4u, 100u}) {
-    FileScan scan({a, b, c}, {});
+    const ScanFiles scan({a, b, c}, {});
     FakeDetection detection;
     detection.with_results(5).block = block;
     write_results(detection, scan, with_points_ply(), folder / "out");
@@ -207,7 +207,7 @@ TEST_CASE("normals of the input stay, and are not written a second time", "[io]"
   const auto file = folder.write(
       "a.ply",
       ascii_ply("1 2 3 1 0 0\n", kXyz + "property float nx\nproperty float ny\nproperty float nz\n"));
-  FileScan scan({file}, {});
+  const ScanFiles scan({file}, {});
   write_results(FakeDetection().with_results(1), scan, with_points_ply(true), folder / "out");
   const Table table = read_table(folder / "out/points.ply");
   CHECK(table.names.size() == 6 + 8);
@@ -221,12 +221,12 @@ TEST_CASE("an earlier result that is an input is never replaced", "[io]") {
   const auto detection = FakeDetection().with_results(1);
   for (const auto& [config, result] :
        {std::pair{with_points_ply(), "out/points.ply"}, {of_each_file, "out/points/a.ply"}}) {
-    FileScan first({folder.write("a.ply", ascii_ply("1 2 3\n"))}, {});
+    const ScanFiles first({folder.write("a.ply", ascii_ply("1 2 3\n"))}, {});
     write_results(detection, first, config, folder / "out");
     const std::string content = read_file(folder / result);
     fs::create_hard_link(folder / result, folder / "linked.ply");
     for (const char* name : {result, "linked.ply"}) {
-      FileScan scan({folder / name}, {});
+      const ScanFiles scan({folder / name}, {});
       for (const FilesConfig& next : {with_points_ply(), of_each_file, FilesConfig{}})
         CHECK_THAT(error_of([&] { write_results(detection, scan, next, folder / "out"); }),
                    Contains(std::string(name) + ": is an input in the place of a result"));
@@ -239,7 +239,7 @@ TEST_CASE("an earlier result that is an input is never replaced", "[io]") {
 
 TEST_CASE("an input that changed during the run is an error that leaves no result", "[io]") {
   const ScratchFolder folder;
-  FileScan scan({folder.write("a.ply", ascii_ply("1 2 3\n4 5 6\n"))}, {});
+  const ScanFiles scan({folder.write("a.ply", ascii_ply("1 2 3\n4 5 6\n"))}, {});
   for (const std::size_t results : {1u, 3u}) {
     CHECK_THAT(error_of([&] {
                  write_results(FakeDetection().with_results(results), scan, with_points_ply(),

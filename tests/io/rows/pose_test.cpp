@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/rows/pose.hpp"
 
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_pass.hpp"
 #include "tests/io/io_support.hpp"
 
 namespace lacuna::test {
@@ -51,15 +51,16 @@ TEST_CASE("a pose moves positions, turns normals without scaling them, and keeps
       ascii_ply("200 1 2 3 1 0 0\n",
                 "property uchar red\n" + kXyz + "property float nx\nproperty float ny\nproperty float nz\n"));
   const Pose pose = parse_pose("0 -2 0 10  2 0 0 20  0 0 2 30");
-  FileScan scan({{ply, pose}, {ply}}, {});
+  const ScanFiles scan({{ply, pose}, {ply}}, {});
   CHECK(scan.files()[0].layout.find("x")->type == Scalar::kFloat64);
   CHECK(scan.files()[0].layout.find("red")->type == Scalar::kUint8);
   CHECK_FALSE(has_single_precision(scan));
+  ScanPass pass(scan);
   PointBatch batch;
-  REQUIRE(scan.next(batch));
+  REQUIRE(pass.next(batch));
   CHECK(batch.positions[0] == Eigen::Vector3d(6, 22, 36));
   CHECK((batch.normals[0] - Eigen::Vector3d(0, 1, 0)).norm() < 1e-15);
-  REQUIRE(scan.next(batch));
+  REQUIRE(pass.next(batch));
   CHECK(batch.positions[0] == Eigen::Vector3d(1, 2, 3));
 
   const auto reader = scan.open(0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/scan/like_degrees.hpp"
 
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_pass.hpp"
 #include "tests/support/drawn_files.hpp"
 #include "tests/support/golden.hpp"
 
@@ -66,7 +66,7 @@ TEST_CASE("degrees are known in files without a system and a unit") {
   for (const std::string& file :
        {folder.write("a.xyz", rows), folder.write("a.ply", ascii_ply(rows, kXyz))}) {
     INFO(file);
-    const FileScan scan({file}, {});
+    const ScanFiles scan({file}, {});
     CHECK(scan.files()[0].may_be_degrees);
     CHECK_FALSE(scan.files()[0].is_geographic);  // no more than a guess
   }
@@ -117,7 +117,7 @@ TEST_CASE("no real scan in lengths looks like degrees") {
   }
   for (const fs::path& file : files) {
     INFO(file);
-    const FileScan scan({file}, {});
+    const ScanFiles scan({file}, {});
     CHECK_FALSE((scan.files()[0].may_be_degrees || scan.files()[0].is_geographic));
   }
 }

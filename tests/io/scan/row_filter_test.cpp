@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_pass.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/support/las_file.hpp"
 
@@ -21,17 +21,19 @@ struct Filtered {
 };
 
 Filtered read_filtered(const std::vector<ScanInput>& inputs, const InputConfig& config) {
-  FileScan scan(inputs, config);
+  const ScanFiles scan(inputs, config);
+  ScanPass pass(scan);
   Filtered filtered;
-  for (int pass = 0; pass < 2; ++pass) {  // counts are of one pass
+  for (int time = 0; time < 2; ++time) {  // counts are of one pass
     filtered.kept.clear();
-    scan.rewind();
-    for (PointBatch batch; scan.next(batch);) {
+    pass.rewind();
+    for (PointBatch batch; pass.next(batch);) {
       for (std::size_t i = 0; i < batch.size(); ++i)
         if (batch.positions[i].allFinite()) filtered.kept.push_back(static_cast<int>(value(batch.id(i))));
     }
   }
-  filtered.out = scan.filtered_out();
+  if (filtered.kept.empty()) pass.refuse_empty();
+  filtered.out = pass.counts().filtered_out;
   return filtered;
 }
 

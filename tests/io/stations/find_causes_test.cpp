@@ -22,11 +22,13 @@ struct Found {
     FilesConfig config;
     config.input = std::move(input);
     config.output.stations = (folder / (drives ? "scan.trajectory.txt" : "scan.stations.txt")).string();
-    FileScan scan({options.out}, config.input);
+    const ScanFiles scan({options.out}, config.input);
     views = watch_stations(scan, config.output, folder.path());
     NoProgress silence;
-    detection.emplace(ExplainedDetection{*detect(scan, config, folder.path(), silence)});
-    find_causes(*views, scan, config.run, *detection);
+    ScanPass pass(scan, views.get());
+    const auto detected = detect(pass, config, folder.path(), silence);
+    detection.emplace(*detected, pass.counts());
+    find_causes(*views, config.run, *detection);
   }
 
   // Shares of the area of holes for which both have the same cause. Places off all surfaces do not count.
@@ -94,10 +96,10 @@ TEST_CASE("the points of several stations taken for those of one have little cer
   const Found found(synth::SceneKind::kStreet, 3, 200'000);
   for (const StationSummary& station : found.detection->stations) CHECK(station.certainty > 0.99);
   const ScratchFolder folder;
-  FileScan scan({found.options.out}, {});
+  const ScanFiles scan({found.options.out}, {});
   StationViews views(scan, folder.write("one.txt", "one 20 8 1.5\n"), folder.path());
   ExplainedDetection detection = *found.detection;
-  find_causes(views, scan, {}, detection);
+  find_causes(views, {}, detection);
   CHECK(detection.stations.back().certainty < StationView::kLeastCertain);
   CHECK(std::none_of(detection.causes.begin(), detection.causes.end(),
                      [](const LoopCause& cause) { return cause.main().has_value(); }));
@@ -113,7 +115,7 @@ TEST_CASE("causes of a scan from a moving scanner are those of its scene") {
 
 TEST_CASE("a trajectory needs times of the points") {
   const ScratchFolder folder;
-  FileScan scan({folder.write("a.xyz", "1 2 3\n")}, {});
+  const ScanFiles scan({folder.write("a.xyz", "1 2 3\n")}, {});
   OutputConfig config;
   config.stations = folder.write("path.txt", "time x y z\n0 0 0 0\n1 1 0 0\n");
   CHECK_THROWS_WITH(watch_stations(scan, config, folder.path()), Contains("a.xyz: has no column gps_time"));

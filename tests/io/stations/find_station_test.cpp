@@ -83,7 +83,7 @@ TEST_CASE("stations of a synthetic scan are found from its sweeps") {
   options.points = 100'000;
   synth::write_scan(options);
   const synth::Scanner scanner(options, synth::make_scene(options.scene, options.seed));
-  FileScan scan({options.out}, {});
+  const ScanFiles scan({options.out}, {});
   const std::vector<Sweep> sweeps = read_sweeps(scan);
   REQUIRE(sweeps.size() == 2);
   for (std::size_t i = 0; i < 2; ++i) {

@@ -10,10 +10,10 @@ namespace {
 std::vector<StationSummary> stations_of(std::vector<ScanInput> inputs, const OutputConfig& config = {},
                                         PointsOfNone* of_none = nullptr) {
   const ScratchFolder folder;
-  FileScan scan(std::move(inputs), {});
+  const ScanFiles scan(std::move(inputs), {});
   const auto views = watch_stations(scan, config, folder.path());
   if (!views) return {};
-  views->complete(scan, TaskArena(2));
+  views->complete(TaskArena(2));
   if (of_none) *of_none = views->points_of_none();
   return views->summaries();
 }
@@ -134,9 +134,9 @@ TEST_CASE("without ranges, stations have all but certainty and step, and take no
   const ScratchFolder folder, empty;
   OutputConfig config;
   config.stations = folder.write("stations.txt", "one 0 0 5\n");
-  FileScan scan({folder.write("a.xyz", "1 2 3\n4 5 6\n")}, {});
+  const ScanFiles scan({folder.write("a.xyz", "1 2 3\n4 5 6\n")}, {});
   const auto views = watch_stations(scan, config, empty / "none", Ranges::kNone);
-  views->complete(scan, TaskArena(2));
+  views->complete(TaskArena(2));
   const auto stations = views->summaries();
   REQUIRE(stations.size() == 1);
   CHECK(stations[0].points == 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_pass.hpp"
 
 #include "tests/io/io_support.hpp"
 #include "tests/support/clouds.hpp"
@@ -13,7 +13,7 @@ const std::string kNormals =
     ascii_ply("1 0.1 5 6 0 0.5\n", "property float nz\n" + kXyz + "property float nx\nproperty float ny\n");
 const std::string kEmpty = ascii_ply("");
 
-Cloud read_all(PointSource& source) {
+Cloud all_of(PointSource& source) {
   Cloud all;
   PointBatch batch;
   while (source.next(batch)) {
@@ -30,13 +30,14 @@ Cloud read_all(PointSource& source) {
 
 TEST_CASE("several files are one scan, in double, with ids over all rows", "[io]") {
   const ScratchFolder folder;
-  FileScan scan(
+  const ScanFiles scan(
       {folder.write("a.ply", kIntegers), folder.write("b.ply", kEmpty), folder.write("c.ply", kNormals)}, {});
-  CHECK(scan.expected_points() == 3u);
+  ScanPass pass(scan);
+  CHECK(pass.expected_points() == 3u);
   CHECK(scan.has_normals());
   CHECK_FALSE(has_single_precision(scan));
-  for (int pass = 0; pass < 2; ++pass) {
-    const Cloud all = read_all(scan);
+  for (int time = 0; time < 2; ++time) {
+    const Cloud all = all_of(pass);
     REQUIRE(all.size() == 3);
     CHECK(all.positions[0] == Eigen::Vector3d(255, -300, 70000));
     CHECK(all.positions[1] == Eigen::Vector3d(1, 2, 3));
@@ -45,26 +46,28 @@ TEST_CASE("several files are one scan, in double, with ids over all rows", "[io]
     CHECK(std::isnan(all.normals[0].x()));
     CHECK(std::isnan(all.normals[1].z()));
     CHECK(all.normals[2] == Eigen::Vector3d(0, 0.5, 1));
-    scan.rewind();
+    pass.rewind();
   }
 }
 
 TEST_CASE("rewinding in the middle starts from the first point", "[io]") {
   const ScratchFolder folder;
-  FileScan scan({folder.write("a.ply", kNormals), folder.write("c.ply", kNormals)}, {});
+  const ScanFiles scan({folder.write("a.ply", kNormals), folder.write("c.ply", kNormals)}, {});
+  ScanPass pass(scan);
   PointBatch batch;
-  REQUIRE(scan.next(batch));
-  scan.rewind();
-  CHECK(read_all(scan).positions.size() == 2);
+  REQUIRE(pass.next(batch));
+  pass.rewind();
+  CHECK(all_of(pass).positions.size() == 2);
   CHECK(has_single_precision(scan));
 }
 
 TEST_CASE("a scan without normals has none, and a text file does not say its size", "[io]") {
   const ScratchFolder folder;
-  FileScan scan({folder.write("a.ply", kEmpty), folder.write("b.xyz", "1 2 3\n")}, {});
+  const ScanFiles scan({folder.write("a.ply", kEmpty), folder.write("b.xyz", "1 2 3\n")}, {});
+  ScanPass pass(scan);
   CHECK_FALSE(scan.has_normals());
   CHECK_FALSE(scan.expected_points());
-  const Cloud all = read_all(scan);
+  const Cloud all = all_of(pass);
   CHECK(all.size() == 1);
   CHECK(all.normals.empty());
 }
@@ -73,22 +76,23 @@ TEST_CASE("a scan is read in batches of bounded size", "[io]") {
   const ScratchFolder folder;
   std::string text;
   for (int i = 0; i < 70'000; ++i) text += "1 2 3\n";
-  FileScan scan({folder.write("a.xyz", text)}, {});
+  const ScanFiles scan({folder.write("a.xyz", text)}, {});
+  ScanPass pass(scan);
   PointBatch batch;
-  REQUIRE(scan.next(batch));
+  REQUIRE(pass.next(batch));
   CHECK(batch.size() == 65'536);
-  REQUIRE(scan.next(batch));
+  REQUIRE(pass.next(batch));
   CHECK(batch.size() == 70'000 - 65'536);
   CHECK(value(batch.first) == 65'536);
-  CHECK_FALSE(scan.next(batch));
+  CHECK_FALSE(pass.next(batch));
 }
 
 TEST_CASE("a missing or broken file is an error before any point is read", "[io]") {
   const ScratchFolder folder;
   const auto good = folder.write("a.ply", kNormals);
-  CHECK(error_of([&] { FileScan({good, folder / "none.ply"}, {}); }).find("none.ply") != std::string::npos);
+  CHECK(error_of([&] { ScanFiles({good, folder / "none.ply"}, {}); }).find("none.ply") != std::string::npos);
   const auto cut = folder.write("cut.ply", kNormals.substr(0, kNormals.size() - 8));
-  CHECK(error_of([&] { FileScan({good, cut}, {}); }).find("cut.ply") != std::string::npos);
+  CHECK(error_of([&] { ScanFiles({good, cut}, {}); }).find("cut.ply") != std::string::npos);
 }
 
 // Keeps size and time.
@@ -120,16 +124,17 @@ TEST_CASE("a file that is not the one that was opened first is an error that say
       {"cannot be found", [](const auto& file) { fs::remove(file); }}};
   for (const auto& [named, change] : changes) {
     const fs::path file = write();
-    FileScan scan({folder.write("a.ply", kNormals), file}, {});
+    const ScanFiles scan({folder.write("a.ply", kNormals), file}, {});
+    ScanPass pass(scan);
     CHECK(error_of([&] { scan.check_unchanged(); }).empty());
-    CHECK(read_all(scan).positions.size() == 2);
+    CHECK(all_of(pass).positions.size() == 2);
     std::this_thread::sleep_for(
         std::chrono::milliseconds(20));  // more than a tick of the file system's clock
     change(file);
     for (const std::string& error :
          {error_of([&] { scan.check_unchanged(); }), error_of([&] { scan.open(1); }), error_of([&] {
-            scan.rewind();
-            for (PointBatch batch; scan.next(batch);) {
+            pass.rewind();
+            for (PointBatch batch; pass.next(batch);) {
             }
           })}) {
       INFO(error);
@@ -142,11 +147,33 @@ TEST_CASE("a file that is not the one that was opened first is an error that say
 
 TEST_CASE("a point too far away is an error that names its file and its place in it", "[io]") {
   const ScratchFolder folder;
-  FileScan scan({folder.write("a.xyz", "1 2 3\n"), folder.write("b.xyz", "1 2 3\n1 -1e200 3\n")}, {});
-  CHECK_THAT(error_of([&] { read_all(scan); }),
+  const ScanFiles scan({folder.write("a.xyz", "1 2 3\n"), folder.write("b.xyz", "1 2 3\n1 -1e200 3\n")}, {});
+  ScanPass pass(scan);
+  CHECK_THAT(error_of([&] { all_of(pass); }),
              Contains("b.xyz: point 1 lies at 1 -1e+200 3; coordinates must be within 1e30"));
-  FileScan bounded({folder.write("b.xyz", "1 2 3\n1 -1e200 3\n")}, {.bounds = {0, 0, 9, 9}});
-  CHECK(error_of([&] { read_all(bounded); }).empty());
+  const ScanFiles bounded_files({folder.write("b.xyz", "1 2 3\n1 -1e200 3\n")}, {.bounds = {0, 0, 9, 9}});
+  ScanPass bounded(bounded_files);
+  CHECK(error_of([&] { all_of(bounded); }).empty());
+}
+
+TEST_CASE("passes over some files count what one over all of them counts", "[io]") {
+  const ScratchFolder folder;
+  const ScanFiles scan(
+      {folder.write("a.xyz", "1 2 3\n40 5 6\n"), folder.write("b.xyz", "7 8 9\nnan 0 0\n7 8 90\n")},
+      {.bounds = {0, 0, 0, 9, 9, 9}});
+  ScanPass whole(scan), task(scan);
+  all_of(whole);
+  std::vector<std::uint64_t> counts(whole.pass_counts().size());
+  for (const std::size_t file : {0, 1}) {
+    task.rewind_to({file, file + 1}, PointId{0});
+    all_of(task);
+    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += task.pass_counts()[i];
+  }
+  CHECK(counts == whole.pass_counts());
+  CHECK(whole.counts().filtered_out.bounds == 2);
+  CHECK(rows_of(scan, whole.counts()) == std::vector<std::uint64_t>{2, 3});
+  task.rewind();
+  CHECK(all_of(task).size() == 5);
 }
 
 }  // namespace lacuna::test
