@@ -109,7 +109,7 @@ TEST_CASE("another run at the same time is refused, and with another input, what
   Words told = run.kept();
   std::erase(told, "--quiet");
   run.folder.write("scan.txt", sheet(run.side - 2));
-  CHECK_THAT(run_program(told).err, Contains("level-0 is made again: \"input: "));
+  CHECK_THAT(run_program(told).err, Contains("lacuna: level-0 is made again"));
 }
 
 TEST_CASE("clean removes a workspace, but no file of others") {
