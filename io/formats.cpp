@@ -53,7 +53,6 @@ constexpr std::string_view kGridToText = "`gdal_translate -of XYZ IN OUT.xyz` ma
 constexpr std::string_view kUnpack = "unpack it first";
 constexpr std::string_view kTakesArrays =
     "lacuna.find_holes of Python takes arrays, and numpy.savetxt writes text";
-constexpr std::string_view kStl = "STL";
 constexpr std::string_view kSaveAsUtf8 = "an editor saves it as UTF-8";
 
 constexpr std::array kOtherFormats = {
@@ -97,7 +96,6 @@ constexpr std::string_view kFromReCap = "Autodesk ReCap exports it as E57";
 constexpr std::array kNamedFormats = {
     NamedFormat{".rcp", "", "a project of Autodesk ReCap", kFromReCap},
     NamedFormat{".rcs", "", "a scan of Autodesk ReCap", kFromReCap},
-    NamedFormat{".stl", "", kStl, kMeshLab},
     NamedFormat{".npz", kZip, "an archive of NumPy", kTakesArrays},
     NamedFormat{".slpk", kZip, "a scene layer package", "ArcGIS Pro exports its points as LAS"},
 };
@@ -133,7 +131,7 @@ std::optional<std::string> describe_other_format(const std::filesystem::path& fi
       (first == "999" && first_bytes.find("\nSECTION") != first_bytes.npos))
     return describe("DXF", kExportPoints);
   if (first == "solid" && lower_case(first_bytes).find("facet normal") != first_bytes.npos)
-    return describe(kStl, kMeshLab);
+    return describe("STL", kMeshLab);
   for (const OtherFormat& format : kOtherFormats) {
     if (first_bytes.starts_with(format.begins)) return describe(format.name, format.way_out);
   }

@@ -41,8 +41,7 @@ TEST_CASE("a format that is known but not read is named, with a way out", "[io]"
   check_refused("a.npz", {{"PK\3\4", "an archive of NumPy"}});
   check_refused("a.npy",
                 {{"\x93NUMPY\1\0v", "an array of NumPy, which is not read; lacuna.find_holes of Python"}});
-  check_refused("a.STL",
-                {{std::string(84, '\0'), "this is STL, which is not read; MeshLab saves it as PLY"}});
+  check_refused("a.stl", {{std::string(84, '\0'), "unknown format; PLY, LAS"}});
   check_refused("a", {{"SOLID a\n FACET NORMAL 0 0 1\n", "this is STL"}});
   check_refused("a.rcp", {{"anything", "Autodesk ReCap"}});
   CHECK_THAT(read_error("https://host/a.laz"), Contains("is an address"));
