@@ -27,7 +27,7 @@ endmacro()
 lacuna_debian_package(program lacuna "find holes in scanned surfaces, also in scans larger than memory"
 "Lacuna reads a registered laser scan, finds the loops around its holes and
 its outer boundaries, and writes them with their measures. The scan may be
-larger than memory. Formats: PLY, LAS, LAZ, E57, PTX, PCD, OBJ, STL and text.")
+larger than memory. Formats: PLY, LAS, LAZ, E57, PTX, PCD, OBJ and text.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS lacuna-gis)
 if(LACUNA_BENCH_PROGRAM)
   lacuna_debian_package(bench lacuna-bench "benchmark for programs that find holes in scanned surfaces"

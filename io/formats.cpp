@@ -6,8 +6,6 @@
 #include "io/files/property_name.hpp"
 #include "io/las/las_reader.hpp"
 #include "io/mesh/obj_reader.hpp"
-#include "io/mesh/stl_reader.hpp"
-#include "io/numpy/numpy_reader.hpp"
 #include "io/pcd/pcd_reader.hpp"
 #include "io/ply/ply_reader.hpp"
 #include "io/text/ptx_reader.hpp"
@@ -34,9 +32,7 @@ constexpr std::array kFormats = {
     FormatLine{Format::kLas, "LAS", looks_like_las, open_las},
     FormatLine{Format::kPcd, "PCD", looks_like_pcd, open_pcd},
     FormatLine{Format::kE57, "E57", looks_like_e57, open_e57},
-    FormatLine{Format::kStl, "STL", looks_like_stl, open_stl},
     FormatLine{Format::kObj, "OBJ", looks_like_obj, open_obj},
-    FormatLine{Format::kNumpy, "NumPy (npy)", looks_like_numpy, open_numpy},
     FormatLine{Format::kPtx, "PTX", looks_like_ptx, open_ptx},
     FormatLine{Format::kText, "text (xyz, csv, pts)", looks_like_text, open_text},
 };
@@ -49,12 +45,15 @@ struct OtherFormat {
   std::string_view way_out;
 };
 
+constexpr std::string_view kZip = "PK\x03\x04"sv;
+
 constexpr std::string_view kConvert = "CloudCompare or `pdal translate` convert it to LAS or PLY";
 constexpr std::string_view kMeshLab = "MeshLab saves it as PLY";
 constexpr std::string_view kExportPoints = "its points must be exported to LAS, PLY or text";
 constexpr std::string_view kGridToText = "`gdal_translate -of XYZ IN OUT.xyz` makes points of its cells";
 constexpr std::string_view kUnpack = "unpack it first";
-
+constexpr std::string_view kTakesArrays =
+    "lacuna.find_holes of Python takes arrays, and numpy.savetxt writes text";
 constexpr std::string_view kSaveAsUtf8 = "an editor saves it as UTF-8";
 
 constexpr std::array kOtherFormats = {
@@ -62,7 +61,7 @@ constexpr std::array kOtherFormats = {
     OtherFormat{"BZh"sv, "a file packed by bzip2", kUnpack},
     OtherFormat{"\xfd\x37zXZ"sv, "a file packed by xz", kUnpack},
     OtherFormat{"\x28\xb5\x2f\xfd"sv, "a file packed by zstd", kUnpack},
-    OtherFormat{"PK\x03\x04"sv, "a zip archive", kUnpack},
+    OtherFormat{kZip, "a zip archive", kUnpack},
     OtherFormat{"DRACO"sv, "Draco", "`draco_decoder -i IN -o OUT.ply` converts it"},
     OtherFormat{"AutoCAD Binary DXF"sv, "DXF", kExportPoints},
     OtherFormat{"AC10"sv, "DWG", kExportPoints},
@@ -74,6 +73,7 @@ constexpr std::array kOtherFormats = {
     OtherFormat{"CCB2"sv, "CloudCompare's BIN", "CloudCompare saves it as PLY or LAS"},
     OtherFormat{"OFF\n"sv, "OFF", kMeshLab},
     OtherFormat{"COFF\n"sv, "OFF", kMeshLab},
+    OtherFormat{"\x93NUMPY"sv, "an array of NumPy", kTakesArrays},
     OtherFormat{"glTF"sv, "binary glTF", "CloudCompare or Blender export it as PLY"},
     OtherFormat{"version https://git-lfs"sv, "a pointer of Git LFS",
                 "`git lfs pull` fetches the file itself"},
@@ -87,6 +87,7 @@ constexpr std::array kOtherFormats = {
 // Formats without first bytes of their own are known by their names.
 struct NamedFormat {
   std::string_view ending;
+  std::string_view begins;  // may be empty
   std::string_view name;
   std::string_view way_out;
 };
@@ -94,11 +95,10 @@ struct NamedFormat {
 constexpr std::string_view kFromReCap = "Autodesk ReCap exports it as E57";
 
 constexpr std::array kNamedFormats = {
-    NamedFormat{".rcp", "a project of Autodesk ReCap", kFromReCap},
-    NamedFormat{".rcs", "a scan of Autodesk ReCap", kFromReCap},
-    NamedFormat{".npz", "an archive of NumPy",
-                "numpy.load reads it, and numpy.save writes one array as .npy"},
-    NamedFormat{".slpk", "a scene layer package", "ArcGIS Pro exports its points as LAS"},
+    NamedFormat{".rcp", "", "a project of Autodesk ReCap", kFromReCap},
+    NamedFormat{".rcs", "", "a scan of Autodesk ReCap", kFromReCap},
+    NamedFormat{".npz", kZip, "an archive of NumPy", kTakesArrays},
+    NamedFormat{".slpk", kZip, "a scene layer package", "ArcGIS Pro exports its points as LAS"},
 };
 
 std::string describe(std::string_view name, std::string_view way_out) {
@@ -121,10 +121,9 @@ std::array<std::string, 2> first_words(std::string_view text) {
 // Names a format that is not read, and a way out.
 std::optional<std::string> describe_other_format(const std::filesystem::path& file,
                                                  std::string_view first_bytes) {
-  const bool is_zip = first_bytes.starts_with("PK\x03\x04"sv);
+  const std::string ending = lower_case(file.extension().string());
   for (const NamedFormat& format : kNamedFormats) {
-    const bool may_be = is_zip || format.ending.starts_with(".rc");
-    if (may_be && lower_case(file.extension().string()) == format.ending)
+    if (ending == format.ending && first_bytes.starts_with(format.begins))
       return describe(format.name, format.way_out);
   }
   const auto [first, second] = first_words(first_bytes);
@@ -132,6 +131,8 @@ std::optional<std::string> describe_other_format(const std::filesystem::path& fi
   if ((first == "0" && second == "section") ||
       (first == "999" && first_bytes.find("\nSECTION") != first_bytes.npos))
     return describe("DXF", kExportPoints);
+  if (first == "solid" && lower_case(first_bytes).find("facet normal") != first_bytes.npos)
+    return describe("STL", kMeshLab);
   for (const OtherFormat& format : kOtherFormats) {
     if (first_bytes.starts_with(format.begins)) return describe(format.name, format.way_out);
   }
@@ -148,12 +149,6 @@ FileStart file_start(InputFile& in) {
 std::optional<Format> find_format(const FileStart& start) {
   const auto line = std::ranges::find_if(kFormats, [&](const auto& f) { return f.recognises(start); });
   return line == kFormats.end() ? std::nullopt : std::optional(line->format);
-}
-
-// A binary STL has no beginning of its own, and is recognised by its size.
-bool is_named_stl(const std::filesystem::path& file) {
-  const std::string ending = file.extension().string();
-  return ending == ".stl" || ending == ".STL";
 }
 
 std::string format_names() {
@@ -177,7 +172,6 @@ Format format_of(const std::filesystem::path& file) {
   if (start.first_bytes.empty()) in.fail_at_byte(0, "the file is empty; a scan file is needed");
   if (const auto other = describe_other_format(file, start.first_bytes)) in.fail_at_byte(0, *other);
   if (const std::optional<Format> format = find_format(start)) return *format;
-  if (is_named_stl(file)) return Format::kStl;  // whose reader says which size it must have
   in.fail_at_byte(
       0, "unknown format; " + format_names() + " are read. CloudCompare or `pdal translate` may convert it");
 }

@@ -13,7 +13,7 @@
 namespace lacuna::io {
 
 // `kText` is text of rows of numbers, or of anything else.
-enum class Format : std::uint8_t { kPly, kLas, kPcd, kE57, kStl, kObj, kNumpy, kPtx, kText };
+enum class Format : std::uint8_t { kPly, kLas, kPcd, kE57, kObj, kPtx, kText };
 
 // Returns the format that the first bytes of a file show; nothing if none is read. Throws `Error` if the file
 // cannot be opened.

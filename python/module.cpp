@@ -116,15 +116,13 @@ std::vector<fs::path> copy_results(const fs::path& from, const fs::path& to) {
 }
 
 std::string evaluate(const fs::path& result_path, const fs::path& truth_path,
-                     const std::vector<fs::path>& scans, const fs::path& surface, double tolerance,
-                     std::size_t min_vertices) {
+                     const std::vector<fs::path>& scans, double tolerance, std::size_t min_vertices) {
   const py::gil_scoped_release unlocked;
   evaluation::Result result = evaluation::read_result(result_path);
-  evaluation::Truth truth = evaluation::read_truth(truth_path, {scans.begin(), scans.end()}, result);
-  if (!surface.empty()) truth.surface = evaluation::read_surface(surface);
+  const evaluation::Truth truth = evaluation::read_truth(truth_path, {scans.begin(), scans.end()}, result);
   const evaluation::EvaluationRule rule{.tolerance = tolerance, .min_vertices = min_vertices};
   const evaluation::Evaluation evaluation = evaluation::evaluate(result, truth, rule);
-  return evaluation::print_json({result, truth, evaluation, result_path, truth_path, surface, rule});
+  return evaluation::print_json({result, truth, evaluation, result_path, truth_path, rule});
 }
 
 // Returns the comparison as JSON, and warnings.

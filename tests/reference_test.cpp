@@ -22,81 +22,9 @@ std::size_t index(PointId id) {
   return std::size_t(value(id));
 }
 
-double squared_distance(const Cloud& cloud, std::size_t i, std::size_t j) {
-  const Vector3d d = cloud.positions[j] - cloud.positions[i];
-  return (d.x() * d.x() + d.y() * d.y()) + d.z() * d.z();
-}
-
-// Neighbours, from the definition: every pair of distinct points is looked at.
-std::vector<std::vector<PointId>> brute_force_neighbours(const Cloud& cloud, const Detection& result,
-                                                         std::int64_t k) {
-  const std::size_t n = cloud.size();
-  std::vector<std::vector<std::pair<double, PointId>>> own(n);
-  for (PointId p : result.distinct) {
-    auto& row = own[index(p)];
-    for (PointId q : result.distinct)
-      if (p != q) row.emplace_back(squared_distance(cloud, index(p), index(q)), q);
-    std::sort(row.begin(), row.end());
-    std::size_t kept = std::min(row.size(), std::size_t(k));
-    while (kept < row.size() && row[kept].first <= result.eps * result.eps) ++kept;
-    row.resize(kept);
-  }
-  std::vector<std::set<std::pair<double, PointId>>> closure(n);
-  for (PointId p : result.distinct) {
-    for (const auto& [squared, q] : own[index(p)]) {
-      closure[index(p)].emplace(squared, q);
-      closure[index(q)].emplace(squared, p);
-    }
-  }
-  std::vector<std::vector<PointId>> neighbours(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (const auto& [squared, q] :
-         closure[result.points[i].dropped ? i : index(result.points[i].representative)]) {
-      neighbours[i].push_back(q);
-    }
-  }
-  return neighbours;
-}
-
-void check_neighbours(const Cloud& cloud, const Config& config) {
-  const Detection result = detect(cloud, config);
-  const auto expected = brute_force_neighbours(cloud, result, config.neighbourhood.k);
-  std::size_t differing = 0;
-  for (std::size_t i = 0; i < cloud.size(); ++i) differing += result.points[i].neighbours != expected[i];
-  CHECK(differing == 0);
-}
-
 }  // namespace
 
 // ---- Neighbourhoods ----------------------------------------------------------------------------------
-
-TEST_CASE("neighbours are those of a brute force search, in order, on random clouds") {
-  for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    INFO("seed " << seed);
-    const Cloud cloud = random_cloud(seed);
-    if (cloud.size() > 1000) continue;
-    check_neighbours(cloud, random_config(seed, typical_spacing(cloud)));
-  }
-}
-
-TEST_CASE("equal distances are decided by id") {
-  Config config;
-  config.neighbourhood.k = 1;
-  // The origin has two neighbours at distance 1; one of them has a nearer one of its own.
-  const Vector3d origin(0, 0, 0), right(1, 0, 0), left(-1, 0, 0), beyond(-1.5, 0, 0);
-  CHECK(detect({{origin, right, left, beyond}, {}}, config).points[0].neighbours == std::vector{PointId{1}});
-  CHECK(detect({{origin, left, right, beyond}, {}}, config).points[0].neighbours ==
-        std::vector{PointId{1}, PointId{2}});
-}
-
-TEST_CASE("points at the eps distance exactly are neighbours") {
-  Config config;
-  config.neighbourhood.k = 1;
-  config.neighbourhood.eps = 2;
-  const Detection result = detect(line(5), config);
-  CHECK(result.points[0].neighbours == std::vector{PointId{1}, PointId{2}});
-  CHECK(result.points[2].neighbours == std::vector{PointId{1}, PointId{3}, PointId{0}, PointId{4}});
-}
 
 TEST_CASE("eps as a fraction is taken of the diagonal of all finite points") {
   Config config;

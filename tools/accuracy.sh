@@ -58,6 +58,8 @@ add_peer() {
     echo "accuracy.sh: $package is not installed: the table has no $name" >&2
     return
   fi
+  cmake -G Ninja -S . -B "$build" >/dev/null
+  cmake --build "$build" --parallel "$(nproc)" --target lacuna_shared >&2
   cmake -G Ninja -S bench/peers -B "$build/peers" -DCMAKE_BUILD_TYPE=Release >/dev/null
   cmake --build "$build/peers" --parallel "$(nproc)" --target "$program" >&2
   peers+=("--$name" "$build/peers/$program")

@@ -74,7 +74,7 @@ for program in "$against" "$kernel"; do [[ -z $program || -x $program ]] || fail
 tools/install.sh
 install_packages gnuplot-nox python3 time
 cmake -G Ninja -S . -B "$build" -DCMAKE_BUILD_TYPE=Release >/dev/null
-cmake --build "$build" --parallel "$(nproc)" --target lacuna lacuna-bench
+cmake --build "$build" --parallel "$(nproc)" --target lacuna lacuna-bench lacuna_shared
 lacuna=$build/lacuna
 
 if ((peers)); then

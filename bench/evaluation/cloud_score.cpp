@@ -20,7 +20,7 @@ CloudScore score_cloud(const Result& result, const Truth& truth, const Evaluatio
 
   std::vector<std::uint64_t> ids;
   for (std::size_t i = 0; i < result.loops.size(); ++i) {
-    if (takes_part(evaluation.loops.loops[i].verdict))
+    if (evaluation.loops.loops[i].verdict != EdgeDecision::kStep)
       ids.insert(ids.end(), result.loops[i].begin(), result.loops[i].end());
   }
   const MatchRule match = match_rule(truth, rule, evaluation.tolerances);

@@ -22,7 +22,7 @@ struct CloudScore {
   PointAccuracy points;  // the boundary points where the result has them, else the points of the loops
 };
 
-// Loops along steps of density and around unsampled places are neither right nor wrong: they have no area and
+// Loops along steps of density are neither right nor wrong: they have no area and
 // no points. Points of true loops that do not count are right if they are flagged, and not missed otherwise.
 // Throws `Error` as evaluate() does.
 CloudScore score_cloud(const Result& result, const Truth& truth, const EvaluationRule& rule);

@@ -148,21 +148,6 @@ void take_loops(std::vector<NamedLoopIds> named, Truth& truth) {
   measure_holes(tree, truth);
 }
 
-// False loops around unsampled places of the surface become unsampled. If they run along true loops as well,
-// they become joined.
-void mark_unsampled(const Result& result, const Truth& truth, const MatchRule& rule, LoopAccuracy& accuracy) {
-  std::vector<LoopIds> loops = result.loops;  // empty unless the loop is false
-  for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (accuracy.loops[i].verdict != EdgeDecision::kFalse) loops[i].clear();
-  }
-  const auto unsampled = points_at_unsampled(
-      loops, *truth.surface,
-      {.positions = truth.positions, .stand_ins = truth.stand_ins, .spacing = truth.spacing});
-  decide_false_loops(
-      result.loops, truth.loops, truth.positions, rule, EdgeDecision::kUnsampled, &LoopMatch::at_unsampled,
-      [&](std::size_t loop, std::size_t point) { return unsampled[loop][point]; }, accuracy);
-}
-
 // Returns the tolerances of the points that are compared with curves.
 std::vector<double> tolerances_of_places(const Result& result, const Truth& truth, double tolerance) {
   constexpr double kOfPlace = 1.2;  // a curve of a coarser level runs up to 2.4 spacings off
@@ -235,12 +220,6 @@ Truth read_truth(const fs::path& file, std::vector<ScanInput> scans, Result& res
   return truth;
 }
 
-Surface read_surface(const fs::path& file) {
-  Surface surface{.triangles = read_triangles(file)};
-  surface.positions = read_positions({file}, {});
-  return surface;
-}
-
 MatchRule match_rule(const Truth& truth, const EvaluationRule& rule, std::span<const double> tolerances) {
   return {
       .tolerance = rule.tolerance * truth.spacing, .of_place = tolerances, .min_vertices = rule.min_vertices};
@@ -259,7 +238,6 @@ Evaluation evaluate(const Result& result, const Truth& truth, const EvaluationRu
   const MatchRule match = match_rule(truth, rule, evaluation.tolerances);
   evaluation.loops = match_loops(result.loops, truth.loops, truth.positions, match);
   mark_steps(result.loops, truth.steps, truth.loops, truth.positions, match, evaluation.loops);
-  if (truth.surface) mark_unsampled(result, truth, match, evaluation.loops);
   evaluation.scores = score_loops(evaluation.loops.loops, evaluation.loops.true_loops);
   evaluation.holes = holes_by_width(truth.hole_widths, evaluation.loops.true_loops);
   if (result.boundary)

@@ -5,7 +5,6 @@
 #include "bench/evaluation/boundary_points.hpp"
 #include "bench/evaluation/hole_width.hpp"
 #include "bench/evaluation/loop_scores.hpp"
-#include "bench/evaluation/unsampled.hpp"
 #include "io/scan/scan_files.hpp"
 #include "tools/matching/match_loops.hpp"
 #include "tools/matching/true_loops.hpp"
@@ -44,7 +43,6 @@ struct Truth {
   std::vector<std::optional<double>> hole_widths;  // of each loop; see hole_width()
   std::vector<LoopIds> steps;                      // of density; see kStepMark
   double spacing = 0;                              // median, over `points`
-  std::optional<Surface> surface;
 };
 
 struct EvaluationRule {
@@ -73,9 +71,6 @@ Result read_result(const std::filesystem::path& path);
 // part in the spacing. The vertices of the result become `positions` behind the points of the scan, and its
 // loops count them there. Throws `Error`.
 Truth read_truth(const std::filesystem::path& file, std::vector<io::ScanInput> scans, Result& result);
-
-// Returns the faces of a PLY mesh. Throws `Error`.
-Surface read_surface(const std::filesystem::path& file);
 
 // Returns the rule by which curves match: the tolerance of the scan, and `tolerances` of places.
 MatchRule match_rule(const Truth& truth, const EvaluationRule& rule, std::span<const double> tolerances);

@@ -2,7 +2,6 @@
 #include "bench/evaluation/hole_areas.hpp"
 
 #include "bench/evaluation/loop_kind.hpp"
-#include "bench/evaluation/triangle_pieces.hpp"
 #include "io/lids/triangulate_polygon.hpp"
 #include "tools/matching/edge_tree.hpp"
 #include "tools/matching/point_tree.hpp"
@@ -24,6 +23,39 @@ Points points_of(const LoopIds& ids, const Truth& truth) {
   Points points;
   for (const std::uint64_t id : ids) points.push_back(truth.positions[id]);
   return points;
+}
+
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+Eigen::Vector3d centroid_of(const Corners& corners) {
+  return (corners[0] + corners[1] + corners[2]) / 3;
+}
+
+double area_of(const Corners& corners) {
+  return (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2;
+}
+
+// Halves the triangle at the middle of its longest edge until no edge is longer than `longest_edge`. Calls
+// `visit` with the corners of each piece. A part for which `skip` is true is left out.
+template <class Skip, class Visit>
+void visit_pieces(const Corners& corners, double longest_edge, const Skip& skip, const Visit& visit) {
+  if (skip(corners)) return;
+  double longest = -1;
+  std::size_t apex = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double opposite = (corners[(i + 1) % 3] - corners[(i + 2) % 3]).stableNorm();
+    if (opposite > longest) {
+      longest = opposite;
+      apex = i;
+    }
+  }
+  const Eigen::Vector3d &a = corners[apex], &b = corners[(apex + 1) % 3], &c = corners[(apex + 2) % 3];
+  const Eigen::Vector3d middle = (b + c) / 2;
+  // Where coordinates are hardly finer than the spacing, the middle may be rounded to an end.
+  const double half = std::max((middle - b).stableNorm(), (middle - c).stableNorm());
+  if (longest <= longest_edge || half > 0.75 * longest) return visit(corners);
+  visit_pieces({a, b, middle}, longest_edge, skip, visit);
+  visit_pieces({a, middle, c}, longest_edge, skip, visit);
 }
 
 // Returns how far from the surface of a hole others are near.
@@ -133,7 +165,7 @@ HoleAreas compare_areas(std::span<const LoopIds> loops, const Truth& truth, cons
   const PointTree tree(truth.points);
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const EdgeDecision verdict = accuracy.loops[i].verdict;
-    if (!takes_part(verdict)) continue;
+    if (verdict == EdgeDecision::kStep) continue;
     if (kind_of(loops[i], truth.positions, truth.points, tree) == LoopKind::kHole)
       surfaces.take_found(points_of(loops[i], truth), reach_of(loops[i], rule),
                           verdict == EdgeDecision::kRepeated);

@@ -17,7 +17,7 @@ struct HoleAreas {
 // Completeness is covered / truth, and correctness right / found: ISPRS benchmark on indoor modelling,
 // https://www.isprs.org/resources/datasets/benchmarks/IndoorModeling/results.aspx. The surface of a hole is
 // the triangulation of its loop that has the least area. Outer curves have none, and neither has a loop with
-// a point that is not finite. Loops along steps of density and around unsampled places take no part. A loop
+// a point that is not finite. Loops along steps of density take no part. A loop
 // that repeats another has no right place. Places of a hole are near others within the mean tolerance of the
 // hole's points. Each surface is divided into pieces with edges of at most half of its mean tolerance. The
 // centroid of a piece decides for the piece. With a tolerance of 0, all areas are 0. Cost: n log n for points

@@ -21,7 +21,6 @@ LoopScores score_loops(std::span<const LoopMatch> loops, std::span<const TrueMat
     scores.joined += loop.verdict == EdgeDecision::kJoined;
     scores.parted += loop.verdict == EdgeDecision::kParted;
     scores.steps += loop.verdict == EdgeDecision::kStep;
-    scores.unsampled += loop.verdict == EdgeDecision::kUnsampled;
   }
   const auto share = [](std::size_t part, std::size_t whole) -> std::optional<double> {
     if (whole == 0) return std::nullopt;
@@ -31,38 +30,6 @@ LoopScores score_loops(std::span<const LoopMatch> loops, std::span<const TrueMat
   const std::size_t judged = scores.loops - scores.steps;
   scores.precision = share(judged - scores.false_loops - scores.joined - scores.parted, judged);
   return scores;
-}
-
-void decide_false_loops(std::span<const LoopIds> loops, std::span<const TrueLoop> truth,
-                        std::span<const Eigen::Vector3d> positions, const MatchRule& rule,
-                        EdgeDecision verdict, std::optional<double> LoopMatch::*share,
-                        const std::function<bool(std::size_t loop, std::size_t point)>& at,
-                        LoopAccuracy& accuracy) {
-  std::vector<TrueLoop> counting;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    if (accuracy.true_loops[i].counts) counting.push_back(truth[i]);
-  }
-  const EdgeTree true_edges = tree_of_truth(counting, positions);
-  std::vector<std::size_t> near;
-  for (std::size_t loop = 0; loop < loops.size(); ++loop) {
-    LoopMatch& match = accuracy.loops[loop];
-    if (match.verdict != EdgeDecision::kFalse) continue;
-    std::size_t there = 0, either = 0;
-    for (std::size_t i = 0; i < loops[loop].size(); ++i) {
-      const std::uint64_t id = loops[loop][i];
-      true_edges.owners_within(positions[id], rule.tolerance_at(id), near);
-      const bool is_there = at(loop, i);
-      there += is_there;
-      either += is_there || !near.empty();
-    }
-    const auto points = static_cast<double>(loops[loop].size());
-    match.*share = static_cast<double>(there) / points;
-    if (match.*share >= rule.share) {
-      match.verdict = verdict;
-    } else if (static_cast<double>(either) / points >= rule.share) {
-      match.verdict = EdgeDecision::kJoined;
-    }
-  }
 }
 
 std::optional<double> area_under_roc(std::span<const LoopMatch> loops, std::span<const double> confidence) {

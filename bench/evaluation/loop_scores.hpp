@@ -5,11 +5,8 @@
 #include "tools/matching/match_loops.hpp"
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <span>
-
-#include <Eigen/Core>
 
 namespace lacuna::evaluation {
 using namespace matching;
@@ -17,32 +14,17 @@ using namespace matching;
 struct LoopScores {
   std::size_t true_loops = 0, found = 0, missed = 0;  // of the true loops that count
   std::size_t short_loops = 0;                        // true ones that do not count
-  std::size_t loops = 0, false_loops = 0, repeated = 0, joined = 0, parted = 0, steps = 0, unsampled = 0;
+  std::size_t loops = 0, false_loops = 0, repeated = 0, joined = 0, parted = 0, steps = 0;
   std::optional<double> recall;  // share of the true ones that are found; empty without true ones
   std::optional<double>
       precision;  // neither false, joined nor parted of the loops but steps; empty without such loops
 };
 
-// Loops along steps of density and around unsampled places are neither right nor wrong.
-constexpr bool takes_part(EdgeDecision verdict) {
-  return verdict != EdgeDecision::kStep && verdict != EdgeDecision::kUnsampled;
-}
-
 LoopScores score_loops(std::span<const LoopMatch> loops, std::span<const TrueMatch> true_loops);
-
-// Decides on false loops once more. A loop becomes `verdict` if `share` of its points are `at(loop, point)`,
-// both counted from 0. It becomes joined if `share` of them are there or near a true loop that counts. The
-// function calls `at` for false loops alone. The share of points at `at` goes into that member of the loop's
-// match. Cost: n log n, and the calls of `at`.
-void decide_false_loops(std::span<const LoopIds> loops, std::span<const TrueLoop> truth,
-                        std::span<const Eigen::Vector3d> positions, const MatchRule& rule,
-                        EdgeDecision verdict, std::optional<double> LoopMatch::*share,
-                        const std::function<bool(std::size_t loop, std::size_t point)>& at,
-                        LoopAccuracy& accuracy);
 
 // The probability that a loop that matches a true one has a higher confidence than a false one, ties being
 // half. This is the area under the ROC curve. Loops without a confidence (NaN) take no part, and neither do
-// loops that are neither right nor wrong (short, joined, parted, step, unsampled). There is no value where
+// loops that are neither right nor wrong (short, joined, parted, step). There is no value where
 // either kind is missing.
 std::optional<double> area_under_roc(std::span<const LoopMatch> loops, std::span<const double> confidence);
 

@@ -13,7 +13,7 @@ struct EvaluationText {
   const Result& result;
   const Truth& truth;
   const Evaluation& evaluation;
-  std::filesystem::path result_path, truth_path, surface_path;
+  std::filesystem::path result_path, truth_path;
   EvaluationRule rule;
 };
 
@@ -23,8 +23,6 @@ struct EvaluationText {
 std::string print_verdict(const EvaluationText& text);
 
 // Returns all scores, and every number behind them, by loop.
-std::string print_details(const EvaluationText& text);
-
 std::string print_json(const EvaluationText& text);
 
 }  // namespace lacuna::evaluation

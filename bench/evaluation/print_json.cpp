@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The output of `lacuna-bench evaluate --json`.
-#include "bench/evaluation/decision_names.hpp"
 #include "bench/evaluation/json.hpp"
 #include "bench/evaluation/loop_size.hpp"
 #include "bench/evaluation/print.hpp"
@@ -10,6 +9,27 @@
 
 namespace lacuna::evaluation {
 namespace {
+
+// The words for the decision on a loop, as docs/evaluate.md defines them.
+const char* name_of(EdgeDecision verdict) {
+  switch (verdict) {
+    case EdgeDecision::kFound:
+      return "found";
+    case EdgeDecision::kRepeated:
+      return "repeated";
+    case EdgeDecision::kShort:
+      return "short";
+    case EdgeDecision::kJoined:
+      return "joined";
+    case EdgeDecision::kParted:
+      return "parted";
+    case EdgeDecision::kStep:
+      return "step";
+    case EdgeDecision::kFalse:
+      break;
+  }
+  return "false";
+}
 
 std::optional<std::string> name_of(const TrueLoop& loop) {
   return loop.name.empty() ? std::nullopt : std::optional(loop.name);
@@ -22,7 +42,6 @@ std::string print_json(const EvaluationText& text) {
   const LoopScores& scores = evaluation.scores;
   Json root = {{"result", text.result_path.string()},
                {"truth", text.truth_path.string()},
-               {"surface", truth.surface ? Json(text.surface_path.string()) : Json()},
                {"points", truth.positions.size()},
                {"spacing", truth.spacing},
                {"tolerance", text.rule.tolerance},
@@ -37,7 +56,6 @@ std::string print_json(const EvaluationText& text) {
                {"joined", scores.joined},
                {"parted", scores.parted},
                {"step", scores.steps},
-               {"unsampled", scores.unsampled},
                {"recall", or_null(scores.recall)},
                {"precision", or_null(scores.precision)},
                {"confidence_auc", or_null(evaluation.confidence)},
@@ -79,8 +97,7 @@ std::string print_json(const EvaluationText& text) {
                                     {"on_any", match.on_any},
                                     {"on", match.on},
                                     {"covered", match.covered},
-                                    {"on_step", or_null(match.on_step)},
-                                    {"at_unsampled", or_null(match.at_unsampled)}});
+                                    {"on_step", or_null(match.on_step)}});
   }
   return text_of(root);
 }

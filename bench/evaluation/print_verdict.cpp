@@ -68,8 +68,6 @@ std::string print_sentence(const EvaluationText& text) {
   add(scores.repeated, "loop repeats a found one", "loops repeat found ones");
   add(scores.steps, "loop follows a step of density, with points on both sides",
       "loops follow steps of density, with points on both sides");
-  add(scores.unsampled, "loop goes around a place of the surface without points: right, but no true loop",
-      "loops go around places of the surface without points: right, but no true loops");
   add(scores.short_loops, "true loop is too short (--min-vertices) or too narrow to count",
       "true loops are too short (--min-vertices) or too narrow to count");
   return line;
@@ -168,8 +166,6 @@ const char* describe(EdgeDecision verdict) {
       return "part of";
     case EdgeDecision::kStep:
       return "step of density";
-    case EdgeDecision::kUnsampled:
-      return "unsampled place";
     case EdgeDecision::kFalse:
       return "false";
     default:

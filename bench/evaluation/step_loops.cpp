@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/evaluation/step_loops.hpp"
 
-#include "bench/evaluation/loop_scores.hpp"
 #include "tools/matching/edge_tree.hpp"
 
-#include <utility>
 #include <vector>
 
 namespace lacuna::evaluation {
@@ -24,14 +22,34 @@ void mark_steps(std::span<const LoopIds> loops, std::span<const LoopIds> steps,
                 std::span<const TrueLoop> truth, std::span<const Eigen::Vector3d> positions,
                 const MatchRule& rule, LoopAccuracy& accuracy) {
   if (steps.empty()) return;
-  const EdgeTree edges = tree_of_steps(steps, positions);
+  std::vector<TrueLoop> counting;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (accuracy.true_loops[i].counts) counting.push_back(truth[i]);
+  }
+  const EdgeTree step_edges = tree_of_steps(steps, positions),
+                 true_edges = tree_of_truth(counting, positions);
   std::vector<std::size_t> near;
-  const auto at = [&](std::size_t loop, std::size_t point) {
-    const std::uint64_t id = loops[loop][point];
+  const auto is_near = [&](const EdgeTree& edges, std::uint64_t id) {
     edges.owners_within(positions[id], rule.tolerance_at(id), near);
     return !near.empty();
   };
-  decide_false_loops(loops, truth, positions, rule, EdgeDecision::kStep, &LoopMatch::on_step, at, accuracy);
+  for (std::size_t loop = 0; loop < loops.size(); ++loop) {
+    LoopMatch& match = accuracy.loops[loop];
+    if (match.verdict != EdgeDecision::kFalse) continue;
+    std::size_t on_step = 0, on_either = 0;
+    for (const std::uint64_t id : loops[loop]) {
+      const bool is_on_step = is_near(step_edges, id);
+      on_step += is_on_step;
+      on_either += is_on_step || is_near(true_edges, id);
+    }
+    const auto points = static_cast<double>(loops[loop].size());
+    match.on_step = static_cast<double>(on_step) / points;
+    if (match.on_step >= rule.share) {
+      match.verdict = EdgeDecision::kStep;
+    } else if (static_cast<double>(on_either) / points >= rule.share) {
+      match.verdict = EdgeDecision::kJoined;
+    }
+  }
 }
 
 }  // namespace lacuna::evaluation

@@ -2,7 +2,7 @@
 // The holes that remain where CGAL's advancing front has reconstructed the surface: its border loops, as a
 // text that `lacuna-bench evaluate` reads. A triangle whose circumradius is above the bound is no candidate.
 #include "bench/peers/border_loops.hpp"
-#include "bench/peers/read_ply.hpp"
+#include "bench/peers/read_scan.hpp"
 
 #include <array>
 #include <cstdio>
@@ -39,7 +39,7 @@ struct BoundedRadius {
 };
 
 std::vector<Point> load_points(const char* file) {
-  const std::vector<float> coordinates = read_ply(file);
+  const std::vector<float> coordinates = read_scan(file);
   std::vector<Point> points;
   points.reserve(coordinates.size() / 3);
   for (std::size_t i = 0; i < coordinates.size(); i += 3) {

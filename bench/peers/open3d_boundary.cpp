@@ -4,7 +4,7 @@
 // radius is the median distance of the last neighbour, so that half of the points have all of their
 // neighbours. Finding the radius is not timed.
 #include "bench/peers/peer.hpp"
-#include "bench/peers/read_ply.hpp"
+#include "bench/peers/read_scan.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ using open3d::core::Tensor;
 using open3d::t::geometry::PointCloud;
 
 Tensor load(const char* file) {
-  const std::vector<float> coordinates = read_ply(file);
+  const std::vector<float> coordinates = read_scan(file);
   Tensor positions({static_cast<std::int64_t>(coordinates.size() / 3), 3}, open3d::core::Float32);
   std::memcpy(positions.GetDataPtr(), coordinates.data(), coordinates.size() * sizeof(float));
   return positions;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/peers/pcl_steps.hpp"
 
-#include "bench/peers/read_ply.hpp"
+#include "bench/peers/read_scan.hpp"
 
 #include <omp.h>
 #include <pcl/features/boundary.h>
@@ -10,7 +10,7 @@
 namespace lacuna::peers {
 
 Cloud::Ptr load_cloud(const char* file) {
-  const std::vector<float> coordinates = read_ply(file);
+  const std::vector<float> coordinates = read_scan(file);
   const Cloud::Ptr cloud(new Cloud);
   cloud->reserve(coordinates.size() / 3);
   for (std::size_t i = 0; i < coordinates.size(); i += 3) {

@@ -18,32 +18,24 @@ namespace fs = std::filesystem;
 using namespace evaluation;
 
 struct EvaluateArguments {
-  fs::path result, truth, surface;
+  fs::path result, truth;
   std::vector<fs::path> scans;
   EvaluationRule rule;
-  bool verbose = false;
   bool json = false;
 };
 
 void run_evaluate(const EvaluateArguments& arguments) {
   check(arguments.rule);
   Result result = read_result(arguments.result);
-  Truth truth = read_truth(arguments.truth, {arguments.scans.begin(), arguments.scans.end()}, result);
-  if (!arguments.surface.empty()) truth.surface = read_surface(arguments.surface);
+  const Truth truth = read_truth(arguments.truth, {arguments.scans.begin(), arguments.scans.end()}, result);
   const Evaluation evaluation = evaluate(result, truth, arguments.rule);
   const EvaluationText text{.result = result,
                             .truth = truth,
                             .evaluation = evaluation,
                             .result_path = arguments.result,
                             .truth_path = arguments.truth,
-                            .surface_path = arguments.surface,
                             .rule = arguments.rule};
-  if (arguments.json) {
-    std::cout << print_json(text);
-  } else {
-    std::cout << print_verdict(text);
-    if (arguments.verbose) std::cout << "\n" << print_details(text);
-  }
+  std::cout << (arguments.json ? print_json(text) : print_verdict(text));
 }
 
 }  // namespace
@@ -69,13 +61,8 @@ void add_evaluate_command(const Command& program) {
           "Scan files that the ids of loops as text count; default: X.ply next to X.loops.txt, else the "
           "input of the run")
       .type("FILE");
-  command
-      .add_option("--surface", a.surface,
-                  "A PLY mesh of the true surface; loops around places of it without points are not false")
-      .type("FILE");
   add_rule_options(command, a.rule);
-  command.add_flag("--verbose", a.verbose, "Print all scores, and the decision on every loop, too");
-  command.add_flag("--json", a.json, "Print it as JSON");
+  command.add_flag("--json", a.json, "Print all scores, and the decision on every loop, as JSON");
   command.runs([arguments] { run_evaluate(*arguments); });
 }
 

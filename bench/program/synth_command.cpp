@@ -150,10 +150,6 @@ void add_scan(const Command& synth) {
   app.add_option("--stations", o.stations, "from how many places, or in how many strips or lanes, 1 to 255")
       .whole_number()
       .show_default();
-  app.add_option("--place", o.places, "where one more station stands, metres; may be given again")
-      .real_number()
-      .type("X Y Z")
-      .in_groups_of(3);
   app.add_flag("--drive", o.drives,
                "the scanner drives along x, in so many lanes as --stations says, and turns around its path");
   app.add_option("--station-factor", o.station_factor,

@@ -34,8 +34,6 @@ void check(const ScanOptions& o) {
       "--field-of-view: needs -90 <= lowest < highest <= 90 degrees, 1 degree apart");
   require(o.station_factor >= 0.01 && o.station_factor <= 100, "--station-factor: must be 0.01 to 100");
   require(o.sweeps >= 1 && o.sweeps <= 8, "--sweeps: must be 1 to 8");
-  require(o.places.size() % 3 == 0 && o.places.size() <= 300,
-          "--place: x y z are needed, of at most 100 stations");
   for (const double offset : o.translate) {
     require(std::fabs(offset) <= 1e12, "--translate: must be within 1e12 metres");
     require(o.coordinates == Coordinates::kDouble || std::fabs(offset) <= 10'000,
@@ -83,7 +81,6 @@ void write_trajectory(const Scanner& scanner, const ScanOptions& options, Output
 
 void check_movement(const ScanOptions& o) {
   require(o.sweeps == 1, "--sweeps: a moving scanner has one sweep on each strip");
-  require(o.places.empty(), "--place: a moving scanner has no stations");
   require(o.field_of_view == kFieldOfView, "--field-of-view: a moving scanner has its own");
 }
 

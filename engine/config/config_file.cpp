@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/config/config_file.hpp"
 
-#include "engine/config/config_text.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/regular_file.hpp"
+#include "engine/run/utf8.hpp"
 #include "engine/run/words.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -25,8 +26,60 @@ constexpr std::size_t kLargestConfigFile = 1 << 20;
   throw Error(file.string() + ":" + std::to_string(line) + ": " + reason);
 }
 
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+// Whether a line begins a section, "[" or "[[", with nothing behind that a name can begin with.
+bool is_section_without_name(std::string_view line) {
+  constexpr const char* kBlanks = " \t";
+  std::size_t at = line.find_first_not_of(kBlanks);
+  if (at == line.npos || line[at] != '[') return false;
+  at = line.find_first_not_of(kBlanks, at + 1);
+  if (at != line.npos && line[at] == '[') at = line.find_first_not_of(kBlanks, at + 1);
+  return at == line.npos || (std::isalnum(line[at]) == 0 && std::strchr("_-\"'", line[at]) == nullptr);
+}
+
+// Returns what is wrong with a line that toml++ 3.3 may not be given. Empty: nothing is wrong. The library
+// asserts that a section has a name. It goes down one level for each part of a name. It takes characters
+// outside of ASCII in comments and in strings of one line alone.
+std::string fault_of(std::string_view line) {
+  constexpr std::size_t kMostDots = 15;  // Lacuna's own names have none
+  if (!is_utf8(line)) return "is not UTF-8; a config file must be";
+  std::string bare;  // without its comment, each string as its first quote
+  for (std::size_t dots = 0; !line.empty() && line.front() != '#';) {
+    const char c = line.front();
+    std::size_t end = 1;
+    if (c == '"' || c == '\'') {
+      if (line.starts_with(std::string(3, c)))
+        return "a string of several lines; strings of one line are allowed";
+      while (end < line.size() && line[end] != c) end += line[end] == '\\' && c == '"' ? 2 : 1;
+      ++end;
+    } else if (c != '\t' && (c < ' ' || c > '~')) {
+      return "a character outside of quotes that is not ASCII text; keys and values have none";
+    }
+    dots = std::strchr(",=[]{}", c) != nullptr ? 0 : dots + (c == '.' ? 1 : 0);
+    if (dots > kMostDots) return "a name of more than 16 parts; sections and keys have one part";
+    bare += c;
+    line.remove_prefix(std::min(end, line.size()));
+  }
+  return is_section_without_name(bare) ? "a section without a name; [name] is needed" : "";
+}
+
 toml::table parse_toml(const std::filesystem::path& file, const std::string& text) {
-  if (const auto fault = find_fault(text)) fail(file, fault->line, fault->reason);
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  std::istringstream lines(text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text);
+  std::size_t number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.ends_with('\r')) line.pop_back();
+    ++number;
+    if (const std::string fault = fault_of(line); !fault.empty()) fail(file, number, fault);
+  }
   try {
     return toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {

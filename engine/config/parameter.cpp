@@ -151,8 +151,7 @@ std::string Parameter::print() const {
 
 void Parameter::set(std::string_view text) const {
   if (std::visit(SetFromText{*this, text}, value)) return;
-  const bool is_former = key == "method" && text == "stars";
-  refuse(*this, is_former ? "stars (now called tangential)" : text);
+  refuse(*this, text);
 }
 
 std::optional<std::uint64_t> parse_bytes(std::string_view text) {

@@ -35,7 +35,7 @@ TileOutputs::TileOutputs(const Tiling& tiling, const Parts& parts, PartKey key, 
 void TileOutputs::Kept::find_parts(const Parts& parts) {
   for (const fs::path& file : kept_files(folder)) {
     if (!is_of_step(file, key.step) || file.extension() == kUnsealed || take(file) || parts.is_unit) continue;
-    parts.show(key.step, reason_of(file, key.text()));
+    parts.progress->make_again(key.step);
     remove_kept(file);
   }
 }

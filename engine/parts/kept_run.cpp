@@ -4,6 +4,7 @@
 #include "engine/parts/kept_files.hpp"
 #include "engine/run/error.hpp"
 
+#include <algorithm>
 #include <string_view>
 
 namespace lacuna {
@@ -50,6 +51,22 @@ void write_run(const fs::path& folder, const Parts& parts, const std::string& no
   part.add("inputs", 0, std::span<const char>(inputs));
   part.add("note", 0, std::span<const char>(note));
   part.seal(parts.made_from);
+}
+
+// Returns the parts of a text, each of which ends with `end`.
+std::vector<std::string> split(std::string_view text, char end) {
+  std::vector<std::string> parts;
+  for (std::size_t at; (at = text.find(end)) != std::string_view::npos; text.remove_prefix(at + 1))
+    parts.emplace_back(text.substr(0, at));
+  return parts;
+}
+
+// Returns the first line of `text` that is not in `other`, in quotes.
+std::string first_other_line(const std::string& text, const std::string& other) {
+  const std::vector<std::string> others = split(other, '\n');
+  for (const std::string& line : split(text, '\n'))
+    if (std::ranges::count(others, line) == 0) return "\"" + line + "\"";
+  return "nothing";
 }
 
 // Refuses files of others that have names of parts: they would be replaced.
@@ -141,9 +158,10 @@ Parts open_parts(const PointSource& scan, const Config& config, Progress& progre
   const std::optional<std::string> was = before ? before->made_from() : std::nullopt;
   const bool is_same = was == parts.made_from;
   if (opener == Opener::kUnit && was && !is_same) {
-    const auto [line, now] = first_difference(*was, parts.made_from);
-    throw Error(folder.string() + ": was planned for another run: \"" + line + "\" there, \"" + now +
-                "\" here; allowed: the input and parameters of the plan, or lacuna plan again");
+    throw Error(folder.string() +
+                ": was planned for another run: " + first_other_line(*was, parts.made_from) + " there, " +
+                first_other_line(parts.made_from, *was) +
+                " here; allowed: the input and parameters of the plan, or lacuna plan again");
   }
   if (parts.plan.reads && !can_share_reading(parts.source, config)) {  // it was planned for another run
     parts.plan.reads = false;

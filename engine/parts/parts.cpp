@@ -4,8 +4,14 @@
 #include "engine/parts/kept_files.hpp"
 #include "engine/run/error.hpp"
 
+#include <system_error>
+
 namespace lacuna {
 namespace fs = std::filesystem;
+
+std::string line_of(const Digest& checksum) {
+  return "part " + std::to_string(checksum[0]) + " " + std::to_string(checksum[1]) + "\n";
+}
 
 std::string PartKey::text() const {
   return "step " + step + "\n" + made_from + "share " + std::to_string(share.task) + " of " +
@@ -17,9 +23,9 @@ std::optional<std::string> Parts::seal_of(const PartKey& key) const {
   return part ? std::optional(line_of(part->checksum())) : std::nullopt;
 }
 
-void Parts::show(const std::string& step, const Reason& reason) const {
-  if (reason.why != Reason::Why::kNew && reason.why != Reason::Why::kFollows)
-    progress->make_again(step, reason.words());
+void Parts::show_if_replaced(const PartKey& key) const {
+  std::error_code error;
+  if (fs::exists(file_of(key), error)) progress->make_again(key.step);
 }
 
 void Parts::drop(const std::string& step) const {

@@ -8,21 +8,19 @@
 
 #include "engine/model/points.hpp"
 #include "engine/model/task_share.hpp"
-#include "engine/parts/reason.hpp"
 #include "engine/parts/task_plan.hpp"
 #include "engine/run/progress.hpp"
 #include "engine/store/sealed_part.hpp"
 
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 namespace lacuna {
+
+// Returns a checksum as a line of what another part is made from.
+std::string line_of(const Digest& checksum);
 
 struct PartKey {
   std::string step;  // "survey", "level-0"
@@ -40,7 +38,7 @@ struct Parts {
   SourceParts source;            // empty where nothing is kept
   TaskPlan plan;
   bool is_unit = false;          // one of several processes that make parts of the run: it removes none
-  Progress* progress = nullptr;  // hears why a part is made again
+  Progress* progress = nullptr;  // hears which step is made again
 
   bool are_kept() const { return !folder.empty(); }
 
@@ -70,8 +68,6 @@ struct Parts {
 
   // Returns the checksum of a kept part as a line of what another part is made from.
   std::optional<std::string> seal_of(const PartKey& key) const;
-  // Lets the progress show why a part is made again, unless that follows from a step before.
-  void show(const std::string& step, const Reason& reason) const;
   // Removes the kept parts of a step.
   void drop(const std::string& step) const;
 
@@ -80,11 +76,13 @@ struct Parts {
   std::filesystem::path file_of(const PartKey& key) const;
   template <class Form, class Value>
   void write(const PartKey& key, const Form& form, Value made) const {
-    show(key.step, reason_of(file_of(key), key.text()));
+    show_if_replaced(key);
     PartWriter part(file_of(key));
     form.write(made, part);
     part.seal(key.text());
   }
+  // Lets the progress show that the step is made again, where its file is there.
+  void show_if_replaced(const PartKey& key) const;
   [[noreturn]] void fail_replaced(const std::filesystem::path& file) const;
 };
 

@@ -18,8 +18,8 @@ class LACUNA_API Progress {
   // `count` more have passed. Any thread may call this, and several may do so at a time.
   virtual void advance(std::uint64_t count) = 0;
   virtual void end() noexcept = 0;
-  // A kept part of a step, such as "level-0", is made again, and why.
-  virtual void make_again(std::string_view /*step*/, std::string_view /*why*/) {}
+  // A kept part of a step, such as "level-0", is made again. Steps that follow from it may be, too.
+  virtual void make_again(std::string_view /*step*/) {}
 };
 
 // A progress that reports nothing.

@@ -57,7 +57,6 @@ def evaluate(
     truth: Union[str, os.PathLike],
     *,
     scans: Iterable[Union[str, os.PathLike]] = (),
-    surface: Union[str, os.PathLike] = "",
     tolerance: float = 2.0,
     min_vertices: int = 8,
 ) -> dict[str, Any]:
@@ -65,7 +64,7 @@ def evaluate(
     JSON. tolerance: in spacings of the scan."""
     with _folder_of(holes) as folder:
         names = [os.fspath(scan) for scan in scans]
-        return json.loads(_core.evaluate(folder, os.fspath(truth), names, os.fspath(surface), tolerance, min_vertices))
+        return json.loads(_core.evaluate(folder, os.fspath(truth), names, tolerance, min_vertices))
 
 
 def compare(before: Result, after: Result, *, tolerance: float = 0.0) -> dict[str, Any]:

@@ -79,7 +79,7 @@ def detect(
     """Finds the holes of scan files, which together are one registered scan and may be larger than memory.
 
     files: names of scans, of folders with scans, or "@list" of a list of names. LAS, LAZ, E57, PLY, PCD, PTX,
-        OBJ, STL and text are read.
+        OBJ and text are read.
     Other arguments are those of `find_holes`.
     """
     found = _core.find_in_files(_names(files), _checked({**params, "points": points}), progress)

@@ -14,6 +14,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+from numpy.lib.recfunctions import structured_to_unstructured
 
 import lacuna
 
@@ -72,10 +73,13 @@ class FindHoles(Folder):
             records[name] = single[:, axis]
         wide = np.full((2 * len(single), 5), 7, np.float32)
         wide[::2, 4:1:-1] = single
+        np.save(self.folder / "a.npy", np.column_stack([single, single]))
         for xyz in (
             single,
             np.asfortranarray(single),
             wide[::2, 4:1:-1],
+            structured_to_unstructured(records[["x", "y", "z"]]),
+            np.load(self.folder / "a.npy", mmap_mode="r")[:, :3],
             single.astype(np.float64)[::-1][::-1],
             single.astype(">f8"),
         ):

@@ -249,11 +249,6 @@ const Option& Option::joined_by_comma() const {
   return *this;
 }
 
-const Option& Option::in_groups_of(int count) const {
-  option_->type_size(count)->expected(-1);
-  return *this;
-}
-
 const Option& Option::rare() const {
   option_->group(kRare + section_of(*option_));
   return *this;
@@ -308,7 +303,6 @@ template Option Command::add_option(const std::string&, std::size_t&, const std:
 template Option Command::add_option(const std::string&, std::uint32_t&, const std::string&) const;
 template Option Command::add_option(const std::string&, std::array<double, 2>&, const std::string&) const;
 template Option Command::add_option(const std::string&, std::array<double, 3>&, const std::string&) const;
-template Option Command::add_option(const std::string&, std::vector<double>&, const std::string&) const;
 template Option Command::add_option(const std::string&, fs::path&, const std::string&) const;
 template Option Command::add_option(const std::string&, std::optional<double>&, const std::string&) const;
 template Option Command::add_option(const std::string&, std::optional<fs::path>&, const std::string&) const;

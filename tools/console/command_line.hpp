@@ -40,10 +40,9 @@ class Option {
   // The default as the config file has it. An empty one is not shown.
   const Option& show_default(const std::string& text) const;
   const Option& excludes(const Option& other) const;
-  const Option& once() const;                   // a second time is an error
-  const Option& joined_by_comma() const;        // may be given again: the texts become one
-  const Option& in_groups_of(int count) const;  // several values at a time; may be given again
-  const Option& rare() const;                   // only --help-all shows it
+  const Option& once() const;             // a second time is an error
+  const Option& joined_by_comma() const;  // may be given again: the texts become one
+  const Option& rare() const;             // only --help-all shows it
 
   // These restrict the values. An error names the restriction.
   const Option& whole_number() const;  // CLI11 alone makes a number near 2^64 of -1

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <stop_token>
 #include <thread>
+#include <utility>
 
 #include <unistd.h>
 
@@ -90,9 +91,10 @@ class ShownProgress final : public CountedProgress {
     print_line("lacuna: " + all.step + ": done in " + print_duration(all.step_seconds) + rate_of(all) +
                run_time(all));
   }
-  void make_again(std::string_view step, std::string_view why) override {
+  void make_again(std::string_view step) override {
     const std::lock_guard lock(mutex_);
-    print_line("lacuna: " + std::string(step) + " is made again: " + visible(std::string(why)));
+    if (!std::exchange(is_made_again_, true))
+      print_line("lacuna: " + std::string(step) + " is made again, and what follows from it");
   }
 
  private:
@@ -113,7 +115,7 @@ class ShownProgress final : public CountedProgress {
   std::mutex mutex_;
   std::condition_variable_any woken_;
   Clock::time_point next_;
-  bool is_running_ = false;
+  bool is_running_ = false, is_made_again_ = false;
   std::jthread clock_;  // uses the others
 };
 

@@ -32,14 +32,13 @@ struct MatchRule {
 };
 
 enum class EdgeDecision {
-  kFound,      // the first loop that matches its true loop
-  kRepeated,   // a later one
-  kShort,      // matches only a true loop that does not count: neither right nor wrong
-  kJoined,     // matches none, but runs along several that count
-  kParted,     // matches none, but is a part of one that counts
-  kStep,       // along a step of density; match_loops does not know it
-  kUnsampled,  // around a place of the surface without points; match_loops does not know it
-  kFalse,      // nothing of the above
+  kFound,     // the first loop that matches its true loop
+  kRepeated,  // a later one
+  kShort,     // matches only a true loop that does not count: neither right nor wrong
+  kJoined,    // matches none, but runs along several that count
+  kParted,    // matches none, but is a part of one that counts
+  kStep,      // along a step of density; match_loops does not know it
+  kFalse,     // nothing of the above
 };
 
 struct LoopMatch {
@@ -49,11 +48,10 @@ struct LoopMatch {
   // on which most of it lies. For a false loop it is the best of all that are near. Empty if no true loop is
   // near.
   std::optional<std::size_t> true_loop;
-  double on_any = 0;                   // share of its points on the true loops that count
-  double on = 0;                       // share of its points on that true loop
-  double covered = 0;                  // share of that true loop's vertices on it
-  std::optional<double> on_step;       // share of its points on steps of density
-  std::optional<double> at_unsampled;  // share of its points at an unsampled place inside it
+  double on_any = 0;              // share of its points on the true loops that count
+  double on = 0;                  // share of its points on that true loop
+  double covered = 0;             // share of that true loop's vertices on it
+  std::optional<double> on_step;  // share of its points on steps of density
 };
 
 struct TrueMatch {

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/peers/read_scan.hpp"
+
+#include "io/scan/file_scan.hpp"
+
+namespace lacuna::peers {
+
+std::vector<float> read_scan(const char* file) {
+  io::FileScan scan({file}, {});
+  std::vector<float> coordinates;
+  coordinates.reserve(3 * scan.expected_points().value_or(0));
+  for (PointBatch batch; scan.next(batch);) {
+    for (const Eigen::Vector3d& position : batch.positions) {
+      if (!position.allFinite()) continue;
+      for (const double coordinate : position) coordinates.push_back(static_cast<float>(coordinate));
+    }
+  }
+  return coordinates;
+}
+
+}  // namespace lacuna::peers
