@@ -4,8 +4,6 @@
 #include "engine/parts/kept_files.hpp"
 #include "engine/run/error.hpp"
 
-#include <string_view>
-
 namespace lacuna {
 namespace {
 

@@ -8,18 +8,13 @@
 
 #include "engine/model/task_share.hpp"
 #include "engine/parts/reason.hpp"
-#include "engine/parts/task_plan.hpp"
 #include "engine/run/progress.hpp"
 #include "engine/store/sealed_part.hpp"
 
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 namespace lacuna {
 

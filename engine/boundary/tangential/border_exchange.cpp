@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/tangential/border_exchange.hpp"
 
+#include "engine/boundary/rounds.hpp"
 #include "engine/boundary/tangential/belt.hpp"
 #include "engine/boundary/tangential/growth.hpp"
-#include "engine/run/rounds.hpp"
 #include "engine/store/merge_runs.hpp"
 
 #include <algorithm>
@@ -40,9 +40,11 @@ std::vector<TileIndex> without_marked(std::span<const TileIndex> tiles, std::spa
 
 }  // namespace
 
-BorderExchange::BorderExchange(const TileOutputs& outputs, const Tiling& tiling, Job& job)
-    : job_(job),
-      stars_(outputs, tiling, job),
+BorderExchange::BorderExchange(const TileOutputs& outputs, const Tiling& tiling,
+                               const TangentialConfig& config, const Spill& spill, const Workers& workers)
+    : config_(config),
+      workers_(workers),
+      stars_(outputs, tiling, spill, workers.arena),
       is_published_(tiling.tiles.size()),
       is_sampled_(tiling.tiles.size()),
       is_measured_(tiling.tiles.size()) {}
@@ -61,8 +63,7 @@ void BorderExchange::find_active_points() {
 
 std::vector<Wedge> BorderExchange::wedges(TileIndex tile) {
   std::vector<Wedge> wedges = stars_.outputs.read(kWedges, tile);
-  const std::vector<Wedge> open =
-      GrowingTile(stars_, tile, is_measured_).growth.wedges(job_.config.tangential);
+  const std::vector<Wedge> open = GrowingTile(stars_, tile, is_measured_).growth.wedges(config_);
   wedges.insert(wedges.end(), open.begin(), open.end());
   merge_runs(wedges, [](const Wedge& a, const Wedge& b) { return a.row < b.row; });
   return wedges;
@@ -90,17 +91,16 @@ std::vector<TileIndex> BorderExchange::with_neighbours(std::span<const TileIndex
 // Measures the belts of tiles with an active belt point. On clean scans, most tiles have none.
 void BorderExchange::measure(std::span<const TileIndex> tiles) {
   std::vector<std::uint8_t> is_inactive(is_measured_);
-  job_.arena.for_each(tiles.size(), [&](std::size_t i) {
+  workers_.arena.for_each(tiles.size(), [&](std::size_t i) {
     if (!has_active_belt(tiles[i])) is_inactive[tiles[i]] = 1;
   });
   const std::vector<TileIndex> to_measure = without_marked(tiles, is_inactive);
   const std::vector<TileIndex> to_sample = without_marked(with_neighbours(to_measure), is_sampled_);
   const std::vector<TileIndex> to_publish = without_marked(with_neighbours(to_sample), is_published_);
-  const TangentialConfig& config = job_.config.tangential;
   const auto bytes = [&](TileIndex t) { return belt_bytes(stars_, t); };
   for_each(to_publish, bytes, [&](TileIndex t) { stars_.publish(t); });
-  for_each(to_sample, bytes, [&](TileIndex t) { sample_border(stars_, t, config); });
-  for_each(to_measure, bytes, [&](TileIndex t) { measure_belt(stars_, t, config); });
+  for_each(to_sample, bytes, [&](TileIndex t) { sample_border(stars_, t, config_); });
+  for_each(to_measure, bytes, [&](TileIndex t) { measure_belt(stars_, t, config_); });
   for (const TileIndex t : to_publish) is_published_[t] = 1;
   for (const TileIndex t : to_sample) is_sampled_[t] = 1;
   for (const TileIndex t : to_measure) is_measured_[t] = 1;
@@ -129,7 +129,7 @@ void BorderExchange::for_each(std::span<const TileIndex> tiles, Bytes&& bytes, S
   std::vector<std::uint64_t> needs;
   needs.reserve(tiles.size());
   for (const TileIndex t : tiles) needs.push_back(bytes(t));
-  job_.for_each_within(job_.memory.work, needs, [&](std::size_t i) { step(tiles[i]); });
+  workers_.for_each_within(workers_.memory.work, needs, [&](std::size_t i) { step(tiles[i]); });
 }
 
 }  // namespace lacuna::tangential

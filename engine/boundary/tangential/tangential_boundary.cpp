@@ -28,20 +28,22 @@ void connect_chains(std::span<const Wedge> wedges, std::span<const LocalIndex> c
 
 }  // namespace
 
-TangentialBoundary::TangentialBoundary(const Tiling& tiling, Job& job)
+TangentialBoundary::TangentialBoundary(const Tiling& tiling, const TangentialConfig& config,
+                                       const Spill& spill, const Workers& workers)
     : tiling_(tiling),
-      job_(job),
-      config_(job.config.tangential),
-      curve_budget_(job.memory.work / 8 / job.arena.threads()),
-      chain_points_(job.file("chain-points")),
-      loops_(job.file("loops")) {}
+      config_(config),
+      spill_(spill),
+      workers_(workers),
+      curve_budget_(workers.memory.work / 8 / workers.arena.threads()),
+      chain_points_(spill.file("chain-points")),
+      loops_(spill.file("loops")) {}
 
 void TangentialBoundary::emit(const EvaluatedTile& tile, TileOutput& output) const {
   emit_stars(tile, config_, output);
 }
 
 void TangentialBoundary::complete_edges(const TileOutputs& outputs) {
-  exchange_.emplace(outputs, tiling_, job_);
+  exchange_.emplace(outputs, tiling_, config_, spill_, workers_);
   exchange_->find_active_points();
 }
 
@@ -68,7 +70,7 @@ void TangentialBoundary::chain_tile(TileIndex t) {
       wedges.begin(), wedges.end(), [](const Wedge& wedge) { return wedge.scale == Scale::kFine; }));
   std::vector<LocalIndex> chain_of(wedges.size());
   std::vector<CurvePoint> points;
-  GraphPart<OpenChain> part{.single_vertices_count = true};
+  TileGraph<OpenChain> part{.single_vertices_count = true};
   follow_wedges(wedges, partners_of(wedges), [&](const WedgeChain& chain) {
     const LocalIndex number = part.vertices++;
     points.clear();
@@ -78,7 +80,7 @@ void TangentialBoundary::chain_tile(TileIndex t) {
     }
     const Scale scale = wedges[chain.wedges.front()].scale;
     if (chain.is_closed) {
-      Scratch scratch(job_.temporary, curve_budget_);
+      Scratch scratch(spill_.folder, curve_budget_);
       add_loops(points, scale, scratch);
       return;
     }
@@ -100,26 +102,26 @@ void TangentialBoundary::chain_tile(TileIndex t) {
 
 void TangentialBoundary::stitch(const TileOutputs&, const Totals&) {
   const std::size_t tiles = tiling_.tiles.size();
-  stitch_.emplace(tiles, kBytesPerChain, job_);
+  stitch_.emplace(tiles, kBytesPerChain, spill_, workers_);
   std::vector<std::uint64_t> needs(tiles);
   for (TileIndex t = 0; t < tiles; ++t)
     needs[t] = exchange_->growing_bytes(t) + exchange_->most_wedges(t) * kBytesPerWedge;
-  const MemoryLedger::Lease curves = job_.ledger.take(job_.memory.work / 8);
-  job_.for_each_within(job_.memory.work - curves.bytes(), needs,
-                       [&](std::size_t t) { chain_tile(static_cast<TileIndex>(t)); });
+  const MemoryLedger::Lease curves = workers_.memory.ledger.take(workers_.memory.work / 8);
+  workers_.for_each_within(workers_.memory.work - curves.bytes(), needs,
+                           [&](std::size_t t) { chain_tile(static_cast<TileIndex>(t)); });
   exchange_.reset();
 }
 
 FoundLoops TangentialBoundary::find_loops(const TileOutputs&) {
-  const MemoryLedger::Lease curves = job_.ledger.take(job_.memory.work / 8);
+  const MemoryLedger::Lease curves = workers_.memory.ledger.take(workers_.memory.work / 8);
   const auto add = [&](auto curve, Scale scale, Scratch& scratch) { add_loops(curve, scale, scratch); };
   stitch_->for_each_component(
       [&](std::span<const OpenChain> chains) {
-        close_chains(chains, chain_points_, job_.temporary, curve_budget_, add);
+        close_chains(chains, chain_points_, spill_.folder, curve_budget_, add);
       },
       [&](const auto& for_each_chain, std::uint64_t count) {
-        const MemoryLedger::Lease lease = job_.ledger.take(job_.memory.work / 4 * 3);
-        close_many_chains(for_each_chain, count, chain_points_, job_.temporary, lease.bytes() / 3, add);
+        const MemoryLedger::Lease lease = workers_.memory.ledger.take(workers_.memory.work / 4 * 3);
+        close_many_chains(for_each_chain, count, chain_points_, spill_.folder, lease.bytes() / 3, add);
       });
   loops_.sort();
   return {.loops = std::move(loops_), .edges = edges_, .components = stitch_->components()};

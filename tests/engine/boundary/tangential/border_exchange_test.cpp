@@ -33,7 +33,7 @@ Found wedges_of(const Cloud& cloud, std::int64_t tile_points, std::int64_t threa
   const TileOutputs outputs = scan.evaluate({[&](const EvaluatedTile& tile, TileOutput& output) {
     emit_stars(tile, scan.config.tangential, output);
   }});
-  BorderExchange exchange(outputs, tiling, scan.job);
+  BorderExchange exchange(outputs, tiling, scan.config.tangential, scan.job.spill, scan.job.workers);
   exchange.find_active_points();
 
   Found found{.tiles = tiling.tiles.size()};
