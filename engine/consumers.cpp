@@ -11,15 +11,17 @@ namespace lacuna {
 namespace {
 
 // The method that the config names.
-std::unique_ptr<BoundaryMethod> boundary_method(const Tiling& tiling, Job& job) {
+std::unique_ptr<BoundaryMethod> boundary_method(const Tiling& tiling, const Job& job) {
   if (job.config.loops.method == LoopMethod::kPaper)
-    return std::make_unique<paper::PaperBoundary>(tiling, job);
-  return std::make_unique<tangential::TangentialBoundary>(tiling, job);
+    return std::make_unique<paper::PaperBoundary>(tiling, job.config.spanning, job.spill, job.workers);
+  return std::make_unique<tangential::TangentialBoundary>(tiling, job.config.tangential, job.spill,
+                                                          job.workers);
 }
 
 }  // namespace
 
-Consumers::Consumers(const Level& level, Job& job) : method(boundary_method(level.store.tiling(), job)) {
+Consumers::Consumers(const Level& level, const Job& job)
+    : method(boundary_method(level.store.tiling(), job)) {
   all.push_back([this](const EvaluatedTile& tile, TileOutput& output) { method->emit(tile, output); });
   if (level.number > 0) return;
   const ResultsConfig& wanted = job.config.results;

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "engine/boundary/boundary_method.hpp"
+#include "engine/config/job.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/results/scan_sample.hpp"
-#include "engine/run/job.hpp"
 #include "engine/thin/level.hpp"
 
 #include <memory>
@@ -17,7 +17,7 @@ namespace lacuna {
 // The method finds the loops. At the first level, other consumers find all else that a user wants of its
 // points.
 struct Consumers {
-  Consumers(const Level& level, Job& job);  // both must outlive this
+  Consumers(const Level& level, const Job& job);  // both must outlive this
   Consumers(const Consumers&) = delete;
   Consumers& operator=(const Consumers&) = delete;
 

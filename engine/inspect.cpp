@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/inspect.hpp"
 
-#include "engine/run/job.hpp"
+#include "engine/config/job.hpp"
 #include "engine/scan_steps.hpp"
 #include "engine/summarise.hpp"
 
@@ -14,7 +14,7 @@ Inspection inspect(PointSource& scan, const Config& given, const std::filesystem
   Job job(config, temporary, progress);
   const Parts nothing_kept;
   const Level level = first_level({scan, nothing_kept, job});
-  return {.summary = summarise(level, job),
+  return {.summary = summarise(level, job.workers),
           .cell_size = level.survey.grid.edge(),
           .cells = level.store.tiling().cells.size()};
 }

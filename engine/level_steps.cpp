@@ -8,7 +8,6 @@
 #include "engine/parts/level_form.hpp"
 #include "engine/thin/thin.hpp"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,13 +23,13 @@ struct BoundaryNumbers {
 
 struct LoopsForm {
   double extent;
-  const Job& job;
+  const Spill& spill;
 
   std::optional<FoundLevel> read(const PartReader& part) const {
     const auto numbers = part.record<BoundaryNumbers>("boundary");
     return FoundLevel{
         read_totals(part, extent),
-        {Loops::read(part, job.file("loops")), numbers.edges, numbers.components, numbers.minimum_loop}};
+        {Loops::read(part, spill.file("loops")), numbers.edges, numbers.components, numbers.minimum_loop}};
   }
   static void write(const FoundLevel& found, PartWriter& part) {
     write_totals(found.totals, part);
@@ -41,81 +40,83 @@ struct LoopsForm {
 };
 
 // Returns what a level's evaluation is made from, and the level above.
-std::string made_from(const Level& level, const Run& run) {
-  return level.seal + evaluation_parameters(run.job.config);
+std::string made_from(const Level& level, const StepContext& given) {
+  return level.seal + evaluation_parameters(given.job.config);
 }
 
 // Levels above the first one have only the outputs of their loops.
-PartKey outputs_key(const Level& level, const Run& run) {
+PartKey outputs_key(const Level& level, const StepContext& given) {
   return {step_of_level(kEvaluate, level.number),
           {},
-          made_from(level, run) + (level.number == 0 ? output_parameters(run.job.config) : "")};
+          made_from(level, given) + (level.number == 0 ? output_parameters(given.job.config) : "")};
 }
 
 }  // namespace
 
-std::optional<Level> share_of_level_above(const Level& below, const TotalsOf& totals_below, const Run& run,
-                                          std::size_t task) {
+std::optional<Level> share_of_level_above(const Level& below, const TotalsOf& totals_below,
+                                          const StepContext& given, std::size_t task) {
   const std::size_t number = below.number + 1;
-  const PartKey key{
-      step_of_level(kLevel, number), {task, run.parts.plan.tasks_of_level(number)}, made_from(below, run)};
-  const LevelForm form{run.parts, run.job, key.step};
-  if (std::optional<Level> kept = run.parts.find(key, form)) return kept;
+  const PartKey key{step_of_level(kLevel, number),
+                    {task, given.parts.plan.tasks_of_level(number)},
+                    made_from(below, given)};
+  const LevelForm form{given.parts, given.job, key.step};
+  if (std::optional<Level> kept = given.parts.find(key, form)) return kept;
   const double edge = edge_above(below, totals_below().distances);
   if (edge == 0) return std::nullopt;
-  Level share = thin_above(below, key.share, edge, form.files(), run.job);
+  Level share = thin_above(below, key.share, edge, form.files(), given.job);
   if (key.share.tasks == 1 && share.store.tiling().points() < kFewestOfLevel) return std::nullopt;
-  return run.parts.keep(key, form, std::move(share));
+  return given.parts.keep(key, form, std::move(share));
 }
 
-std::optional<Level> level_above(const Level& below, const TotalsOf& totals_below, const Run& run) {
+std::optional<Level> level_above(const Level& below, const TotalsOf& totals_below, const StepContext& given) {
   std::vector<Level> shares;
-  for (std::size_t task = 0; task < run.parts.plan.tasks_of_level(below.number + 1); ++task) {
-    std::optional<Level> share = share_of_level_above(below, totals_below, run, task);
+  for (std::size_t task = 0; task < given.parts.plan.tasks_of_level(below.number + 1); ++task) {
+    std::optional<Level> share = share_of_level_above(below, totals_below, given, task);
     if (!share) return std::nullopt;
     shares.push_back(*std::move(share));
   }
-  Level level = join_levels(std::move(shares), run.job);
+  Level level = join_levels(std::move(shares), given.job.spill);
   return level.store.tiling().points() >= kFewestOfLevel ? std::optional(std::move(level)) : std::nullopt;
 }
 
-std::optional<Level> level_of_number(std::size_t number, const Run& run) {
-  if (number == 0) return first_level(run);
-  const std::optional<Level> below = level_of_number(number - 1, run);
+std::optional<Level> level_of_number(std::size_t number, const StepContext& given) {
+  if (number == 0) return first_level(given);
+  const std::optional<Level> below = level_of_number(number - 1, given);
   if (!below) return std::nullopt;
   return level_above(
-      *below, [&] { return totals_of(*below, run); }, run);
+      *below, [&] { return totals_of(*below, given); }, given);
 }
 
-TileOutputs evaluate_level(const Level& level, std::span<const TileConsumer> consumers, const Run& run,
-                           const TaskShare& share) {
+TileOutputs evaluate_level(const Level& level, std::span<const TileConsumer> consumers,
+                           const StepContext& given, const TaskShare& share) {
   const Tiling& tiling = level.store.tiling();
-  TileOutputs outputs(tiling, run.parts, outputs_key(level, run), run.job);
+  TileOutputs outputs(tiling, given.parts, outputs_key(level, given), given.job.spill);
   std::vector<TileIndex> tiles = outputs.missing();
   const TileRange range = tiling.tiles_in(share);
   std::erase_if(tiles, [&](TileIndex t) { return t < range.first || t >= range.last; });
-  evaluate_tiles(level, tiles, exchange_halo(level.store, tiles, run.job), consumers, outputs, run.job);
+  evaluate_tiles(level, tiles, exchange_halo(level.store, tiles, given.job), consumers, outputs, given.job);
   return outputs;
 }
 
-Totals totals_of(const Level& level, const Run& run) {
-  const Consumers consumers(level, run.job);
-  const TileOutputs outputs = evaluate_level(level, consumers.all, run);
+Totals totals_of(const Level& level, const StepContext& given) {
+  const Consumers consumers(level, given.job);
+  const TileOutputs outputs = evaluate_level(level, consumers.all, given);
   return read_totals(outputs, level.store.tiling(), level.extent);
 }
 
 FoundLevel loops_of_level(const Level& level, BoundaryMethod& method,
-                          const std::function<const TileOutputs&()>& outputs_of, const Run& run) {
-  const PartKey key{step_of_level(kLoops, level.number), {}, made_from(level, run)};
-  return run.parts.get(key, LoopsForm{level.extent, run.job}, [&] {
+                          const std::function<const TileOutputs&()>& outputs_of, const StepContext& given) {
+  const PartKey key{step_of_level(kLoops, level.number), {}, made_from(level, given)};
+  return given.parts.get(key, LoopsForm{level.extent, given.job.spill}, [&] {
     const TileOutputs& outputs = outputs_of();
     Totals totals = read_totals(outputs, level.store.tiling(), level.extent);
-    Phase phase(run.job, "loops", 0);
+    Phase phase(given.job.phases, "loops", 0);
     method.complete_edges(outputs);
-    run.job.trim();
+    given.job.workers.memory.trim();
     method.stitch(outputs, totals);
     FoundLoops found = method.find_loops(outputs);
-    if (run.job.config.loops.method == LoopMethod::kTangential) rate_loops(level.store, found.loops, run.job);
+    if (given.job.config.loops.method == LoopMethod::kTangential)
+      rate_loops(level.store, found.loops, given.job.spill, given.job.workers);
     return FoundLevel{std::move(totals), std::move(found)};
   });
 }

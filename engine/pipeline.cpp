@@ -13,7 +13,6 @@
 #include "engine/results/collect.hpp"
 #include "engine/results/loop_rows.hpp"
 #include "engine/results/orientation_graph.hpp"
-#include "engine/results/point_results.hpp"
 #include "engine/results/represented.hpp"
 #include "engine/results/scan_sample.hpp"
 #include "engine/scan_steps.hpp"
@@ -22,7 +21,6 @@
 #include "engine/track/level_loops.hpp"
 #include "engine/track/track_loops.hpp"
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -34,17 +32,18 @@ namespace {
 namespace fs = std::filesystem;
 
 // Finds the loops of each level above the first one, from fine to coarse.
-void find_loops_above(const Level& first, Totals totals, std::vector<LevelLoops>& levels, const Run& run) {
-  Phase phase(run.job, "levels", first.store.tiling().points());  // each has half of the points below
+void find_loops_above(const Level& first, Totals totals, std::vector<LevelLoops>& levels,
+                      const StepContext& given) {
+  Phase phase(given.job.phases, "levels", first.store.tiling().points());  // each has half of those below
   std::optional<Level> below;
   while (std::optional<Level> level = level_above(
-             below ? *below : first, [&] { return totals; }, run)) {
-    Consumers consumers(*level, run.job);
+             below ? *below : first, [&] { return totals; }, given)) {
+    Consumers consumers(*level, given.job);
     std::optional<TileOutputs> outputs;
     const auto evaluate = [&]() -> const TileOutputs& {
-      return outputs.emplace(evaluate_level(*level, consumers.all, run));
+      return outputs.emplace(evaluate_level(*level, consumers.all, given));
     };
-    FoundLevel found = loops_of_level(*level, *consumers.method, evaluate, run);
+    FoundLevel found = loops_of_level(*level, *consumers.method, evaluate, given);
     levels.push_back(level_loops(std::move(found.boundary.loops), level->edge, found.totals));
     totals = std::move(found.totals);
     phase.advance(level->store.tiling().points());
@@ -55,41 +54,42 @@ void find_loops_above(const Level& first, Totals totals, std::vector<LevelLoops>
 std::unique_ptr<Detection> detect_once(PointSource& scan, const Config& config, const fs::path& temporary,
                                        Progress& progress) {
   Job job(config, temporary, progress);
+  auto& [settings, workers, spill, phases] = job;
   const Parts parts = open_parts(scan, config, progress, Opener::kRun);
-  const Run run{scan, parts, job};
+  const StepContext given{scan, parts, job};
 
   // Survey and bucket: find where the points are, and bring them into tiles on disk.
-  Level first = first_level(run);
+  Level first = first_level(given);
   const TileStore& store = first.store;
-  Summary summary = summarise(first, job);
+  Summary summary = summarise(first, workers);
   const double eps = eps_length(config.neighbourhood, first.extent);
-  refuse_balls(store.tiling(), eps, job);  // the balls of thinner levels hold fewer points
+  refuse_balls(store.tiling(), eps, workers);  // the balls of thinner levels hold fewer points
 
   // Halo, evaluate: each point's criteria from its exact neighbourhood (paper, 4.1 to 4.6).
   Consumers consumers(first, job);
-  const TileOutputs outputs = evaluate_level(first, consumers.all, run);
+  const TileOutputs outputs = evaluate_level(first, consumers.all, given);
 
   // Boundary edges, stitch, loops (paper, 5.1 and 5.2), of all levels.
   FoundLevel found = loops_of_level(
-      first, *consumers.method, [&]() -> const TileOutputs& { return outputs; }, run);
+      first, *consumers.method, [&]() -> const TileOutputs& { return outputs; }, given);
   std::vector<LevelLoops> levels;
   levels.push_back(level_loops(std::move(found.boundary.loops), first.edge, found.totals));
-  if (has_levels(config)) find_loops_above(first, found.totals, levels, run);
+  if (has_levels(config)) find_loops_above(first, found.totals, levels, given);
   add_findings(found.totals, found.boundary, levels, eps, summary);
 
   // Track: follows each hole through the levels.
   TrackedLoops tracked = track_loops(std::move(levels), job);
-  MeasuredLoops loops =
-      measure_loops(std::move(tracked.loops), tracked.tracks, found.totals.mean_edge_length(), job);
+  MeasuredLoops loops = measure_loops(std::move(tracked.loops), tracked.tracks,
+                                      found.totals.mean_edge_length(), spill, workers, phases);
 
   // Nest: finds the islands of holes, and takes their areas from the holes'.
-  nest_loops(loops, job);
+  nest_loops(loops, spill, workers, phases);
 
   // Brings the results into the order of the input.
   std::vector<std::size_t> selected = select_loops(loops.measures, config.selection);
-  summary.hole_area = measure_hole_area(loops, selected, job);
-  LoopRows on_loops = find_loop_rows(loops.loops, selected, store, job);
-  RowSet coherent = coherent_candidates(outputs, store.tiling(), job);
+  summary.hole_area = measure_hole_area(loops, selected, spill, workers);
+  LoopRows on_loops = find_loop_rows(loops.loops, selected, store, spill, workers.arena);
+  RowSet coherent = coherent_candidates(outputs, store.tiling(), workers.arena, phases);
   RowSet boundary_candidates = consumers.method->boundary_candidates(outputs, coherent, on_loops.rows);
   Findings findings{.summary = std::move(summary),
                     .loops = std::move(loops),
@@ -97,13 +97,16 @@ std::unique_ptr<Detection> detect_once(PointSource& scan, const Config& config, 
                     .on_loops = std::move(on_loops),
                     .coherent = std::move(coherent),
                     .boundary_candidates = std::move(boundary_candidates)};
-  if (config.results.points) findings.points.emplace(outputs, first.survey.points, store, job);
+  if (config.results.points) findings.points.emplace(outputs, first.survey.points, store, spill, workers);
   if (consumers.sample)
-    findings.sample.emplace(consumers.sample->draw(outputs, store.tiling().tiles.size(), job));
-  if (config.normals.orient) findings.opposed_normals = opposed_normals(outputs, store, job);
-  std::unique_ptr<Detection> detection = collect_results(std::move(findings), outputs, store, job);
+    findings.sample.emplace(
+        consumers.sample->draw(outputs, store.tiling().tiles.size(), spill, workers, phases));
+  if (config.normals.orient)
+    findings.opposed_normals = opposed_normals(outputs, store, spill, workers, phases);
+  std::unique_ptr<Detection> detection =
+      collect_results(std::move(findings), outputs, store, spill, workers, phases);
   if (!first.represented) return detection;
-  return spread_results(std::move(detection), *std::move(first.represented), job);
+  return spread_results(std::move(detection), *std::move(first.represented), spill);
 }
 
 }  // namespace

@@ -54,43 +54,43 @@ struct TilesForm {
 };
 
 struct BucketForm {
-  PointForm form;
+  PointLayout layout;
 
   std::optional<ScatteredPoints> read(PartReader part) const {
-    return ScatteredPoints(std::move(part), form);
+    return ScatteredPoints(std::move(part), layout);
   }
   static void write(const ScatteredPoints& points, PartWriter& part) { points.write(part); }
 };
 
 // The parts of the steps before the first level are kept where tasks share them.
-Parts shared_parts(const Run& run) {
-  return run.parts.plan.reads ? run.parts : Parts();
+Parts shared_parts(const StepContext& given) {
+  return given.parts.plan.reads ? given.parts : Parts();
 }
 
-TaskShare share_of(const Run& run, std::size_t task) {
-  return {task, run.parts.plan.tasks_of_level(0)};
+TaskShare share_of(const StepContext& given, std::size_t task) {
+  return {task, given.parts.plan.tasks_of_level(0)};
 }
 
-IndexRange files_of(const Run& run, const TaskShare& share) {
-  return share_of(run.parts.source.points, share);
+IndexRange files_of(const StepContext& given, const TaskShare& share) {
+  return share_of(given.parts.source.points, share);
 }
 
-PartKey key_of(const Run& run, std::string_view step, std::size_t task, std::string made_from) {
-  return {std::string(step), share_of(run, task), std::move(made_from)};
+PartKey key_of(const StepContext& given, std::string_view step, std::size_t task, std::string made_from) {
+  return {std::string(step), share_of(given, task), std::move(made_from)};
 }
 
-PartKey level_key(const Run& run, std::size_t task) {
-  return key_of(run, step_of_level(kLevel, 0), task, run.parts.made_from);
+PartKey level_key(const StepContext& given, std::size_t task) {
+  return key_of(given, step_of_level(kLevel, 0), task, given.parts.made_from);
 }
 
 // Returns what the tiles are made from.
-std::string seals_of_surveys(const Run& run) {
+std::string seals_of_surveys(const StepContext& given) {
   std::string seals;
-  if (!run.parts.plan.reads) return seals;
-  for (std::size_t task = 0; task < run.parts.plan.tasks; ++task) {
+  if (!given.parts.plan.reads) return seals;
+  for (std::size_t task = 0; task < given.parts.plan.tasks; ++task) {
     const std::optional<std::string> seal =
-        run.parts.seal_of(key_of(run, kSurvey, task, run.parts.made_from));
-    seals += seal ? *seal : survey_of_task(run, task).seal;
+        given.parts.seal_of(key_of(given, kSurvey, task, given.parts.made_from));
+    seals += seal ? *seal : survey_of_task(given, task).seal;
   }
   return seals;
 }
@@ -105,22 +105,23 @@ void refuse_tiny(const Eigen::AlignedBox3d& bounds) {
 }
 
 // Surveys the whole scan, alone or from the surveys of all tasks.
-SurveyedScan survey_all(const Run& run, ScanTiles& tiles) {
-  if (!run.parts.plan.reads) {
-    SurveyedScan survey = survey_scan(run.scan, run.job);
-    tiles.pass_counts = run.scan.pass_counts();
+SurveyedScan survey_all(const StepContext& given, ScanTiles& tiles) {
+  if (!given.parts.plan.reads) {
+    SurveyedScan survey = survey_scan(given.scan, given.job);
+    tiles.pass_counts = given.scan.pass_counts();
     return survey;
   }
   std::uint64_t first_id = 0;
   const auto survey_of = [&](std::size_t task) {
-    TaskSurvey part = survey_of_task(run, task);
+    TaskSurvey part = survey_of_task(given, task);
     tiles.first_ids.push_back(first_id);
     first_id += part.survey.ids;
     tiles.pass_counts.resize(part.pass_counts.size());
     for (std::size_t i = 0; i < part.pass_counts.size(); ++i) tiles.pass_counts[i] += part.pass_counts[i];
     return std::move(part.survey);
   };
-  return merge_surveys(run.parts.plan.tasks, survey_of, run.scan.expected_points(), run.job);
+  return merge_surveys(given.parts.plan.tasks, survey_of, given.scan.expected_points(), given.job.spill,
+                       given.job.workers.memory);
 }
 
 Level level_of(const ScanTiles& tiles, TileStore store) {
@@ -134,21 +135,23 @@ Level level_of(const ScanTiles& tiles, TileStore store) {
 }
 
 // Brings all points of a task's tiles into a store on disk.
-Level store_all_points(const Run& given, const TaskShare& share, StoreFiles files) {
+Level store_all_points(const StepContext& given, const TaskShare& share, StoreFiles files) {
   std::optional<KeptScan> decoded;
-  if (share.tasks == 1 && given.scan.reads_slowly()) decoded.emplace(given.scan, given.job.file("input"));
-  const Run run{decoded ? static_cast<PointSource&>(*decoded) : given.scan, given.parts, given.job};
-  ScanTiles tiles = tiles_of_scan(run);
+  if (share.tasks == 1 && given.scan.reads_slowly())
+    decoded.emplace(given.scan, given.job.spill.file("input"));
+  const StepContext passes{decoded ? static_cast<PointSource&>(*decoded) : given.scan, given.parts,
+                           given.job};
+  ScanTiles tiles = tiles_of_scan(passes);
   std::vector<ScatteredPoints> scattered;
   for (std::size_t task = 0; task < share.tasks; ++task)
-    scattered.push_back(points_of_task(run, tiles, task));
+    scattered.push_back(points_of_task(passes, tiles, task));
   decoded.reset();
-  const PointForm form{tiles.survey.precision(), given.scan.has_normals()};
+  const PointLayout layout{tiles.survey.precision(), given.scan.has_normals()};
   const auto for_each = [&](std::size_t place, const VisitPoints& visit) {
     for (const ScatteredPoints& points : scattered) points.for_each(place, visit);
   };
-  return level_of(tiles, store_tiles(tiles.plan, share, tiles.survey.bounds, form, for_each, std::move(files),
-                                     given.job));
+  return level_of(tiles, store_tiles(tiles.plan, share, tiles.survey.bounds, layout, for_each,
+                                     std::move(files), given.job.workers, given.job.phases));
 }
 
 }  // namespace
@@ -157,63 +160,65 @@ std::string step_of_level(std::string_view name, std::size_t level) {
   return std::string(name) + "-" + std::to_string(level);
 }
 
-TaskSurvey survey_of_task(const Run& run, std::size_t task) {
-  const PartKey key = key_of(run, kSurvey, task, run.parts.made_from);
-  return shared_parts(run).get(key, SurveyForm(), [&] {
-    SurveyedScan survey = survey_parts(run.scan, files_of(run, key.share), run.job);
-    return TaskSurvey{std::move(survey), run.scan.pass_counts(), ""};
+TaskSurvey survey_of_task(const StepContext& given, std::size_t task) {
+  const PartKey key = key_of(given, kSurvey, task, given.parts.made_from);
+  return shared_parts(given).get(key, SurveyForm(), [&] {
+    SurveyedScan survey = survey_parts(given.scan, files_of(given, key.share), given.job);
+    return TaskSurvey{std::move(survey), given.scan.pass_counts(), ""};
   });
 }
 
-ScanTiles tiles_of_scan(const Run& run) {
-  const PartKey key{std::string(kTiles), {}, seals_of_surveys(run)};
-  return shared_parts(run).get(key, TilesForm(), [&] {
+ScanTiles tiles_of_scan(const StepContext& given) {
+  const PartKey key{std::string(kTiles), {}, seals_of_surveys(given)};
+  return shared_parts(given).get(key, TilesForm(), [&] {
     ScanTiles tiles;
-    SurveyedScan survey = survey_all(run, tiles);
+    SurveyedScan survey = survey_all(given, tiles);
     refuse_tiny(survey.bounds);
-    tiles.plan = plan_tiles(survey, run.job);
+    tiles.plan = plan_tiles(survey, given.job);
     tiles.survey = survey;
     return tiles;
   });
 }
 
-ScatteredPoints points_of_task(const Run& run, const ScanTiles& tiles, std::size_t task) {
-  const PartKey key = key_of(run, kBucket, task, tiles.seal);
-  const PointForm form{tiles.survey.precision(), run.scan.has_normals()};
-  return shared_parts(run).get(key, BucketForm{form}, [&] {
-    const IndexRange files = files_of(run, key.share);
-    run.parts.plan.reads ? run.scan.rewind_to(files, PointId{tiles.first_ids[task]}) : run.scan.rewind();
-    return scatter_points(run.scan, tiles.plan, form.precision, tiles.plan.points / key.share.tasks, run.job);
+ScatteredPoints points_of_task(const StepContext& given, const ScanTiles& tiles, std::size_t task) {
+  const PartKey key = key_of(given, kBucket, task, tiles.seal);
+  const PointLayout layout{tiles.survey.precision(), given.scan.has_normals()};
+  return shared_parts(given).get(key, BucketForm{layout}, [&] {
+    const IndexRange files = files_of(given, key.share);
+    given.parts.plan.reads ? given.scan.rewind_to(files, PointId{tiles.first_ids[task]})
+                           : given.scan.rewind();
+    return scatter_points(given.scan, tiles.plan, layout.precision, tiles.plan.points / key.share.tasks,
+                          given.job);
   });
 }
 
-Level share_of_first_level(const Run& run, std::size_t task) {
-  const PartKey key = level_key(run, task);
-  const LevelForm form{run.parts, run.job, key.step};
-  return run.parts.get(key, form, [&] {
-    if (first_edge(run.job.config.scale) == 0) return store_all_points(run, key.share, form.files());
-    const Level all = store_all_points(run, key.share, temporary_files(run.job));
-    return thin_to_first(all, form.files(), run.job);
+Level share_of_first_level(const StepContext& given, std::size_t task) {
+  const PartKey key = level_key(given, task);
+  const LevelForm form{given.parts, given.job, key.step};
+  return given.parts.get(key, form, [&] {
+    if (first_edge(given.job.config.scale) == 0) return store_all_points(given, key.share, form.files());
+    const Level all = store_all_points(given, key.share, temporary_store(given.job.spill));
+    return thin_to_first(all, form.files(), given.job);
   });
 }
 
-bool is_first_level_kept(const Run& run) {
-  for (std::size_t task = 0; task < share_of(run, 0).tasks; ++task) {
-    if (!run.parts.seal_of(level_key(run, task))) return false;
+bool is_first_level_kept(const StepContext& given) {
+  for (std::size_t task = 0; task < share_of(given, 0).tasks; ++task) {
+    if (!given.parts.seal_of(level_key(given, task))) return false;
   }
   return true;
 }
 
-Level first_level(const Run& run) {
+Level first_level(const StepContext& given) {
   std::vector<Level> shares;
-  for (std::size_t task = 0; task < share_of(run, 0).tasks; ++task)
-    shares.push_back(share_of_first_level(run, task));
-  Level level = join_levels(std::move(shares), run.job);
-  if (run.parts.are_kept()) {
-    run.scan.set_pass_counts(level.input);
-    for (const std::string_view step : {kSurvey, kTiles, kBucket}) run.parts.drop(std::string(step));
+  for (std::size_t task = 0; task < share_of(given, 0).tasks; ++task)
+    shares.push_back(share_of_first_level(given, task));
+  Level level = join_levels(std::move(shares), given.job.spill);
+  if (given.parts.are_kept()) {
+    given.scan.set_pass_counts(level.input);
+    for (const std::string_view step : {kSurvey, kTiles, kBucket}) given.parts.drop(std::string(step));
   }
-  if (run.job.config.normals.use == NormalsUse::kEstimated) level.store.leave_out_normals();
+  if (given.job.config.normals.use == NormalsUse::kEstimated) level.store.leave_out_normals();
   return level;
 }
 

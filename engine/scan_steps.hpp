@@ -5,9 +5,9 @@
 
 #include "engine/bucket/scattered_points.hpp"
 #include "engine/bucket/split.hpp"
+#include "engine/config/job.hpp"
 #include "engine/model/points.hpp"
 #include "engine/parts/parts.hpp"
-#include "engine/run/job.hpp"
 #include "engine/survey/survey.hpp"
 #include "engine/thin/level.hpp"
 
@@ -20,7 +20,7 @@
 namespace lacuna {
 
 // What every step is given.
-struct Run {
+struct StepContext {
   PointSource& scan;
   const Parts& parts;
   Job& job;
@@ -36,7 +36,7 @@ struct TaskSurvey {
   std::vector<std::uint64_t> pass_counts;  // `PointSource::pass_counts`
   std::string seal;                        // the checksum of its part, a line; empty: it is not kept
 };
-TaskSurvey survey_of_task(const Run& run, std::size_t task);
+TaskSurvey survey_of_task(const StepContext& given, std::size_t task);
 
 // The tiles of the scan, from all counts.
 struct ScanTiles {
@@ -46,17 +46,17 @@ struct ScanTiles {
   std::vector<std::uint64_t> first_ids;    // of each task's points
   std::string seal;
 };
-ScanTiles tiles_of_scan(const Run& run);
+ScanTiles tiles_of_scan(const StepContext& given);
 
 // The points that a task reads, each at its place in the plan.
-ScatteredPoints points_of_task(const Run& run, const ScanTiles& tiles, std::size_t task);
+ScatteredPoints points_of_task(const StepContext& given, const ScanTiles& tiles, std::size_t task);
 
 // A task's share of the first level. Reads the input twice, or once where it reads slowly. Where the config
 // has a resolution, one point is left for each cell of its lattice.
-Level share_of_first_level(const Run& run, std::size_t task);
+Level share_of_first_level(const StepContext& given, std::size_t task);
 
 // The first level, all of it. Throws `Error`.
-Level first_level(const Run& run);
-bool is_first_level_kept(const Run& run);
+Level first_level(const StepContext& given);
+bool is_first_level_kept(const StepContext& given);
 
 }  // namespace lacuna

@@ -23,18 +23,18 @@
 namespace lacuna {
 
 // A row of the table.
-struct StepForm {
+struct StepRule {
   std::string_view name;
   bool is_of_level = false;  // there is one for each level
   bool reads_scan = false;   // only where tasks share the reading of the scan
   bool is_shared = true;     // among tasks
   // Makes a task's share. Returns false where the run has no such level.
-  bool (*make)(const Run& run, std::size_t level, const TaskShare& share) = nullptr;
+  bool (*make)(const StepContext& given, std::size_t level, const TaskShare& share) = nullptr;
 };
 
 // A step of a planned run.
 struct Step {
-  const StepForm* form = nullptr;
+  const StepRule* rule = nullptr;
   std::size_t level = 0;
   std::size_t tasks = 1;     // which may be done at the same time
   std::uint64_t points = 0;  // that pass through it, about
@@ -55,7 +55,7 @@ std::optional<Step> step_of_name(std::string_view name, const std::filesystem::p
 
 // Does one task, from 0 to `step.tasks` - 1. `config`: names the kept folder. `scan`: the input of the run.
 // Returns false where there is nothing to do. Throws `Error`.
-bool work(PointSource& scan, const Config& config, const Step& step, std::size_t task,
-          const std::filesystem::path& temporary, Progress& progress);
+bool do_task(PointSource& scan, const Config& config, const Step& step, std::size_t task,
+             const std::filesystem::path& temporary, Progress& progress);
 
 }  // namespace lacuna

@@ -21,7 +21,7 @@ double median_area(std::span<const LevelLoops> levels) {
 
 }  // namespace
 
-Summary summarise(const Level& level, const Job& job) {
+Summary summarise(const Level& level, const Workers& workers) {
   const SurveyTotals& survey = level.survey;
   const TileStore& store = level.store;
   Summary summary;
@@ -34,8 +34,8 @@ Summary summarise(const Level& level, const Job& job) {
   if (summary.strays.points == 0) summary.strays.rest = summary.bounds;
   summary.tiles = store.tiling().tiles.size();
   summary.tile_points = level.tile_points;
-  summary.threads = job.arena.threads();
-  summary.memory_limit = job.memory.limit;
+  summary.threads = workers.arena.threads();
+  summary.memory_limit = workers.memory.limit;
   return summary;
 }
 

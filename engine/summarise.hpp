@@ -5,7 +5,7 @@
 #include "engine/boundary/boundary_method.hpp"
 #include "engine/evaluate/totals.hpp"
 #include "engine/model/detection.hpp"
-#include "engine/run/job.hpp"
+#include "engine/run/parallel.hpp"
 #include "engine/thin/level.hpp"
 #include "engine/track/level_loops.hpp"
 
@@ -15,7 +15,7 @@ namespace lacuna {
 
 // Returns counts and bounds of the input, not of its representatives, and tiles, threads and memory limit in
 // effect.
-Summary summarise(const Level& level, const Job& job);
+Summary summarise(const Level& level, const Workers& workers);
 
 // Adds what the evaluation of the first level and the search for loops at all levels have found. `eps`: in
 // effect.

@@ -3,7 +3,6 @@
 #include "bench/evaluation/evaluation.hpp"
 #include "bench/evaluation/print.hpp"
 #include "engine/run/error.hpp"
-#include "engine/run/job.hpp"
 #include "io/files/new_file.hpp"
 #include "io/report/report.hpp"
 #include "io/report/scene.hpp"

@@ -3,7 +3,7 @@
 
 #include "engine/pipeline.hpp"
 #include "engine/run/error.hpp"
-#include "engine/run/job.hpp"
+#include "engine/run/memory.hpp"
 #include "io/area/check_area.hpp"
 #include "io/results/voids.hpp"
 #include "io/stations/find_causes.hpp"

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/peers/read_scan.hpp"
 
-#include "io/scan/file_scan.hpp"
+#include "io/scan/scan_pass.hpp"
 
 namespace lacuna::peers {
 
 std::vector<float> read_scan(const char* file) {
-  io::FileScan scan({file}, {});
+  const io::ScanFiles files({file}, {});
+  io::ScanPass scan(files);
   std::vector<float> coordinates;
   coordinates.reserve(3 * scan.expected_points().value_or(0));
   for (PointBatch batch; scan.next(batch);) {

@@ -41,6 +41,9 @@ class BoundaryMethod {
 };
 
 // Returns an owned point in the form that loops have.
-LoopPoint loop_point_of(const EvaluatedTile& tile, LocalIndex owned);
+inline LoopPoint loop_point_of(const EvaluatedTile& tile, LocalIndex owned) {
+  const Eigen::Vector3f surface = tile.evaluations[owned].mean_offset.cast<float>();
+  return {tile.point(owned), {surface.x(), surface.y(), surface.z()}, tile.probability(owned)};
+}
 
 }  // namespace lacuna

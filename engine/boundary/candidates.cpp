@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/candidates.hpp"
 
-#include "engine/run/rounds.hpp"
+#include "engine/boundary/rounds.hpp"
 
 #include <mutex>
 #include <span>
@@ -39,14 +39,15 @@ void emit_candidates(const EvaluatedTile& tile, TileOutput& output) {
   output.add(kCandidatePoints, std::move(points));
 }
 
-RowSet coherent_candidates(const TileOutputs& outputs, const Tiling& tiling, Job& job) {
+RowSet coherent_candidates(const TileOutputs& outputs, const Tiling& tiling, const TaskArena& arena,
+                           Phases& phases) {
   const std::size_t tiles = tiling.tiles.size();
-  Phase phase(job, "coherence", tiling.points());
+  Phase phase(phases, "coherence", tiling.points());
   RowSet boundary(tiling.row_count());
   std::vector<std::vector<TileIndex>> dependents(tiles);  // of each tile: the tiles that depend on its
                                                           // candidates
   std::mutex mutex;
-  job.arena.for_each(tiles, [&](std::size_t i) {
+  arena.for_each(tiles, [&](std::size_t i) {
     const auto t = static_cast<TileIndex>(i);
     const std::vector<Candidate> candidates = outputs.read(kCandidates, t);
     for (const Candidate& c : candidates) boundary.insert(c.row);
@@ -56,7 +57,7 @@ RowSet coherent_candidates(const TileOutputs& outputs, const Tiling& tiling, Job
     phase.advance(tiling.tiles[t].points);
   });
   for (Rounds rounds(tiles); !rounds.tiles().empty(); rounds.next()) {
-    job.arena.for_each(rounds.tiles().size(), [&](std::size_t i) {
+    arena.for_each(rounds.tiles().size(), [&](std::size_t i) {
       const TileIndex t = rounds.tiles()[i];
       if (remove_incoherent(outputs.read(kCandidates, t), boundary)) rounds.request(dependents[t]);
     });
@@ -64,9 +65,10 @@ RowSet coherent_candidates(const TileOutputs& outputs, const Tiling& tiling, Job
   return boundary;
 }
 
-RowSet candidates_between(const RowSet& on_loop, const TileOutputs& outputs, const Tiling& tiling, Job& job) {
+RowSet candidates_between(const RowSet& on_loop, const TileOutputs& outputs, const Tiling& tiling,
+                          const TaskArena& arena) {
   RowSet between(tiling.row_count());
-  job.arena.for_each(tiling.tiles.size(), [&](std::size_t t) {
+  arena.for_each(tiling.tiles.size(), [&](std::size_t t) {
     for (const Candidate& c : outputs.read(kCandidates, static_cast<TileIndex>(t))) {
       if (on_loop.contains(c.gap_near) && on_loop.contains(c.gap_far)) between.insert(c.row);
     }

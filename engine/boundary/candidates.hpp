@@ -5,7 +5,8 @@
 
 #include "engine/boundary/coherence.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
-#include "engine/run/job.hpp"
+#include "engine/run/parallel.hpp"
+#include "engine/run/phase.hpp"
 #include "engine/store/row_set.hpp"
 
 #include <cstdint>
@@ -25,9 +26,11 @@ void emit_candidates(const EvaluatedTile& tile, TileOutput& output);
 // Returns the coherent candidates: the greatest set of candidates in which each has both of its gap
 // neighbours. Tiles are evaluated on their own, and again while a tile that their candidates depend on
 // changes. The order does not matter. Memory: one bit per row.
-RowSet coherent_candidates(const TileOutputs& outputs, const Tiling& tiling, Job& job);
+RowSet coherent_candidates(const TileOutputs& outputs, const Tiling& tiling, const TaskArena& arena,
+                           Phases& phases);
 
 // Returns the candidates whose gap neighbours both lie on loops.
-RowSet candidates_between(const RowSet& on_loop, const TileOutputs& outputs, const Tiling& tiling, Job& job);
+RowSet candidates_between(const RowSet& on_loop, const TileOutputs& outputs, const Tiling& tiling,
+                          const TaskArena& arena);
 
 }  // namespace lacuna

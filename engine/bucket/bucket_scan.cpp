@@ -4,13 +4,13 @@
 #include "engine/bucket/cell_index.hpp"
 #include "engine/bucket/order_tile.hpp"
 #include "engine/bucket/set_aside.hpp"
+#include "engine/bucket/tile_size.hpp"
 #include "engine/run/disk_space.hpp"
 #include "engine/run/error.hpp"
 
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <optional>
 
 namespace lacuna {
 namespace {
@@ -130,32 +130,32 @@ std::uint64_t least_store_bytes(const TilePlan& plan, Precision precision) {
 
 TilePlan plan_tiles(SurveyedScan& survey, const Job& job) {
   const std::uint64_t points = survey.points - survey.dropped;
-  TilePlan plan = split_tiles(survey, job.tile_points(points));
-  plan.cell_points = job.cell_points(points);
-  require_space(job.temporary, least_store_bytes(plan, survey.precision()));
+  TilePlan plan = split_tiles(survey, points_per_tile(points, job.config, job.workers));
+  plan.cell_points = points_per_cell(points, job.workers.memory);
+  require_space(job.spill.folder, least_store_bytes(plan, survey.precision()));
   return plan;
 }
 
 ScatteredPoints scatter_points(PointSource& scan, const TilePlan& plan, Precision precision,
                                std::uint64_t expected_points, Job& job) {
-  Phase phase(job, "bucket", expected_points);
+  Phase phase(job.phases, "bucket", expected_points);
   const Destinations to(plan);
-  ScatteredPoints scattered(to.end, {precision, scan.has_normals()}, job);
-  const MemoryLedger::Lease reading = job.ledger.take(job.memory.reading);
+  ScatteredPoints scattered(to.end, {precision, scan.has_normals()}, job.spill);
+  const MemoryLedger::Lease reading = job.workers.memory.ledger.take(job.workers.memory.reading);
   std::vector<SortedBatch> batches(kBatches);
-  job.arena.pipeline([&](std::size_t slot) { return scan.next(batches[slot].batch); },
-                     [&](std::size_t slot) {
-                       batches[slot].sort(to);
-                       append(batches[slot], to.end, scattered);
-                     },
-                     [&](std::size_t slot) { phase.advance(batches[slot].points.size()); }, kBatches);
+  job.workers.arena.pipeline([&](std::size_t slot) { return scan.next(batches[slot].batch); },
+                             [&](std::size_t slot) {
+                               batches[slot].sort(to);
+                               append(batches[slot], to.end, scattered);
+                             },
+                             [&](std::size_t slot) { phase.advance(batches[slot].points.size()); }, kBatches);
   return scattered;
 }
 
 TileStore store_tiles(const TilePlan& plan, const TaskShare& share, const Eigen::AlignedBox3d& bounds,
-                      const PointForm& form,
+                      const PointLayout& layout,
                       const std::function<void(std::size_t, const VisitPoints&)>& for_each, StoreFiles files,
-                      Job& job) {
+                      const Workers& workers, Phases& phases) {
   std::vector<std::uint64_t> weights;
   for (const Tile& tile : plan.tiles) weights.push_back(tile.raw);
   const IndexRange range = share_of(weights, share);
@@ -168,14 +168,14 @@ TileStore store_tiles(const TilePlan& plan, const TaskShare& share, const Eigen:
     needs.push_back(tile.raw * 120);
     row = aligned_row(row + tile.raw);
   }
-  Phase phase(job, "order", row);
+  Phase phase(phases, "order", row);
   const std::uint64_t most_tiles = plan.most_tiles() - plan.tiles.size() + tiles.size();
-  TileStore store(std::move(files), std::move(tiles), most_tiles, form.precision, form.with_normals,
-                  job.lists);
+  const std::filesystem::path aside_file = files.spill.file("aside");
+  TileStore store(std::move(files), std::move(tiles), most_tiles, layout.precision, layout.with_normals);
   const std::uint32_t first_cell = mine.empty() ? 0 : mine.front().first_cell;
   const std::uint32_t last_cell = mine.empty() ? 0 : mine.back().last_cell;
   const CellIndex index(plan.grid, std::span(plan.cells).subspan(first_cell, last_cell - first_cell));
-  job.for_each_within(job.memory.tiles, needs, [&](std::size_t t) {
+  workers.for_each_within(workers.memory.tiles, needs, [&](std::size_t t) {
     PointsAndNormals raw;
     raw.points.reserve(mine[t].raw);
     for_each(range.first + t, [&](const PointsAndNormals& some) {
@@ -190,13 +190,13 @@ TileStore store_tiles(const TilePlan& plan, const TaskShare& share, const Eigen:
     OrderedTile ordered = order_tile(raw.points, cells_of(raw.points, index, cells),
                                      cells.last_cell - cells.first_cell, plan.grid, plan.cell_points);
     store.put(tile, pick(raw.points, ordered.order),
-              form.with_normals ? pick(raw.normals, ordered.order) : raw.normals, std::move(ordered.cells));
+              layout.with_normals ? pick(raw.normals, ordered.order) : raw.normals, std::move(ordered.cells));
     store.add_duplicates(tile, ordered.duplicates);
     phase.advance(raw.points.size());
   });
   if (share.task + 1 == share.tasks && plan.groups() > 0) {
-    const MemoryLedger::Lease sorting = job.ledger.take(job.memory.work / 2);
-    SetAside aside(plan, bounds, job.file("aside"), sorting.bytes());
+    const MemoryLedger::Lease sorting = workers.memory.ledger.take(workers.memory.work / 2);
+    SetAside aside(plan, bounds, aside_file, sorting.bytes());
     for (std::uint32_t group = 0; group < plan.groups(); ++group) {
       for_each(plan.tiles.size() + group, [&](const PointsAndNormals& some) {
         for (std::size_t i = 0; i < some.points.size(); ++i)

@@ -4,8 +4,8 @@
 
 #include "engine/bucket/scattered_points.hpp"
 #include "engine/bucket/split.hpp"
+#include "engine/config/job.hpp"
 #include "engine/model/points.hpp"
-#include "engine/run/job.hpp"
 #include "engine/store/tile_store.hpp"
 #include "engine/survey/survey.hpp"
 
@@ -29,8 +29,8 @@ ScatteredPoints scatter_points(PointSource& scan, const TilePlan& plan, Precisio
 // aside, too. `bounds`: of all points. for_each(place, visit) calls visit(points) once or several times with
 // all points of a place. `files`: empty ones for the store.
 TileStore store_tiles(const TilePlan& plan, const TaskShare& share, const Eigen::AlignedBox3d& bounds,
-                      const PointForm& form,
+                      const PointLayout& layout,
                       const std::function<void(std::size_t, const VisitPoints&)>& for_each, StoreFiles files,
-                      Job& job);
+                      const Workers& workers, Phases& phases);
 
 }  // namespace lacuna

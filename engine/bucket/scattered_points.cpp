@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/bucket/scattered_points.hpp"
 
-#include <algorithm>
 #include <cstring>
 #include <string_view>
 #include <type_traits>
@@ -32,13 +31,13 @@ Record record_at(const std::byte* from) {
 
 }  // namespace
 
-std::size_t PointForm::record_bytes() const {
+std::size_t PointLayout::record_bytes() const {
   return (precision == Precision::kSingle ? sizeof(SinglePoint) : sizeof(ScanPoint)) +
          (with_normals ? sizeof(PlainNormal) : 0);
 }
 
-std::vector<std::byte> PointForm::pack(std::span<const ScanPoint> points,
-                                       std::span<const PlainNormal> normals) const {
+std::vector<std::byte> PointLayout::pack(std::span<const ScanPoint> points,
+                                         std::span<const PlainNormal> normals) const {
   const std::size_t step = record_bytes();
   std::vector<std::byte> records(points.size() * step);
   if (precision == Precision::kSingle) {
@@ -51,7 +50,7 @@ std::vector<std::byte> PointForm::pack(std::span<const ScanPoint> points,
   return records;
 }
 
-PointsAndNormals PointForm::unpack(std::span<const std::byte> records) const {
+PointsAndNormals PointLayout::unpack(std::span<const std::byte> records) const {
   const std::size_t step = record_bytes(), count = records.size() / step;
   PointsAndNormals all;
   all.points.reserve(count);
@@ -65,24 +64,22 @@ PointsAndNormals PointForm::unpack(std::span<const std::byte> records) const {
   return all;
 }
 
-ScatteredPoints::ScatteredPoints(std::size_t places, PointForm form, const Job& job)
-    : form_(form), lists_(std::make_unique<AppendBytes>(job.file("scattered"), places, job.lists)) {}
+ScatteredPoints::ScatteredPoints(std::size_t places, PointLayout layout, const Spill& spill)
+    : layout_(layout), lists_(std::make_unique<AppendBytes>(spill, "scattered", places)) {}
 
 void ScatteredPoints::add(std::size_t place, std::span<const ScanPoint> points,
                           std::span<const PlainNormal> normals) {
-  lists_->append(place, form_.pack(points, normals));
+  lists_->append(place, layout_.pack(points, normals));
 }
 
 void ScatteredPoints::for_each_packed(std::size_t place,
                                       const std::function<void(std::span<const std::byte>)>& visit) const {
   if (part_) return part_->for_each<std::byte>(kPoints, place, visit);
-  constexpr std::size_t kTogether = 1 << 13;
-  std::vector<std::byte> part(std::min<std::uint64_t>(kTogether * form_.record_bytes(), lists_->size(place)));
-  lists_->for_each_part(place, part, [&](std::size_t bytes) { visit(std::span(part).first(bytes)); });
+  lists_->for_each_block(place, layout_.record_bytes() << 13, visit);
 }
 
 void ScatteredPoints::for_each(std::size_t place, const VisitPoints& visit) const {
-  for_each_packed(place, [&](std::span<const std::byte> records) { visit(form_.unpack(records)); });
+  for_each_packed(place, [&](std::span<const std::byte> records) { visit(layout_.unpack(records)); });
 }
 
 void ScatteredPoints::write(PartWriter& part) const {

@@ -2,7 +2,6 @@
 // Points on their way to a place: a tile, or a group of points that are set aside.
 #pragma once
 
-#include "engine/run/job.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/point_column.hpp"
 #include "engine/store/sealed_part.hpp"
@@ -24,8 +23,8 @@ struct PointsAndNormals {
 };
 using VisitPoints = std::function<void(const PointsAndNormals&)>;
 
-// How points are kept on disk: 16 or 32 bytes each, and 24 for a normal.
-struct PointForm {
+// How points lie on disk: 16 or 32 bytes each, and 24 for a normal.
+struct PointLayout {
   Precision precision = Precision::kDouble;
   bool with_normals = false;
 
@@ -38,8 +37,8 @@ struct PointForm {
 // The points of all places. What does not fit in memory is on disk, or all of them are in a sealed part.
 class ScatteredPoints {
  public:
-  ScatteredPoints(std::size_t places, PointForm form, const Job& job);
-  ScatteredPoints(PartReader part, PointForm form) : form_(form), part_(std::move(part)) {}
+  ScatteredPoints(std::size_t places, PointLayout layout, const Spill& spill);
+  ScatteredPoints(PartReader part, PointLayout layout) : layout_(layout), part_(std::move(part)) {}
 
   // From any thread.
   void add(std::size_t place, std::span<const ScanPoint> points, std::span<const PlainNormal> normals);
@@ -50,7 +49,7 @@ class ScatteredPoints {
  private:
   void for_each_packed(std::size_t place, const std::function<void(std::span<const std::byte>)>& visit) const;
 
-  PointForm form_;
+  PointLayout layout_;
   std::unique_ptr<AppendBytes> lists_;
   std::optional<PartReader> part_;
 };

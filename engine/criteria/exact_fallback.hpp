@@ -15,7 +15,7 @@ namespace lacuna {
 // points.
 inline constexpr double kSameDirection = 1e-9;
 
-// A neighbour whose projection is shorter than this share of its distance projects onto p.
+// A neighbour whose projection is shorter than this fraction of its distance projects onto p.
 inline constexpr double kNoDirection = 1e-12;
 
 struct LargestGap {

@@ -18,8 +18,8 @@ template <class V>
 HWY_INLINE V halfdisc_probability(const Surface<V>& surface) {
   // 4 r / (3 pi): how far the centroid of a half disc of radius r lies from its centre.
   const V half_disc = all<V>(4) * surface.mean_distance / all<V>(3 * std::numbers::pi);
-  const V share = norm(in_plane(surface.mean_offset, surface.normal)) / half_disc;
-  return hn::IfThenElse(hn::And(surface.has_normal, share < all<V>(1)), share, all<V>(1));
+  const V ratio = norm(in_plane(surface.mean_offset, surface.normal)) / half_disc;
+  return hn::IfThenElse(hn::And(surface.has_normal, ratio < all<V>(1)), ratio, all<V>(1));
 }
 
 }  // namespace lacuna::HWY_NAMESPACE

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/evaluate/evaluate_tiles.hpp"
 
+#include "engine/bucket/tile_size.hpp"
 #include "engine/criteria/criteria.hpp"
 #include "engine/evaluate/evaluate.hpp"
 #include "engine/evaluate/totals.hpp"
@@ -10,7 +11,6 @@
 #include "engine/simd/vectorised.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -132,12 +132,12 @@ std::vector<std::uint8_t> border_of(const TilePoints& points, const Neighbourhoo
 
 // Returns the bytes that a tile's evaluation takes, with `edges` of the halo.
 std::uint64_t bytes_of_tile(const Tiling& tiling, const Tile& tile, std::uint64_t edges, double eps,
-                            const Job& job) {
+                            const Config& config, const Memory& memory) {
   constexpr std::uint64_t kHaloPointBytes = 120;  // an edge, and its point twice
   std::uint64_t foreign = edges;
   for (const std::uint32_t cell : halo_cells(tiling, tile, eps)) foreign += tiling.cells[cell].points;
-  return job.tile_bytes(tile.points) + foreign * kHaloPointBytes +
-         ball_bytes(tiling, tile, eps, most_ball_bytes(job));
+  return tile_bytes(tile.points, config) + foreign * kHaloPointBytes +
+         ball_bytes(tiling, tile, eps, most_ball_bytes(memory));
 }
 
 }  // namespace
@@ -147,12 +147,13 @@ void evaluate_tiles(const Level& level, std::span<const TileIndex> tiles, Append
   const TileStore& store = level.store;
   const Tiling& tiling = store.tiling();
   const double eps = eps_length(job.config.neighbourhood, level.extent);
-  Phase phase(job, "evaluate", points_of(tiles, tiling));
+  Phase phase(job.phases, "evaluate", points_of(tiles, tiling));
   std::vector<std::uint64_t> needs(tiles.size());
-  job.arena.for_each(needs.size(), [&](std::size_t i) {
-    needs[i] = bytes_of_tile(tiling, tiling.tiles[tiles[i]], halo.count(tiles[i]), eps, job);
+  job.workers.arena.for_each(needs.size(), [&](std::size_t i) {
+    needs[i] = bytes_of_tile(tiling, tiling.tiles[tiles[i]], halo.count(tiles[i]), eps, job.config,
+                             job.workers.memory);
   });
-  job.for_each_within(job.memory.tiles, needs, [&](std::size_t i) {
+  job.workers.for_each_within(job.workers.memory.tiles, needs, [&](std::size_t i) {
     const TileIndex index = tiles[i];
     const Tile& tile = tiling.tiles[index];
     std::vector<HaloEdge> inbox = halo.read(index);

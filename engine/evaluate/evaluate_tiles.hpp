@@ -2,10 +2,10 @@
 // evaluate, over the tiles of a level: evaluates every point from its neighbourhood (paper, 4.1 to 4.6).
 #pragma once
 
+#include "engine/config/job.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/evaluate/tile_outputs.hpp"
 #include "engine/halo/halo.hpp"
-#include "engine/run/job.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/thin/level.hpp"
 

@@ -20,8 +20,8 @@ constexpr int kPartsOfRun = 64;
 
 }  // namespace
 
-TileOutputs::TileOutputs(const Tiling& tiling, const Parts& parts, PartKey key, const Job& job)
-    : tiling_(&tiling), lists_(std::make_unique<AppendBytes>(job.file("outputs"), 0, job.lists)) {
+TileOutputs::TileOutputs(const Tiling& tiling, const Parts& parts, PartKey key, const Spill& spill)
+    : tiling_(&tiling), lists_(std::make_unique<AppendBytes>(spill, "outputs", 0)) {
   if (!parts.are_kept()) return;
   kept_.emplace();
   kept_->folder = parts.folder;

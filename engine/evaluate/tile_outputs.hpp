@@ -10,7 +10,6 @@
 
 #include "engine/model/tiling.hpp"
 #include "engine/parts/parts.hpp"
-#include "engine/run/job.hpp"
 #include "engine/store/append_lists.hpp"
 
 #include <chrono>
@@ -21,7 +20,6 @@
 #include <mutex>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -62,7 +60,7 @@ class TileOutput {
 class TileOutputs {
  public:
   // `key`: of the parts that are kept. `tiling` must outlive this.
-  TileOutputs(const Tiling& tiling, const Parts& parts, PartKey key, const Job& job);
+  TileOutputs(const Tiling& tiling, const Parts& parts, PartKey key, const Spill& spill);
 
   // Returns the tiles whose outputs are not there yet, ascending.
   std::vector<TileIndex> missing() const;

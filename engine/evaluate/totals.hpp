@@ -8,7 +8,6 @@
 #include "engine/model/length_bins.hpp"
 #include "engine/model/neighbourhoods.hpp"
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -5,7 +5,6 @@
 #include "engine/model/neighbourhoods.hpp"
 #include "engine/run/error.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <sstream>
@@ -36,21 +35,21 @@ std::uint64_t ball_bytes(const Tiling& tiling, const Tile& tile, double eps, std
 }
 
 // Such a tile is alone at work, and the bound is about twice the memory that it takes.
-std::uint64_t most_ball_bytes(const Job& job) {
-  return 2 * job.memory.tiles;
+std::uint64_t most_ball_bytes(const Memory& memory) {
+  return 2 * memory.tiles;
 }
 
-void refuse_balls(const Tiling& tiling, double eps, const Job& job) {
+void refuse_balls(const Tiling& tiling, double eps, const Workers& workers) {
   if (eps == 0) return;
-  const std::uint64_t most = most_ball_bytes(job);
+  const std::uint64_t most = most_ball_bytes(workers.memory);
   std::atomic<bool> fits = true;
-  job.arena.for_each(tiling.tiles.size(), [&](std::size_t t) {
+  workers.arena.for_each(tiling.tiles.size(), [&](std::size_t t) {
     if (fits && ball_bytes(tiling, tiling.tiles[t], eps, most) > most) fits = false;
   });
   if (fits) return;
   std::ostringstream message;
   message << "eps of " << eps << ": the points within it of one tile's points may take more than "
-          << print_bytes(most) << ", which is what memory_limit " << print_bytes(job.memory.limit)
+          << print_bytes(most) << ", which is what memory_limit " << print_bytes(workers.memory.limit)
           << " leaves for them; allowed: a smaller eps, smaller tile_points or a larger memory_limit";
   throw Error(message.str());
 }

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "engine/config/config.hpp"
-#include "engine/run/job.hpp"
+#include "engine/run/parallel.hpp"
 #include "engine/store/tile_store.hpp"
 
 #include <cstdint>
@@ -25,9 +25,9 @@ double eps_length(const NeighbourhoodConfig& config, double extent);
 std::uint64_t ball_bytes(const Tiling& tiling, const Tile& tile, double eps, std::uint64_t most);
 
 // Returns the largest `ball_bytes` that one tile may have.
-std::uint64_t most_ball_bytes(const Job& job);
+std::uint64_t most_ball_bytes(const Memory& memory);
 
 // Throws `Error` where the neighbourhoods of one tile cannot fit in memory, before any is searched.
-void refuse_balls(const Tiling& tiling, double eps, const Job& job);
+void refuse_balls(const Tiling& tiling, double eps, const Workers& workers);
 
 }  // namespace lacuna

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/halo/halo.hpp"
 
+#include "engine/bucket/tile_size.hpp"
 #include "engine/model/distance_bound.hpp"
 #include "engine/neighbours/block_search.hpp"
 #include "engine/neighbours/store_search.hpp"
@@ -284,13 +285,14 @@ class HaloBuilder {
 AppendLists<HaloEdge> exchange_halo(const TileStore& store, std::span<const TileIndex> tiles, Job& job) {
   const Tiling& tiling = store.tiling();
   const auto k = static_cast<std::size_t>(job.config.neighbourhood.k);
-  Phase phase(job, "halo", tiling.points());
+  Phase phase(job.phases, "halo", tiling.points());
   std::vector<std::uint64_t> needs;
-  for (const Tile& tile : tiling.tiles) needs.push_back(job.tile_bytes(std::max(tile.points, kGroupPoints)));
-  AppendLists<HaloEdge> inboxes(job.file("halo"), tiling.tiles.size(), job.lists);
+  for (const Tile& tile : tiling.tiles)
+    needs.push_back(tile_bytes(std::max(tile.points, kGroupPoints), job.config));
+  AppendLists<HaloEdge> inboxes(job.spill, "halo", tiling.tiles.size());
   if (tiles.empty()) return inboxes;
   const WantedTiles wanted(tiling, tiles);
-  job.for_each_within(job.memory.tiles, needs, [&](std::size_t t) {
+  job.workers.for_each_within(job.workers.memory.tiles, needs, [&](std::size_t t) {
     const Tile& tile = tiling.tiles[t];
     const std::uint64_t group_points = std::max(tile.points, kGroupPoints);
     const BorderPlan plan(tiling, static_cast<TileIndex>(t), wanted, k, group_points);

@@ -2,7 +2,7 @@
 // halo: finds the points of other tiles that a tile needs, and the edges to them.
 #pragma once
 
-#include "engine/run/job.hpp"
+#include "engine/config/job.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/tile_store.hpp"
 

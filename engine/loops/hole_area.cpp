@@ -61,13 +61,14 @@ Polygon polygon_of(std::span<const LoopPoint> loop, const LoopPlane& plane, Scra
 
 }  // namespace
 
-double measure_hole_area(MeasuredLoops& loops, std::span<const std::size_t> selected, Job& job) {
+double measure_hole_area(MeasuredLoops& loops, std::span<const std::size_t> selected, const Spill& spill,
+                         const Workers& workers) {
   const Holes holes = holes_of(loops, selected);
   const std::vector<LoopMeasures>& measures = holes.measures;
-  const MemoryLedger::Lease placing = job.ledger.take(job.memory.work / 4);
-  Scratch scratch(job.temporary, placing.bytes());
+  const MemoryLedger::Lease placing = workers.memory.ledger.take(workers.memory.work / 4);
+  Scratch scratch(spill.folder, placing.bytes());
   const std::span<Place> places = scratch.array<Place>(kPlaces * holes.size());
-  for_each_loop(holes, job, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch& own) {
+  for_each_loop(holes, spill, workers, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch& own) {
     const LoopPlane plane = plane_of(measures[i]);
     std::size_t next = kPlaces * i;
     for (const Eigen::Vector2d& place : places_within(polygon_of(loop, plane, own), kPlaces)) {
@@ -77,7 +78,7 @@ double measure_hole_area(MeasuredLoops& loops, std::span<const std::size_t> sele
   });
 
   const Centroids centroids(measures);
-  for_each_loop(holes, job, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch& own) {
+  for_each_loop(holes, spill, workers, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch& own) {
     constexpr double kLeastCosine = 0.5, kNear = 0.25;
     const LoopMeasures& larger = measures[i];
     const LoopPlane plane = plane_of(larger);

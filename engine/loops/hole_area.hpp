@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/loops/measure_loops.hpp"
-#include "engine/run/job.hpp"
+#include "engine/run/parallel.hpp"
 
 #include <cstddef>
 #include <span>
@@ -14,9 +14,10 @@ namespace lacuna {
 // overlap, a place counts for the largest of them alone. Up to 32 places of each hole, spread over its
 // polygon in its plane, are compared with all larger holes. A place is in another hole if it is within its
 // polygon, projected along its normal, and near its plane. Near is a quarter of the root of the area of the
-// place's own hole. The normals differ by less than 60 degrees. Memory: 1 kB a hole, beyond a share of the
+// place's own hole. The normals differ by less than 60 degrees. Memory: 1 kB a hole, beyond a fraction of the
 // limit on disk. Cost: two passes over the holes, and the points of a hole times the places of smaller ones
 // near it.
-double measure_hole_area(MeasuredLoops& loops, std::span<const std::size_t> selected, Job& job);
+double measure_hole_area(MeasuredLoops& loops, std::span<const std::size_t> selected, const Spill& spill,
+                         const Workers& workers);
 
 }  // namespace lacuna

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/model/loop.hpp"
-#include "engine/run/job.hpp"
+#include "engine/run/parallel.hpp"
 #include "engine/store/column.hpp"
 #include "engine/store/scratch.hpp"
 #include "engine/store/sealed_part.hpp"
@@ -85,15 +85,15 @@ struct ChosenLoops {
 };
 
 // Calls visit(i, points, scratch) for each loop of `Loops` or `ChosenLoops`, from several threads. Memory:
-// three quarters of the job's working memory, whatever the length of a loop.
+// three quarters of the working memory, whatever the length of a loop.
 template <class LoopSet, class Visit>
-void for_each_loop(const LoopSet& loops, Job& job, Visit&& visit) {
+void for_each_loop(const LoopSet& loops, const Spill& spill, const Workers& workers, Visit&& visit) {
   std::vector<std::uint64_t> needs;
-  const std::uint64_t most = job.memory.work / (2 * job.arena.threads());
+  const std::uint64_t most = workers.memory.work / (2 * workers.arena.threads());
   for (std::size_t i = 0; i < loops.size(); ++i)
     needs.push_back(std::min<std::uint64_t>(most, 2 * loops.count(i) * sizeof(LoopPoint)));
-  job.for_each_within(job.memory.work / 4 * 3, needs, [&](std::size_t i) {
-    Scratch scratch(job.temporary, most);
+  workers.for_each_within(workers.memory.work / 4 * 3, needs, [&](std::size_t i) {
+    Scratch scratch(spill.folder, most);
     const std::span<LoopPoint> points = scratch.array<LoopPoint>(loops.count(i));
     loops.read(i, points);
     visit(i, std::span<const LoopPoint>(points), scratch);

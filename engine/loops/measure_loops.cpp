@@ -17,11 +17,11 @@ double lattice_edge(double mean_edge_length) {
 }  // namespace
 
 MeasuredLoops measure_loops(ChosenLoops loops, std::span<const LoopTrack> tracks, double mean_edge_length,
-                            Job& job) {
-  Phase phase(job, "measure", loops.points());
+                            const Spill& spill, const Workers& workers, Phases& phases) {
+  Phase phase(phases, "measure", loops.points());
   std::vector<LoopMeasures> measures(loops.size());
   const double edge = lattice_edge(mean_edge_length);
-  for_each_loop(loops, job, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch& scratch) {
+  for_each_loop(loops, spill, workers, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch& scratch) {
     measures[i] = measure_loop(loop, edge, scratch);
     measures[i].track = tracks[i];
     phase.advance(loop.size());

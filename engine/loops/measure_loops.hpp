@@ -5,7 +5,8 @@
 #include "engine/config/config.hpp"
 #include "engine/loops/loops.hpp"
 #include "engine/model/loop.hpp"
-#include "engine/run/job.hpp"
+#include "engine/run/parallel.hpp"
+#include "engine/run/phase.hpp"
 
 #include <cstddef>
 #include <span>
@@ -21,7 +22,7 @@ struct MeasuredLoops {
 
 // `tracks`: one for each loop. `mean_edge_length` sets the lattice of LoopMeasures::tiles.
 MeasuredLoops measure_loops(ChosenLoops loops, std::span<const LoopTrack> tracks, double mean_edge_length,
-                            Job& job);
+                            const Spill& spill, const Workers& workers, Phases& phases);
 
 // Returns the loops that the selection reports.
 std::vector<std::size_t> select_loops(const std::vector<LoopMeasures>& loops, const SelectionConfig& config);

@@ -30,9 +30,10 @@ std::size_t sample_count(const LoopMeasures& loop) {
 }
 
 // Returns points at even steps along each loop: kSamples places for each.
-std::span<LoopSample> sample_loops(const MeasuredLoops& loops, Job& job, Scratch& scratch) {
+std::span<LoopSample> sample_loops(const MeasuredLoops& loops, const Spill& spill, const Workers& workers,
+                                   Scratch& scratch) {
   const std::span<LoopSample> samples = scratch.array<LoopSample>(kSamples * loops.measures.size());
-  for_each_loop(loops.loops, job, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch&) {
+  for_each_loop(loops.loops, spill, workers, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch&) {
     const std::size_t count = sample_count(loops.measures[i]);
     for (std::size_t s = 0; s < count; ++s) {
       const ScanPoint& p = loop[s * loop.size() / count];
@@ -104,12 +105,12 @@ std::vector<std::size_t> loops_inside(const MeasuredLoops& loops, std::size_t po
     if (sample.is_inside && sample.is_near()) found.push_back(sample.loop);
   }
   std::sort(found.begin(), found.end());
-  constexpr double kLeastShare = 0.9;
+  constexpr double kLeastFraction = 0.9;
   std::vector<std::size_t> most;
   for (auto first = found.begin(); first != found.end();) {
     const auto last = std::upper_bound(first, found.end(), *first);
     if (static_cast<double>(last - first) >=
-        kLeastShare * static_cast<double>(sample_count(loops.measures[*first])))
+        kLeastFraction * static_cast<double>(sample_count(loops.measures[*first])))
       most.push_back(*first);
     first = last;
   }
@@ -117,12 +118,13 @@ std::vector<std::size_t> loops_inside(const MeasuredLoops& loops, std::size_t po
 }
 
 // Returns for each loop the smallest loop around it; -1 without one.
-std::vector<std::int64_t> find_around(const MeasuredLoops& loops, Job& job) {
+std::vector<std::int64_t> find_around(const MeasuredLoops& loops, const Spill& spill,
+                                      const Workers& workers) {
   const std::vector<LoopMeasures>& measures = loops.measures;
-  const MemoryLedger::Lease sampling = job.ledger.take(job.memory.work / 4);
-  Scratch scratch(job.temporary, sampling.bytes());
-  const std::span<const LoopSample> samples = sample_loops(loops, job, scratch);
-  const MemoryLedger::Lease comparing = job.ledger.take(job.memory.work / 4);
+  const MemoryLedger::Lease sampling = workers.memory.ledger.take(workers.memory.work / 4);
+  Scratch scratch(spill.folder, sampling.bytes());
+  const std::span<const LoopSample> samples = sample_loops(loops, spill, workers, scratch);
+  const MemoryLedger::Lease comparing = workers.memory.ledger.take(workers.memory.work / 4);
   const std::size_t most = std::max<std::size_t>(1, comparing.bytes() / (kSamples * sizeof(Inside)));
   const Centroids centroids(measures);
   std::vector<std::size_t> by_area(measures.size());
@@ -153,10 +155,10 @@ std::vector<std::int64_t> find_around(const MeasuredLoops& loops, Job& job) {
 
 }  // namespace
 
-void nest_loops(MeasuredLoops& loops, Job& job) {
+void nest_loops(MeasuredLoops& loops, const Spill& spill, const Workers& workers, Phases& phases) {
   std::vector<LoopMeasures>& measures = loops.measures;
-  Phase phase(job, "nest", 0);
-  const std::vector<std::int64_t> around = find_around(loops, job);
+  Phase phase(phases, "nest", 0);
+  const std::vector<std::int64_t> around = find_around(loops, spill, workers);
   std::vector<double> islands(measures.size(), 0.0);
   for (std::size_t i = 0; i < measures.size(); ++i) {
     if (around[i] < 0) continue;

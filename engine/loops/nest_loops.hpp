@@ -4,7 +4,8 @@
 
 #include "engine/loops/measure_loops.hpp"
 #include "engine/model/detection.hpp"
-#include "engine/run/job.hpp"
+#include "engine/run/parallel.hpp"
+#include "engine/run/phase.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -20,9 +21,9 @@ namespace lacuna {
 // from the nearest edge is less than 45 degrees. The edge is searched along a line through the point. So what
 // hides a surface from above, such as a table, is no island in the hole below.
 //
-// Ties: by order. A loop that encloses no area has no parent and is none. Memory: 1 kB a loop, beyond a share
-// of the limit on disk. Cost: a pass over the loops, and over each loop with others near its inside.
-void nest_loops(MeasuredLoops& loops, Job& job);
+// Ties: by order. A loop that encloses no area has no parent and is none. Memory: 1 kB a loop, beyond a
+// fraction of the limit on disk. Cost: a pass over the loops, and over each loop with others near its inside.
+void nest_loops(MeasuredLoops& loops, const Spill& spill, const Workers& workers, Phases& phases);
 
 // Loops as they are reported.
 struct NestedReport {

@@ -2,7 +2,6 @@
 // Places that are spread evenly over a polygon.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>

@@ -7,8 +7,8 @@
 
 namespace lacuna {
 
-void rate_loops(const TileStore& points, Loops& loops, Job& job) {
-  for_each_loop(loops, job, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch& scratch) {
+void rate_loops(const TileStore& points, Loops& loops, const Spill& spill, const Workers& workers) {
+  for_each_loop(loops, spill, workers, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch& scratch) {
     const LoopShape shape = shape_of(loop, scratch);
     LoopEvidence evidence = loops.evidence(i);
     evidence.width = 2 * shape.area / shape.perimeter / evidence.spacing;

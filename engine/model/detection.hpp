@@ -4,12 +4,12 @@
 #pragma once
 
 #include "engine/model/loop.hpp"
+#include "engine/run/progress.hpp"
 
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -28,12 +28,7 @@ struct Counts {
   std::uint64_t components = 0;       // of the boundary graph
   std::uint64_t raw_loops = 0;        // before selection
   std::uint64_t undefined_normals = 0;
-  std::uint64_t normals_off = 0;      // given ones, by more than 45 degrees from the estimated ones
-};
-
-struct PhaseTime {
-  std::string name;
-  double seconds = 0;
+  std::uint64_t normals_off = 0;  // given ones, by more than 45 degrees from the estimated ones
 };
 
 // A level of the scan.

@@ -4,7 +4,6 @@
 
 #include "engine/model/ids.hpp"
 
-#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -6,7 +6,6 @@
 #include "engine/model/plain_box.hpp"
 #include "engine/model/task_share.hpp"
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -65,11 +65,11 @@ void BlockSearch::prepare(std::size_t neighbours) {
 // Calls visit(first, last) for queries that share surroundings. Where the order of points jumps, fewer
 // queries share them. The surroundings of one query alone may be empty.
 template <class Radius, class Visit>
-void BlockSearch::for_each_part(LocalIndex first, LocalIndex last, Radius&& radius, Visit&& visit) {
+void BlockSearch::for_each_run(LocalIndex first, LocalIndex last, Radius&& radius, Visit&& visit) {
   if (!find_surroundings(first, last, radius()) && last - first > 1) {
     const LocalIndex middle = first + (last - first) / 2;
-    for_each_part(first, middle, radius, visit);
-    for_each_part(middle, last, radius, visit);
+    for_each_run(first, middle, radius, visit);
+    for_each_run(middle, last, radius, visit);
   } else {
     visit(first, last);
   }
@@ -78,7 +78,7 @@ void BlockSearch::for_each_part(LocalIndex first, LocalIndex last, Radius&& radi
 // Adds candidates for the neighbours of the queries of [first, last) to the lists of the run.
 void BlockSearch::list_run(LocalIndex first, LocalIndex last, LocalIndex run) {
   const auto radius = [this] { return kRunGuess * guess_; };
-  for_each_part(first, last, radius, [&](LocalIndex begin, LocalIndex end) {
+  for_each_run(first, last, radius, [&](LocalIndex begin, LocalIndex end) {
     for (LocalIndex query = begin; query < end; ++query) {
       list_candidates(query, end, lists_[query - run]);
       if (covered_ == 0 && query + 1 < end) return list_run(query + 1, end, run);
@@ -201,7 +201,7 @@ void BlockSearch::keep_if_near(LocalIndex query, LocalIndex other) {
 void BlockSearch::list_balls(LocalIndex first, LocalIndex last, double radius) {
   std::size_t most = 0;
   const auto same_radius = [radius] { return radius; };
-  for_each_part(first, last, same_radius, [&](LocalIndex begin, LocalIndex end) {
+  for_each_run(first, last, same_radius, [&](LocalIndex begin, LocalIndex end) {
     for (LocalIndex query = begin; query < end; ++query) {
       CandidateList& list = lists_[query - first];
       list.count = kMostCandidates + 1;

@@ -7,7 +7,6 @@
 #include "engine/neighbours/candidate_list.hpp"
 
 #include <array>
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -84,7 +83,7 @@ class BlockSearch {
   void collect_ball(LocalIndex query, std::size_t place, double squared_radius);
   void collect_point(LocalIndex query, LocalIndex other, double squared_radius);
   template <class Radius, class Visit>
-  void for_each_part(LocalIndex first, LocalIndex last, Radius&& radius, Visit&& visit);
+  void for_each_run(LocalIndex first, LocalIndex last, Radius&& radius, Visit&& visit);
   bool find_surroundings(LocalIndex first, LocalIndex last, double radius);
   bool set_origin(const BlockBox& run, double radius);
 

@@ -6,7 +6,6 @@
 #include "engine/model/points.hpp"
 #include "engine/parts/parts.hpp"
 
-#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/parts/level_form.hpp"
 
+#include "engine/bucket/tile_size.hpp"
 #include "engine/parts/kept_files.hpp"
 #include "engine/survey/survey.hpp"
 
@@ -31,9 +32,9 @@ struct LevelNumbers {
 };
 
 std::optional<AppendLists<Represented>> represented_of(std::uint64_t lists, const PartReader& part,
-                                                       const Job& job) {
+                                                       const Spill& spill) {
   if (lists == 0) return std::nullopt;
-  AppendLists<Represented> represented(job.file("represented"), lists, job.lists);
+  AppendLists<Represented> represented(spill, "represented", lists);
   for (std::uint64_t list = 0; list < lists; ++list) {
     part.for_each<Represented>("represented", list,
                                [&](std::span<const Represented> some) { represented.append(list, some); });
@@ -48,9 +49,9 @@ std::optional<StoreFile> open_file(const fs::path& path, std::uint64_t bytes) {
   return file;
 }
 
-bool fits(const Tiling& tiling, const Job& job) {
+bool fits(const Tiling& tiling, const Config& config, const Memory& memory) {
   return std::all_of(tiling.tiles.begin(), tiling.tiles.end(),
-                     [&](const Tile& tile) { return job.tile_bytes(tile.points) <= job.memory.tiles; });
+                     [&](const Tile& tile) { return tile_bytes(tile.points, config) <= memory.tiles; });
 }
 
 fs::path column(const LevelForm& form, const std::string& digits, const char* kind) {
@@ -81,15 +82,14 @@ std::optional<Level> LevelForm::read(const PartReader& part) const {
   tiling.tiles = part.records<Tile>("tiles");
   tiling.cells = part.records<Cell>("cells");
   tiling.build_tree();
-  if (!fits(tiling, job)) return std::nullopt;
+  if (!fits(tiling, job.config, job.workers.memory)) return std::nullopt;
   std::optional<StoreFile> points =
       open_file(column_of(*this, numbers.points_digest, kPoints), numbers.points_bytes);
   std::optional<StoreFile> normals =
       open_file(column_of(*this, numbers.normals_digest, kNormals), numbers.normals_bytes);
   if (!points || !normals) return std::nullopt;
-  TileStore store({std::move(*points), std::move(*normals), job.file("duplicates")}, std::move(tiling),
-                  part.records<TileDigests>("digests"), numbers.survey.precision(), numbers.has_normals != 0,
-                  job.lists);
+  TileStore store({std::move(*points), std::move(*normals), job.spill}, std::move(tiling),
+                  part.records<TileDigests>("digests"), numbers.survey.precision(), numbers.has_normals != 0);
   for (TileIndex t = 0; t < store.tiling().tiles.size(); ++t)
     part.for_each<Duplicate>(
         "duplicates", t, [&](std::span<const Duplicate> duplicates) { store.add_duplicates(t, duplicates); });
@@ -101,7 +101,7 @@ std::optional<Level> LevelForm::read(const PartReader& part) const {
                .store = std::move(store),
                .seal = line_of(part.checksum()),
                .input = part.records<std::uint64_t>("input"),
-               .represented = represented_of(numbers.represented, part, job)};
+               .represented = represented_of(numbers.represented, part, job.spill)};
 }
 
 void LevelForm::write(Level& level, PartWriter& part) const {
@@ -110,8 +110,8 @@ void LevelForm::write(Level& level, PartWriter& part) const {
   normals.start_sync();
   const Tiling& tiling = level.store.tiling();
   std::vector<TileDigests> digests(tiling.tiles.size());
-  job.arena.for_each(digests.size(),
-                     [&](std::size_t t) { digests[t] = level.store.digests(static_cast<TileIndex>(t)); });
+  job.workers.arena.for_each(
+      digests.size(), [&](std::size_t t) { digests[t] = level.store.digests(static_cast<TileIndex>(t)); });
   Hash of_points, of_normals;
   for (const TileDigests& tile : digests) {
     of_points.add(std::as_bytes(std::span(tile.points)));
@@ -151,18 +151,18 @@ void LevelForm::write(Level& level, PartWriter& part) const {
 }
 
 StoreFiles LevelForm::files() const {
-  if (!parts.are_kept()) return temporary_files(job);
+  if (!parts.are_kept()) return temporary_store(job.spill);
   const auto create = [&](const char* kind) {
     return StoreFile(column(*this, random_digits(), kind).string() + kUnsealed, StoreFile::Name::kKept);
   };
-  return {create(kPoints), create(kNormals), job.file("duplicates")};
+  return {create(kPoints), create(kNormals), job.spill};
 }
 
-StoreFiles temporary_files(const Job& job) {
-  return {StoreFile(job.file("points")), StoreFile(job.file("normals")), job.file("duplicates")};
+StoreFiles temporary_store(const Spill& spill) {
+  return {StoreFile(spill.file("points")), StoreFile(spill.file("normals")), spill};
 }
 
-Level join_levels(std::vector<Level> shares, const Job& job) {
+Level join_levels(std::vector<Level> shares, const Spill& spill) {
   Level level = std::move(shares.front());
   if (shares.size() == 1) return level;
   std::vector<TileStore> stores;
@@ -171,7 +171,7 @@ Level join_levels(std::vector<Level> shares, const Job& job) {
     stores.push_back(std::move(shares[i].store));
     level.seal += shares[i].seal;
   }
-  level.store = TileStore::joined(std::move(stores), job.file("duplicates"), job.lists);
+  level.store = TileStore::joined(std::move(stores), spill);
   return level;
 }
 

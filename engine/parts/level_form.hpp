@@ -3,12 +3,11 @@
 // Its points and normals are columns, files of their own, which are written in place.
 #pragma once
 
+#include "engine/config/job.hpp"
 #include "engine/parts/parts.hpp"
-#include "engine/run/job.hpp"
 #include "engine/store/tile_store.hpp"
 #include "engine/thin/level.hpp"
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,9 +28,9 @@ struct LevelForm {
 };
 
 // Returns empty files for a store that is not kept.
-StoreFiles temporary_files(const Job& job);
+StoreFiles temporary_store(const Spill& spill);
 
 // Joins the shares of a level, one or more, in order.
-Level join_levels(std::vector<Level> shares, const Job& job);
+Level join_levels(std::vector<Level> shares, const Spill& spill);
 
 }  // namespace lacuna

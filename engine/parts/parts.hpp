@@ -8,7 +8,6 @@
 
 #include "engine/model/points.hpp"
 #include "engine/model/task_share.hpp"
-#include "engine/parts/task_plan.hpp"
 #include "engine/run/progress.hpp"
 #include "engine/store/sealed_part.hpp"
 

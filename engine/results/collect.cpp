@@ -128,16 +128,17 @@ std::vector<MarkedPoint> marks_of_tile(const TileOutputs& outputs, const Finding
 }  // namespace
 
 std::unique_ptr<Detection> collect_results(Findings findings, const TileOutputs& outputs,
-                                           const TileStore& store, Job& job) {
+                                           const TileStore& store, const Spill& spill, const Workers& workers,
+                                           Phases& phases) {
   const Tiling& tiling = store.tiling();
   Summary& summary = findings.summary;
-  Column<MarkedPoint> boundary_points(job.file("boundary"));
+  Column<MarkedPoint> boundary_points(spill.file("boundary"));
   {
-    Phase phase(job, "collect", tiling.points());
-    const MemoryLedger::Lease sorting = job.ledger.take(job.memory.work / 3);
-    SortedRuns<MarkedPoint> sorted(job.file("boundary-sort"), sorting.bytes());
+    Phase phase(phases, "collect", tiling.points());
+    const MemoryLedger::Lease sorting = workers.memory.ledger.take(workers.memory.work / 3);
+    SortedRuns<MarkedPoint> sorted(spill.file("boundary-sort"), sorting.bytes());
     std::mutex mutex;
-    job.arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
+    workers.arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
       const auto t = static_cast<TileIndex>(i);
       const Tile& tile = tiling.tiles[t];
       const std::vector<MarkedPoint> marked = marks_of_tile(outputs, findings, tile, t);
@@ -163,7 +164,7 @@ std::unique_ptr<Detection> collect_results(Findings findings, const TileOutputs&
     sorted.for_each([&](const MarkedPoint& p) { writer.add(p); });
     writer.finish();
   }
-  summary.phases = job.phases;
+  summary.phases = phases.times;
   return make_detection(std::move(findings), std::move(boundary_points));
 }
 

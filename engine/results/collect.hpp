@@ -7,8 +7,8 @@
 #include "engine/model/detection.hpp"
 #include "engine/results/loop_rows.hpp"
 #include "engine/results/point_results.hpp"
-#include "engine/results/scan_sample.hpp"
-#include "engine/run/job.hpp"
+#include "engine/run/parallel.hpp"
+#include "engine/run/phase.hpp"
 #include "engine/store/row_set.hpp"
 #include "engine/store/tile_store.hpp"
 
@@ -33,6 +33,7 @@ struct Findings {
 
 // Collects the results, and fills in the counts of boundary points.
 std::unique_ptr<Detection> collect_results(Findings findings, const TileOutputs& outputs,
-                                           const TileStore& store, Job& job);
+                                           const TileStore& store, const Spill& spill, const Workers& workers,
+                                           Phases& phases);
 
 }  // namespace lacuna

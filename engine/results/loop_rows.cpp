@@ -59,13 +59,13 @@ std::vector<MarkedPoint> owned_points(std::vector<MarkedPoint> points, const Til
 }  // namespace
 
 LoopRows find_loop_rows(const ChosenLoops& loops, std::span<const std::size_t> selected,
-                        const TileStore& store, Job& job) {
+                        const TileStore& store, const Spill& spill, const TaskArena& arena) {
   const Tiling& tiling = store.tiling();
-  LoopRows found{AppendLists<MarkedPoint>(job.file("points-of-loops"), tiling.tiles.size(), job.lists),
+  LoopRows found{AppendLists<MarkedPoint>(spill, "points-of-loops", tiling.tiles.size()),
                  RowSet(tiling.row_count())};
   send_points(loops, selected, tiling, found.points);
   std::atomic<std::uint64_t> count = 0;
-  job.arena.for_each(tiling.tiles.size(), [&](std::size_t t) {
+  arena.for_each(tiling.tiles.size(), [&](std::size_t t) {
     if (found.points.count(t) == 0) return;
     const std::vector<MarkedPoint> points =
         owned_points(found.points.read(t), store, static_cast<TileIndex>(t));

@@ -2,8 +2,8 @@
 // loop_rows: finds where the loops of all levels pass in the store of the first one.
 #pragma once
 
-#include "engine/loops/measure_loops.hpp"
-#include "engine/run/job.hpp"
+#include "engine/loops/loops.hpp"
+#include "engine/run/parallel.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/row_set.hpp"
 #include "engine/store/tile_store.hpp"
@@ -41,6 +41,6 @@ struct LoopRows {
 // level it was found. So each point is found by its place and its id. Cost: one pass over the tiles that have
 // such points.
 LoopRows find_loop_rows(const ChosenLoops& loops, std::span<const std::size_t> selected,
-                        const TileStore& store, Job& job);
+                        const TileStore& store, const Spill& spill, const TaskArena& arena);
 
 }  // namespace lacuna

@@ -6,7 +6,6 @@
 #include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace lacuna {
@@ -113,24 +112,25 @@ void emit_orientation(const EvaluatedTile& tile, TileOutput& output) {
   output.add(kCrossings, std::move(crossings));
 }
 
-RowSet opposed_normals(const TileOutputs& outputs, const TileStore& store, Job& job) {
+RowSet opposed_normals(const TileOutputs& outputs, const TileStore& store, const Spill& spill,
+                       const Workers& workers, Phases& phases) {
   const Tiling& tiling = store.tiling();
-  Phase phase(job, "orient", tiling.points());
-  Column<PlainNormal> normals_by_row(job.file("oriented-normals"));
-  job.arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
+  Phase phase(phases, "orient", tiling.points());
+  Column<PlainNormal> normals_by_row(spill.file("oriented-normals"));
+  workers.arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
     const auto t = static_cast<TileIndex>(i);
     normals_by_row.write(value(tiling.tiles[t].first_row), outputs.read(kNormals, t));
   });
-  const MemoryLedger::Lease sorting = job.ledger.take(job.memory.work / 3);
-  EdgeSort edges(job.file("orientation-edges"), sorting.bytes());
+  const MemoryLedger::Lease sorting = workers.memory.ledger.take(workers.memory.work / 3);
+  EdgeSort edges(spill.file("orientation-edges"), sorting.bytes());
   for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
     for (const OrientationEdge& edge : outputs.read(kForest, t)) edges.add(edge);
     add_crossings(outputs.read(kCrossings, t), normals_by_row, store, t, edges);
     phase.advance(tiling.tiles[t].points);
   }
 
-  const MemoryLedger::Lease spanning = job.ledger.take(job.memory.work / 2);
-  Scratch scratch(job.temporary, spanning.bytes());
+  const MemoryLedger::Lease spanning = workers.memory.ledger.take(workers.memory.work / 2);
+  Scratch scratch(spill.folder, spanning.bytes());
   const std::uint64_t rows = tiling.row_count();
   SignedUnionFind trees(rows, scratch);
   edges.for_each([&](const OrientationEdge& e) { trees.unite(value(e.low), value(e.high), e.opposed); });

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "engine/evaluate/evaluated_tile.hpp"
-#include "engine/model/orientation.hpp"
-#include "engine/run/job.hpp"
+#include "engine/run/parallel.hpp"
+#include "engine/run/phase.hpp"
 #include "engine/store/row_set.hpp"
 #include "engine/store/tile_store.hpp"
 
@@ -25,6 +25,7 @@ void emit_orientation(const EvaluatedTile& tile, TileOutput& output);
 // tiles' forests and the edges between tiles. They are sorted on disk, and a union-find carries the sign. In
 // every component, the normal of the topmost point (largest z, then lowest id) points up. The first
 // coordinate of z, y, x of that normal that is not 0 is positive. Memory: the global budget.
-RowSet opposed_normals(const TileOutputs& outputs, const TileStore& store, Job& job);
+RowSet opposed_normals(const TileOutputs& outputs, const TileStore& store, const Spill& spill,
+                       const Workers& workers, Phases& phases);
 
 }  // namespace lacuna

@@ -36,16 +36,15 @@ void emit_point_results(const EvaluatedTile& tile, TileOutput& output) {
 }
 
 PointResults::PointResults(const TileOutputs& outputs, std::uint64_t ids, const TileStore& store,
-                           const Job& job)
+                           const Spill& spill, const Workers& workers)
     : store_(store),
       criteria_(criteria().size()),
-      lists_(std::make_unique<AppendBytes>(job.file("results"), (ids + kResultBlock - 1) / kResultBlock,
-                                           job.lists)) {
+      lists_(std::make_unique<AppendBytes>(spill, "results", (ids + kResultBlock - 1) / kResultBlock)) {
   const std::vector<Tile>& tiles = store.tiling().tiles;
   std::vector<std::uint64_t> needs;
   for (const Tile& tile : tiles) needs.push_back(tile.points * record_bytes());
-  job.for_each_within(job.memory.tiles, needs,
-                      [&](std::size_t t) { take(outputs, static_cast<TileIndex>(t)); });
+  workers.for_each_within(workers.memory.tiles, needs,
+                          [&](std::size_t t) { take(outputs, static_cast<TileIndex>(t)); });
 }
 
 void PointResults::take(const TileOutputs& outputs, TileIndex tile) {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/evaluate/evaluated_tile.hpp"
-#include "engine/run/job.hpp"
+#include "engine/run/parallel.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/tile_store.hpp"
 
@@ -35,20 +35,19 @@ void emit_point_results(const EvaluatedTile& tile, TileOutput& output);
 class PointResults {
  public:
   // Takes the results of all tiles. `ids`: points of the input.
-  PointResults(const TileOutputs& outputs, std::uint64_t ids, const TileStore& store, const Job& job);
+  PointResults(const TileOutputs& outputs, std::uint64_t ids, const TileStore& store, const Spill& spill,
+               const Workers& workers);
 
   std::size_t blocks() const { return lists_->lists(); }
   // Calls visit(result, criteria), in any order.
   template <class Visit>
   void for_each(std::size_t block, Visit&& visit) const {
-    constexpr std::size_t kTogether = 1 << 14;
-    std::vector<std::byte> part(kTogether * record_bytes());
     std::vector<float> criteria(criteria_);
-    lists_->for_each_part(block, part, [&](std::size_t bytes) {
-      for (std::size_t at = 0; at < bytes; at += record_bytes()) {
+    lists_->for_each_block(block, record_bytes() << 14, [&](std::span<const std::byte> bytes) {
+      for (std::size_t at = 0; at < bytes.size(); at += record_bytes()) {
         ResultHead result;
-        std::memcpy(&result, &part[at], sizeof result);
-        std::memcpy(criteria.data(), &part[at + sizeof result], criteria_ * sizeof(float));
+        std::memcpy(&result, &bytes[at], sizeof result);
+        std::memcpy(criteria.data(), &bytes[at + sizeof result], criteria_ * sizeof(float));
         visit(result, std::span<const float>(criteria));
       }
     });

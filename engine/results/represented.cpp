@@ -20,12 +20,12 @@ struct SpreadResult {
 }  // namespace
 
 std::unique_ptr<Detection> spread_results(std::unique_ptr<Detection> detection,
-                                          AppendLists<Represented> represented_points, const Job& job) {
+                                          AppendLists<Represented> represented_points, const Spill& spill) {
   const auto represented = std::make_shared<const AppendLists<Represented>>(std::move(represented_points));
-  detection->for_each_result_block = [represented, file = job.file("spread"), lists = job.lists,
+  detection->for_each_result_block = [represented, spill,
                                       of_representatives =
                                           std::move(detection->for_each_result_block)](const auto& visit) {
-    AppendLists<SpreadResult> spread(file, represented->lists(), lists);
+    AppendLists<SpreadResult> spread(spill, "spread", represented->lists());
     Outbox<SpreadResult> outbox(spread);
     of_representatives([&](PointId first, std::span<const PointResult> block) {
       represented->for_each(value(first) / kResultBlock, [&](const Represented& r) {

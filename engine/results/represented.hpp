@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
-#include "engine/run/job.hpp"
+#include "engine/run/memory.hpp"
 #include "engine/thin/choose_points.hpp"
 
 #include <memory>
@@ -14,6 +14,6 @@ namespace lacuna {
 // representatives alone. Cost: one sort of all points on disk when the blocks are read. With results.points
 // only.
 std::unique_ptr<Detection> spread_results(std::unique_ptr<Detection> detection,
-                                          AppendLists<Represented> represented, const Job& job);
+                                          AppendLists<Represented> represented, const Spill& spill);
 
 }  // namespace lacuna

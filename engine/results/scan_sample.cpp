@@ -4,9 +4,7 @@
 #include "engine/store/column_writer.hpp"
 #include "engine/store/sorted_runs.hpp"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
@@ -101,15 +99,16 @@ ScanSample::KeyBins ScanSample::bins_of(const TileOutputs& outputs, std::size_t 
   return bins;
 }
 
-Column<SampledPoint> ScanSample::draw(const TileOutputs& outputs, std::size_t tiles, Job& job) {
-  Phase phase(job, "sample", 0);
+Column<SampledPoint> ScanSample::draw(const TileOutputs& outputs, std::size_t tiles, const Spill& spill,
+                                      const Workers& workers, Phases& phases) {
+  Phase phase(phases, "sample", 0);
   const KeyBins bins = bins_of(outputs, tiles);
-  const MemoryLedger::Lease sorting = job.ledger.take(job.memory.work / 4);
-  SortedRuns<SampledPoint, ById> sorted(job.file("sample-sort"), sorting.bytes() / 2);
-  SortedRuns<DrawnPoint> of_last_bin(job.file("sample-last"), sorting.bytes() / 2);
+  const MemoryLedger::Lease sorting = workers.memory.ledger.take(workers.memory.work / 4);
+  SortedRuns<SampledPoint, ById> sorted(spill.file("sample-sort"), sorting.bytes() / 2);
+  SortedRuns<DrawnPoint> of_last_bin(spill.file("sample-last"), sorting.bytes() / 2);
   std::uint64_t taken = 0;
   std::mutex mutex;
-  job.arena.for_each(tiles, [&](std::size_t t) {
+  workers.arena.for_each(tiles, [&](std::size_t t) {
     const std::vector<DrawnPoint> drawn = outputs.read(kDrawnPoints, static_cast<TileIndex>(t));
     const std::lock_guard lock(mutex);
     for (const DrawnPoint& point : drawn) {
@@ -132,7 +131,7 @@ Column<SampledPoint> ScanSample::draw(const TileOutputs& outputs, std::size_t ti
   of_last_bin.for_each([&](const DrawnPoint& point) {
     if (point.key <= last_key) sorted.add(point.point);
   });
-  Column<SampledPoint> column(job.file("sample"));
+  Column<SampledPoint> column(spill.file("sample"));
   ColumnWriter<SampledPoint> writer(column);
   sorted.for_each([&](const SampledPoint& sample) { writer.add(sample); });
   writer.finish();

@@ -4,7 +4,8 @@
 
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/model/detection.hpp"
-#include "engine/run/job.hpp"
+#include "engine/run/parallel.hpp"
+#include "engine/run/phase.hpp"
 #include "engine/store/column.hpp"
 #include "engine/store/tile_store.hpp"
 
@@ -29,7 +30,8 @@ class ScanSample {
   // be. From any thread.
   void emit(const EvaluatedTile& tile, TileOutput& output);
   // Returns the sample in ascending id, once all tiles are evaluated.
-  Column<SampledPoint> draw(const TileOutputs& outputs, std::size_t tiles, Job& job);
+  Column<SampledPoint> draw(const TileOutputs& outputs, std::size_t tiles, const Spill& spill,
+                            const Workers& workers, Phases& phases);
 
  private:
   // A point that may be in the sample.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one exception that ends a job: bad input, a full disk, an impossible setting. Caught once, in main.
+// The one exception that ends a run: bad input, a full disk, an impossible setting. Caught once, in main.
 #pragma once
 
 #include "engine/export.hpp"

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include <malloc.h>
+
 namespace lacuna {
 namespace {
 
@@ -28,7 +30,12 @@ Memory Memory::share(std::uint64_t limit) {
           .lists = rest / 8,
           .work = rest * 3 / 5,
           .tiles = rest * 2 / 5,
-          .reading = rest * 2 / 5};
+          .reading = rest * 2 / 5,
+          .ledger = MemoryLedger(rest * 3 / 5)};
+}
+
+void Memory::trim(double fraction) const {
+  if (static_cast<double>(resident_memory().all) > fraction * static_cast<double>(limit)) ::malloc_trim(0);
 }
 
 MemoryLedger::Lease MemoryLedger::take(std::uint64_t bytes) {

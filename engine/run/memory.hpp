@@ -1,27 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The memory limit, and who has how much of it.
+// The memory limit, who has how much of it, and where the rest goes.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <mutex>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace lacuna {
-
-// The parts of the memory limit. All data of the scan's size is within these parts, save a few bits a point
-// (active, coherent, on a loop).
-struct Memory {
-  std::uint64_t limit;    // all of it; where the config has none, half of what the process may have
-  std::uint64_t cells;    // survey and index
-  std::uint64_t lists;    // buffers of all lists on their way to disk: a BufferPool
-  std::uint64_t work;     // all else: a MemoryLedger
-  std::uint64_t tiles;    // of `work`: all tiles at work together
-  std::uint64_t reading;  // of `work`: what a reader of the scan may hold
-
-  static Memory share(std::uint64_t limit);
-};
 
 // Hands out memory to the stages that work at the same time, and refuses where they would have more than all
 // of it together. From any thread.
@@ -51,6 +41,23 @@ class MemoryLedger {
 
  private:
   std::atomic<std::uint64_t> left_;
+};
+
+// The parts of the memory limit. All data of the scan's size is within these parts, save a few bits a point
+// (active, coherent, on a loop).
+struct Memory {
+  std::uint64_t limit;    // all of it; where the config has none, half of what the process may have
+  std::uint64_t cells;    // survey and index
+  std::uint64_t lists;    // buffers of all lists on their way to disk: a BufferPool
+  std::uint64_t work;     // all else, which the ledger hands out
+  std::uint64_t tiles;    // of `work`: all tiles at work together
+  std::uint64_t reading;  // of `work`: what a reader of the scan may hold
+  mutable MemoryLedger ledger;
+
+  static Memory share(std::uint64_t limit);
+  // Returns freed memory to the system, if more than this fraction of the limit is in use. Call it at the end
+  // of each phase, between steps that need much, and within a phase where the limit is near.
+  void trim(double fraction = 0.5) const;
 };
 
 // The memory that all lists share for their buffers. Where it is full, the list with the largest buffers
@@ -93,6 +100,14 @@ class BufferPool {
   std::atomic<std::uint64_t> least_ = 0;  // bytes that the owners may hold in any case
   std::mutex mutex_;
   std::vector<Buffers*> owners_;
+};
+
+// Where data of a run goes through the disk: columns, lists, and arrays beyond memory.
+struct Spill {
+  std::filesystem::path folder;
+  std::shared_ptr<BufferPool> buffers;  // of all lists; results may outlive the run, and so do their lists
+
+  std::filesystem::path file(std::string_view name) const { return folder / name; }
 };
 
 }  // namespace lacuna

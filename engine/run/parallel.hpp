@@ -3,6 +3,8 @@
 // order of threads.
 #pragma once
 
+#include "engine/run/memory.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -41,6 +43,20 @@ class TaskArena {
 
   struct Arena;
   std::unique_ptr<Arena> arena_;
+};
+
+// Threads, and the memory that they work in.
+struct Workers {
+  TaskArena arena;
+  Memory memory;
+
+  // Runs bodies with bounded memory (`TaskArena::for_each_within_budget`), and takes that memory from the
+  // ledger.
+  void for_each_within(std::uint64_t bytes, std::span<const std::uint64_t> needs,
+                       const std::function<void(std::size_t)>& body) const {
+    const MemoryLedger::Lease lease = memory.ledger.take(bytes);
+    arena.for_each_within_budget(needs, bytes, body);
+  }
 };
 
 // Returns the threads of the arena that the calling thread works in, for code that runs in a body and knows

@@ -5,6 +5,7 @@
 #include "engine/export.hpp"
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace lacuna {
@@ -20,6 +21,11 @@ class LACUNA_API Progress {
   virtual void end() noexcept = 0;
   // A kept part of a step, such as "level-0", is made again. Steps that follow from it may be, too.
   virtual void make_again(std::string_view /*step*/) {}
+};
+
+struct PhaseTime {
+  std::string name;
+  double seconds = 0;
 };
 
 // A progress that reports nothing.

@@ -11,7 +11,6 @@
 
 #include "engine/simd/vector-inl.hpp"
 
-#include <cstdint>
 #include <numbers>
 
 HWY_BEFORE_NAMESPACE();

@@ -10,35 +10,35 @@ namespace {
 
 // Counts the components that no crossing edge leaves.
 std::uint64_t count_closed(UnionFind& connected, LocalIndex vertices,
-                           std::span<const LocalIndex> part_of_root) {
+                           std::span<const LocalIndex> piece_of_root) {
   std::vector<std::uint8_t> is_component(vertices);
   for (LocalIndex v = 0; v < vertices; ++v) {
     const LocalIndex root = connected.find(v);
-    if (root != v && part_of_root[root] == kNoIndex) is_component[root] = 1;
+    if (root != v && piece_of_root[root] == kNoIndex) is_component[root] = 1;
   }
   return static_cast<std::uint64_t>(std::count(is_component.begin(), is_component.end(), 1));
 }
 
 }  // namespace
 
-Components::Components(std::size_t tiles, const Job& job)
+Components::Components(std::size_t tiles, const Spill& spill)
     : tiles_(tiles),
-      parts_(job.file("open-parts"), tiles, job.lists),
-      ends_(job.file("crossing-ends"), tiles, job.lists),
-      joins_(job.file("joins"), tiles, job.lists) {}
+      pieces_(spill, "open-pieces", tiles),
+      ends_(spill, "crossing-ends", tiles),
+      joins_(spill, "joins", tiles) {}
 
-TileOpenParts Components::open_parts(TileIndex tile, UnionFind& connected, LocalIndex vertices,
-                                     std::span<const CrossingEdge> crossings) {
-  TileOpenParts open{.part_of_root = std::vector<LocalIndex>(vertices, kNoIndex)};
+OpenPieces Components::open_pieces(TileIndex tile, UnionFind& connected, LocalIndex vertices,
+                                   std::span<const CrossingEdge> crossings) {
+  OpenPieces open{.piece_of_root = std::vector<LocalIndex>(vertices, kNoIndex)};
   std::vector<Join> joins;
   std::vector<Row> ends;
   for (const CrossingEdge& crossing : crossings) {
-    LocalIndex& part = open.part_of_root[connected.find(crossing.vertex)];
-    if (part == kNoIndex) {
-      part = static_cast<LocalIndex>(open.parts.size());
-      open.parts.push_back({crossing.own, 0});
+    LocalIndex& piece = open.piece_of_root[connected.find(crossing.vertex)];
+    if (piece == kNoIndex) {
+      piece = static_cast<LocalIndex>(open.pieces.size());
+      open.pieces.push_back({crossing.own, 0});
     }
-    joins.push_back({open.parts[part].name, crossing.own});
+    joins.push_back({open.pieces[piece].name, crossing.own});
     if (crossing.own < crossing.foreign) joins.push_back({crossing.own, crossing.foreign});  // once of two
     ends.push_back(crossing.own);
   }
@@ -46,7 +46,7 @@ TileOpenParts Components::open_parts(TileIndex tile, UnionFind& connected, Local
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   ends_.append(tile, ends);
   joins_.append(tile, joins);
-  count_ += count_closed(connected, vertices, open.part_of_root);
+  count_ += count_closed(connected, vertices, open.piece_of_root);
   return open;
 }
 
@@ -79,16 +79,16 @@ Components::Batches Components::join(std::uint64_t most_records, Scratch& scratc
 
   Batches batches;
   const std::span<std::uint64_t> records = scratch.array<std::uint64_t>(ends.size());  // by component
-  std::uint64_t parts = 0;
-  for (std::size_t t = 0; t < tiles_; ++t) parts += parts_.count(t);
-  const std::span<LocalIndex> component_of = scratch.array<LocalIndex>(parts);
-  parts = 0;
+  std::uint64_t pieces = 0;
+  for (std::size_t t = 0; t < tiles_; ++t) pieces += pieces_.count(t);
+  const std::span<LocalIndex> component_of = scratch.array<LocalIndex>(pieces);
+  pieces = 0;
   for (std::size_t t = 0; t < tiles_; ++t) {
-    batches.first_part.push_back(parts);
-    parts_.for_each(t, [&](const OpenPart& part) {
-      const LocalIndex component = components.find(index_of(part.name));
-      records[component] += part.records;
-      component_of[parts++] = component;
+    batches.first_piece.push_back(pieces);
+    pieces_.for_each(t, [&](const OpenPiece& piece) {
+      const LocalIndex component = components.find(index_of(piece.name));
+      records[component] += piece.records;
+      component_of[pieces++] = component;
     });
   }
 

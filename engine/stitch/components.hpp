@@ -4,7 +4,6 @@
 #pragma once
 
 #include "engine/model/tiling.hpp"
-#include "engine/run/job.hpp"
 #include "engine/stitch/union_find.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/scratch.hpp"
@@ -18,42 +17,42 @@ namespace lacuna {
 
 // An edge of the boundary graph that leaves its tile. Both tiles have it.
 struct CrossingEdge {
-  LocalIndex vertex;  // its own end, among the vertices of the tile's part
+  LocalIndex vertex;  // its own end, among the vertices of the tile's graph
   Row own, foreign;
 };
 
-// An open part: a component of a tile's part of the graph that crossing edges leave. One of its own ends of
-// crossing edges names it, a row that no other open part has.
-struct OpenPart {
+// An open piece: a component of a tile's graph that crossing edges leave. One of its own ends of
+// crossing edges names it, a row that no other open piece has.
+struct OpenPiece {
   Row name;
-  std::uint64_t records;  // of the tile in this part
+  std::uint64_t records;  // of the tile in this piece
 };
 
-// The open parts of one tile, numbered.
-struct TileOpenParts {
-  std::vector<OpenPart> parts;
-  std::vector<LocalIndex> part_of_root;  // by root of the tile's union-find; kNoIndex: closed
+// The open pieces of one tile, numbered.
+struct OpenPieces {
+  std::vector<OpenPiece> pieces;
+  std::vector<LocalIndex> piece_of_root;  // by root of the tile's union-find; kNoIndex: closed
 };
 
 class Components {
  public:
-  Components(std::size_t tiles, const Job& job);
+  Components(std::size_t tiles, const Spill& spill);
 
-  // Returns the open parts of a tile. The caller counts their `records`. `connected`: of all `vertices` of
-  // the tile's part of the graph. Counts the closed components with an edge. From any thread, once for each
-  // tile.
-  TileOpenParts open_parts(TileIndex tile, UnionFind& connected, LocalIndex vertices,
-                           std::span<const CrossingEdge> crossings);
-  void add(TileIndex tile, const TileOpenParts& open) { parts_.append(tile, open.parts); }
+  // Returns the open pieces of a tile. The caller counts their `records`. `connected`: of all `vertices` of
+  // the tile's graph. Counts the closed components with an edge. From any thread, once for
+  // each tile.
+  OpenPieces open_pieces(TileIndex tile, UnionFind& connected, LocalIndex vertices,
+                         std::span<const CrossingEdge> crossings);
+  void add(TileIndex tile, const OpenPieces& open) { pieces_.append(tile, open.pieces); }
 
-  // Joins open parts to components, once all tiles are added. Groups components to batches of at most
+  // Joins open pieces to components, once all tiles are added. Groups components to batches of at most
   // `most_records` each. A component with more has a batch of its own.
   struct Batches {
     std::vector<std::uint64_t> records;        // of each batch
     std::span<const std::uint32_t> batch_of;   // by component
-    std::span<const LocalIndex> component_of;  // by open part; the open parts of tile t begin at
-                                               // first_part[t]
-    std::vector<std::uint64_t> first_part;
+    std::span<const LocalIndex> component_of;  // by open piece; the open pieces of tile t begin at
+                                               // first_piece[t]
+    std::vector<std::uint64_t> first_piece;
   };
   Batches join(std::uint64_t most_records, Scratch& scratch);
 
@@ -67,7 +66,7 @@ class Components {
   std::span<Row> sorted_ends(Scratch& scratch) const;
 
   std::size_t tiles_;
-  AppendLists<OpenPart> parts_;
+  AppendLists<OpenPiece> pieces_;
   AppendLists<Row> ends_;    // own ends of crossing edges, ascending, each once
   AppendLists<Join> joins_;  // of ends in one component
   std::atomic<std::uint64_t> count_ = 0;

@@ -7,8 +7,8 @@
 
 namespace lacuna {
 
-AppendBytes::AppendBytes(std::filesystem::path path, std::size_t lists, std::shared_ptr<BufferPool> pool)
-    : pool_(std::move(pool)), path_(std::move(path)) {
+AppendBytes::AppendBytes(const Spill& spill, std::string_view name, std::size_t lists)
+    : pool_(spill.buffers), path_(spill.file(name)) {
   pool_->enter(*this);
   add_lists(lists);
 }
@@ -76,23 +76,24 @@ void AppendBytes::read(std::size_t list, std::byte* to) const {
       });
 }
 
-void AppendBytes::for_each_part(std::size_t list, std::span<std::byte> part,
-                                const std::function<void(std::size_t)>& visit) const {
-  std::vector<std::byte> last;
-  const auto in_parts = [&](std::uint64_t size, auto&& fill) {
-    for (std::uint64_t from = 0, count; from < size; from += count) {
-      count = std::min<std::uint64_t>(part.size(), size - from);
-      fill(from, part.first(count));
-      visit(count);
-    }
+void AppendBytes::for_each_block(std::size_t list, std::size_t block_bytes,
+                                 const std::function<void(std::span<const std::byte>)>& visit) const {
+  std::vector<std::byte> last, space(std::min<std::uint64_t>(block_bytes, size(list)));
+  const auto in_blocks = [&](std::uint64_t size, auto&& block_at) {
+    for (std::uint64_t from = 0; from < size; from += space.size())
+      visit(block_at(from, std::min<std::uint64_t>(space.size(), size - from)));
   };
   walk(
       list, [&](std::uint64_t, auto tail) { last.assign(tail.begin(), tail.end()); },
       [&](std::uint64_t, const Extent& extent) {
-        in_parts(extent.size, [&](std::uint64_t from, auto to) { file_->read(extent.offset + from, to); });
+        in_blocks(extent.size, [&](std::uint64_t from, std::uint64_t count) {
+          const auto block = std::span(space).first(count);
+          file_->read(extent.offset + from, block);
+          return block;
+        });
       });
-  in_parts(last.size(),
-           [&](std::uint64_t from, auto to) { std::copy_n(&last[from], to.size(), to.begin()); });
+  in_blocks(last.size(),
+            [&](std::uint64_t from, std::uint64_t count) { return std::span(last).subspan(from, count); });
 }
 
 void AppendBytes::drop(std::size_t index) {

@@ -22,6 +22,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -30,7 +31,7 @@ namespace lacuna {
 class AppendBytes final : BufferPool::Buffers {
  public:
   // Memory: a part of the pool, and in any case 64 KiB.
-  AppendBytes(std::filesystem::path path, std::size_t lists, std::shared_ptr<BufferPool> pool);
+  AppendBytes(const Spill& spill, std::string_view name, std::size_t lists);
   ~AppendBytes();
 
   // Adds empty lists behind the others. May be called while other threads append.
@@ -41,9 +42,9 @@ class AppendBytes final : BufferPool::Buffers {
   std::size_t lists() const { return lists_.size(); }
   // Reads a list, not while others append to it. `to` has `size(list)` bytes.
   void read(std::size_t list, std::byte* to) const;
-  // Reads a list piece by piece, in any order. Calls visit(bytes) when so many bytes of `part` are filled.
-  void for_each_part(std::size_t list, std::span<std::byte> part,
-                     const std::function<void(std::size_t)>& visit) const;
+  // Calls visit(block) with all bytes of a list, in any order, at most `block_bytes` at a time.
+  void for_each_block(std::size_t list, std::size_t block_bytes,
+                      const std::function<void(std::span<const std::byte>)>& visit) const;
   // Frees the list's buffer; its contents are gone.
   void drop(std::size_t list);
 
@@ -78,8 +79,8 @@ class AppendLists {
   static_assert(std::is_trivially_copyable_v<Record>);
 
  public:
-  AppendLists(std::filesystem::path path, std::size_t lists, std::shared_ptr<BufferPool> pool)
-      : bytes_(std::make_unique<AppendBytes>(std::move(path), lists, std::move(pool))) {}
+  AppendLists(const Spill& spill, std::string_view name, std::size_t lists)
+      : bytes_(std::make_unique<AppendBytes>(spill, name, lists)) {}
 
   void append(std::size_t list, std::span<const Record> records) {
     if (!records.empty()) bytes_->append(list, std::as_bytes(records));
@@ -95,10 +96,9 @@ class AppendLists {
   // Calls visit(record) for each record, in any order, with only some of them in memory.
   template <class Visit>
   void for_each(std::size_t list, Visit&& visit) const {
-    constexpr std::uint64_t kPart = 1 << 14;
-    std::vector<Record> part(std::min(kPart, count(list)));
-    bytes_->for_each_part(list, std::as_writable_bytes(std::span(part)), [&](std::size_t bytes) {
-      for (const Record& record : std::span(part).first(bytes / sizeof(Record))) visit(record);
+    bytes_->for_each_block(list, sizeof(Record) << 14, [&](std::span<const std::byte> block) {
+      const auto* const records = reinterpret_cast<const Record*>(block.data());
+      for (const Record& record : std::span(records, block.size() / sizeof(Record))) visit(record);
     });
   }
   void drop(std::size_t list) { bytes_->drop(list); }

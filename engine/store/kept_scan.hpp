@@ -7,8 +7,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
-#include <vector>
 
 namespace lacuna {
 

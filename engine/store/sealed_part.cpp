@@ -3,7 +3,6 @@
 
 #include "engine/run/error.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <cstring>
 

@@ -3,7 +3,6 @@
 
 #include "engine/run/error.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cerrno>

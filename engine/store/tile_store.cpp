@@ -17,26 +17,25 @@ constexpr const char* kOtherPoints = "not the points that were counted";
 }  // namespace
 
 TileStore::TileStore(StoreFiles files, std::vector<Tile> tiles, std::uint64_t most_tiles, Precision precision,
-                     bool with_normals, std::shared_ptr<BufferPool> lists)
+                     bool with_normals)
     : cells_(tiles.size()),
       has_normals_(with_normals),
       stores_normals_(with_normals),
-      duplicates_(std::move(files.duplicates), most_tiles, std::move(lists)) {
+      duplicates_(files.spill, "duplicates", most_tiles) {
   tiling_.tiles = std::move(tiles);
   columns_.push_back(
       {PointColumn(std::move(files.points), precision), Column<PlainNormal>(std::move(files.normals))});
 }
 
 TileStore::TileStore(StoreFiles files, Tiling tiling, std::vector<TileDigests> digests, Precision precision,
-                     bool with_normals, std::shared_ptr<BufferPool> lists)
-    : TileStore(std::move(files), {}, tiling.tiles.size(), precision, with_normals, std::move(lists)) {
+                     bool with_normals)
+    : TileStore(std::move(files), {}, tiling.tiles.size(), precision, with_normals) {
   tiling_ = std::move(tiling);
   digests_ = std::move(digests);
   is_checked_.resize(digests_.size());
 }
 
-TileStore TileStore::joined(std::vector<TileStore> parts, const std::filesystem::path& duplicates,
-                            const std::shared_ptr<BufferPool>& lists) {
+TileStore TileStore::joined(std::vector<TileStore> parts, const Spill& spill) {
   std::size_t tiles = 0, cells = 0;
   for (const TileStore& part : parts) {
     tiles += part.tiling_.tiles.size();
@@ -45,7 +44,7 @@ TileStore TileStore::joined(std::vector<TileStore> parts, const std::filesystem:
   TileStore& all = parts.front();
   all.tiling_.tiles.reserve(tiles);
   all.tiling_.cells.reserve(cells);
-  AppendLists<Duplicate> all_duplicates(duplicates, tiles, lists);
+  AppendLists<Duplicate> all_duplicates(spill, "duplicates", tiles);
   for (TileStore& part : parts) {
     const std::size_t first_tile = &part == &all ? 0 : all.tiling_.tiles.size();
     for (std::size_t t = 0; t < part.tiling_.tiles.size(); ++t)

@@ -13,8 +13,6 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
-#include <filesystem>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,10 +34,10 @@ struct TileDigests {
   Digest points, normals;
 };
 
-// The files of a store.
+// The files of a store; empty ones for a store that is to be filled.
 struct StoreFiles {
   StoreFile points, normals;
-  std::filesystem::path duplicates;  // a temporary file
+  Spill spill;  // for the duplicates
 };
 
 // The tiles are put, in any order. From then on the store is read only. Reads may come from several threads.
@@ -48,15 +46,13 @@ class TileStore {
   // `tiles`: with space for `raw` points each; `most_tiles`: the number of tiles with those that are added
   // later.
   TileStore(StoreFiles files, std::vector<Tile> tiles, std::uint64_t most_tiles, Precision precision,
-            bool with_normals, std::shared_ptr<BufferPool> lists);
+            bool with_normals);
   // Opens a store that was finished before, to be joined. `files`: sealed ones. Reading a tile throws
   // `DamagedFile` where its bytes have other digests. The caller adds the duplicates.
   TileStore(StoreFiles files, Tiling tiling, std::vector<TileDigests> digests, Precision precision,
-            bool with_normals, std::shared_ptr<BufferPool> lists);
-  // Joins finished stores of the same kind, at least one: tiles of the first one come first. `duplicates`: a
-  // temporary file.
-  static TileStore joined(std::vector<TileStore> parts, const std::filesystem::path& duplicates,
-                          const std::shared_ptr<BufferPool>& lists);
+            bool with_normals);
+  // Joins finished stores of the same kind, at least one: tiles of the first one come first.
+  static TileStore joined(std::vector<TileStore> parts, const Spill& spill);
 
   const Tiling& tiling() const { return tiling_; }
   bool has_normals() const { return has_normals_; }

@@ -2,9 +2,9 @@
 // survey, over the whole scan: finds where the points are.
 #pragma once
 
+#include "engine/config/job.hpp"
 #include "engine/model/points.hpp"
 #include "engine/model/task_share.hpp"
-#include "engine/run/job.hpp"
 #include "engine/survey/survey.hpp"
 
 #include <cstddef>
@@ -22,6 +22,7 @@ SurveyedScan survey_scan(PointSource& scan, Job& job);
 SurveyedScan survey_parts(PointSource& scan, const IndexRange& parts, Job& job);
 // Returns the survey of the whole scan. `expected_points`: as of the source.
 SurveyedScan merge_surveys(std::size_t tasks, const std::function<SurveyedScan(std::size_t)>& survey_of_task,
-                           std::optional<std::uint64_t> expected_points, const Job& job);
+                           std::optional<std::uint64_t> expected_points, const Spill& spill,
+                           const Memory& memory);
 
 }  // namespace lacuna

@@ -162,18 +162,18 @@ void choose_in_tile(const TileStore& store, TileIndex t, double edge, ChosenPoin
 }  // namespace
 
 ChosenPoints choose_points(const TileStore& store, const TileRange& tiles, double edge,
-                           std::uint64_t represented_ids, Job& job) {
+                           std::uint64_t represented_ids, const Spill& spill, const Workers& workers) {
   const Tiling& tiling = store.tiling();
   ChosenPoints chosen{.tiles = tiles,
                       .rows = RowSet(tiling.row_count()),
                       .in_cell = std::vector<std::uint32_t>(tiling.cells.size()),
                       .represented = {}};
   if (represented_ids > 0)
-    chosen.represented.emplace(job.file("represented"), represented_ids / kRepresentedBlock + 1, job.lists);
+    chosen.represented.emplace(spill, "represented", represented_ids / kRepresentedBlock + 1);
   std::vector<std::uint64_t> needs;
   for (TileIndex t = tiles.first; t < tiles.last; ++t)
     needs.push_back(tiling.tiles[t].points * kBytesPerPoint);
-  job.for_each_within(job.memory.tiles, needs, [&](std::size_t i) {
+  workers.for_each_within(workers.memory.tiles, needs, [&](std::size_t i) {
     choose_in_tile(store, tiles.first + static_cast<TileIndex>(i), edge, chosen);
   });
   chosen.count = std::accumulate(chosen.in_cell.begin(), chosen.in_cell.end(), std::uint64_t{0});

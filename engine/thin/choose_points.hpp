@@ -2,7 +2,7 @@
 // choose: chooses one point for each occupied cell of a lattice.
 #pragma once
 
-#include "engine/run/job.hpp"
+#include "engine/run/parallel.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/row_set.hpp"
 #include "engine/store/tile_store.hpp"
@@ -38,6 +38,6 @@ struct ChosenPoints {
 // large for the edge. Cost: linear. Memory: the tiles at work, a bit a row and 4 bytes a cell of the store.
 // `represented_ids`: all ids are below it; 0: nobody wants to know which point represents which.
 ChosenPoints choose_points(const TileStore& store, const TileRange& tiles, double edge,
-                           std::uint64_t represented_ids, Job& job);
+                           std::uint64_t represented_ids, const Spill& spill, const Workers& workers);
 
 }  // namespace lacuna

@@ -5,7 +5,6 @@
 // place is evaluated evenly at some level, from its own spacing upward.
 #pragma once
 
-#include "engine/model/detection.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/tile_store.hpp"
 #include "engine/survey/survey.hpp"

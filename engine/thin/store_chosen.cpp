@@ -145,7 +145,7 @@ TileJoin join_tiles(const Tiling& below, const ChosenPoints& chosen, std::uint64
 }
 
 TileStore store_chosen(const TileStore& below, const ChosenPoints& chosen, const TileJoin& join,
-                       StoreFiles files, Job& job) {
+                       StoreFiles files, const Workers& workers) {
   constexpr std::uint64_t kBytesPerPoint = 128;  // while it is put
   const Tiling& tiling = below.tiling();
   std::vector<Tile> tiles;
@@ -159,8 +159,8 @@ TileStore store_chosen(const TileStore& below, const ChosenPoints& chosen, const
   }
   const std::vector<JoinedCells> cells = Joiner(tiling, chosen, join.tile_points, join.cell_points).cells();
   TileStore store(std::move(files), std::move(tiles), join.first.size(), below.precision(),
-                  below.has_normals(), job.lists);
-  job.for_each_within(job.memory.tiles, needs, [&](std::size_t t) {
+                  below.has_normals());
+  workers.for_each_within(workers.memory.tiles, needs, [&](std::size_t t) {
     JoinedTile to;
     to.points.reserve(needs[t] / kBytesPerPoint);
     const TileIndex first = join.first[t], last = end_of(join, t, chosen.tiles);

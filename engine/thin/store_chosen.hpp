@@ -2,7 +2,7 @@
 // store: writes the chosen points of a store to a store of their own.
 #pragma once
 
-#include "engine/run/job.hpp"
+#include "engine/run/parallel.hpp"
 #include "engine/store/tile_store.hpp"
 #include "engine/thin/choose_points.hpp"
 
@@ -23,9 +23,9 @@ struct TileJoin {
 TileJoin join_tiles(const Tiling& below, const ChosenPoints& chosen, std::uint64_t tile_points,
                     std::uint64_t cell_points);
 
-// Stores the chosen points in the order that they have below, so that nothing is sorted. `files`: empty ones
-// for the store. Cost: reads all points below once.
+// Stores the chosen points in the order that they have below, so that nothing is sorted. Cost: reads all
+// points below once.
 TileStore store_chosen(const TileStore& below, const ChosenPoints& chosen, const TileJoin& join,
-                       StoreFiles files, Job& job);
+                       StoreFiles files, const Workers& workers);
 
 }  // namespace lacuna

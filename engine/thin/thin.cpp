@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/thin/thin.hpp"
 
+#include "engine/bucket/tile_size.hpp"
 #include "engine/run/error.hpp"
 #include "engine/thin/store_chosen.hpp"
 
@@ -14,17 +15,18 @@ namespace lacuna {
 namespace {
 
 // Makes a level of the chosen points.
-Level level_of(ChosenPoints chosen, const Level& below, std::size_t number, double edge, std::size_t parts,
+Level level_of(ChosenPoints chosen, const Level& below, std::size_t number, double edge, std::size_t tasks,
                StoreFiles files, Job& job) {
-  const std::uint64_t about = chosen.count * parts;  // of the level
+  const std::uint64_t about = chosen.count * tasks;  // of the level
   const TileJoin join =
-      join_tiles(below.store.tiling(), chosen, job.tile_points(about), job.cell_points(about));
+      join_tiles(below.store.tiling(), chosen, points_per_tile(about, job.config, job.workers),
+                 points_per_cell(about, job.workers.memory));
   return {.number = number,
           .edge = edge,
           .survey = below.survey,
           .extent = below.extent,
           .tile_points = join.tile_points,
-          .store = store_chosen(below.store, chosen, join, std::move(files), job),
+          .store = store_chosen(below.store, chosen, join, std::move(files), job.workers),
           .input = below.input,
           .represented = std::move(chosen.represented)};
 }
@@ -69,10 +71,11 @@ double share_left(const LengthBins& distances, double edge) {
 }  // namespace
 
 Level thin_to_first(const Level& all, StoreFiles files, Job& job) {
-  Phase phase(job, "thin", all.store.tiling().points());
+  Phase phase(job.phases, "thin", all.store.tiling().points());
   const double edge = first_edge(job.config.scale);
   const std::uint64_t represented_ids = job.config.results.points ? all.survey.ids : 0;
-  ChosenPoints chosen = choose_points(all.store, all.store.tiling().tiles_in({}), edge, represented_ids, job);
+  ChosenPoints chosen = choose_points(all.store, all.store.tiling().tiles_in({}), edge, represented_ids,
+                                      job.spill, job.workers);
   refuse_too_coarse(chosen.count, all.survey, job.config);
   return level_of(std::move(chosen), all, 0, edge, 1, std::move(files), job);
 }
@@ -87,7 +90,8 @@ double edge_above(const Level& below, const LengthBins& distances) {
 }
 
 Level thin_above(const Level& below, const TaskShare& share, double edge, StoreFiles files, Job& job) {
-  ChosenPoints chosen = choose_points(below.store, below.store.tiling().tiles_in(share), edge, 0, job);
+  ChosenPoints chosen =
+      choose_points(below.store, below.store.tiling().tiles_in(share), edge, 0, job.spill, job.workers);
   return level_of(std::move(chosen), below, below.number + 1, edge, share.tasks, std::move(files), job);
 }
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "engine/config/config.hpp"
+#include "engine/config/job.hpp"
 #include "engine/model/length_bins.hpp"
-#include "engine/run/job.hpp"
 #include "engine/store/tile_store.hpp"
 #include "engine/thin/level.hpp"
 
@@ -21,8 +21,7 @@ Level thin_to_first(const Level& all, StoreFiles files, Job& job);
 // the neighbours, of all points of the level below.
 double edge_above(const Level& below, const LengthBins& distances);
 
-// Makes a part of the level above, with one point for each cell of a lattice. `files`: empty ones for the
-// store.
+// Makes a task's share of the level above, with one point for each cell of a lattice.
 Level thin_above(const Level& below, const TaskShare& share, double edge, StoreFiles files, Job& job);
 
 // A level of fewer points leaves no interior around a hole, and is none.

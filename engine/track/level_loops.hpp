@@ -6,6 +6,7 @@
 #include "engine/loops/loops.hpp"
 
 #include <cstdint>
+#include <utility>
 
 namespace lacuna {
 
@@ -18,6 +19,12 @@ struct LevelLoops {
 };
 
 // `edge`: of the level's lattice; 0: it has every point.
-LevelLoops level_loops(Loops loops, double edge, const Totals& totals);
+inline LevelLoops level_loops(Loops loops, double edge, const Totals& totals) {
+  return {.edge = edge,
+          .cell_edge = edge > 0 ? edge : totals.median_distance() / kDistanceOverSpacing,
+          .points = totals.points,
+          .surface_area = totals.surface_area(),
+          .loops = std::move(loops)};
+}
 
 }  // namespace lacuna

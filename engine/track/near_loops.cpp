@@ -180,15 +180,16 @@ std::vector<NearLoops> pairs_of(SharedSort& shared, const std::vector<std::uint3
 
 }  // namespace
 
-std::vector<NearLoops> near_loops(std::span<const LevelLoops> levels, const Job& job) {
+std::vector<NearLoops> near_loops(std::span<const LevelLoops> levels, const Spill& spill,
+                                  const Workers& workers) {
   std::vector<std::uint32_t> first = {0};
   for (const LevelLoops& level : levels)
     first.push_back(first.back() + static_cast<std::uint32_t>(level.loops.size()));
-  const MemoryLedger::Lease sorting = job.ledger.take(job.memory.work / 2);
-  const std::uint64_t budget = sorting.bytes() / 2 / std::min(job.arena.threads(), levels.size());
+  const MemoryLedger::Lease sorting = workers.memory.ledger.take(workers.memory.work / 2);
+  const std::uint64_t budget = sorting.bytes() / 2 / std::min(workers.arena.threads(), levels.size());
   std::vector<std::vector<NearLoops>> pairs(levels.size());  // by the coarser level
-  job.arena.for_each(levels.size(), [&](std::size_t coarse) {
-    const auto file = [&](const char* name) { return job.file(name + std::to_string(coarse)); };
+  workers.arena.for_each(levels.size(), [&](std::size_t coarse) {
+    const auto file = [&](const char* name) { return spill.file(name + std::to_string(coarse)); };
     CellSort cells(file("loop-cells-"), budget);
     for (std::size_t l = coarse - std::min(coarse, kBridged + 1); l <= coarse; ++l)
       add_cells(levels[l], first[l], levels[coarse].cell_edge, cells);

@@ -127,8 +127,8 @@ TrackedLoops all_loops(std::vector<LevelLoops> levels) {
 
 TrackedLoops track_loops(std::vector<LevelLoops> levels, Job& job) {
   if (job.config.loops.method == LoopMethod::kPaper) return all_loops(std::move(levels));
-  Phase phase(job, "track", 0);
-  const std::vector<NearLoops> pairs = near_loops(levels, job);
+  Phase phase(job.phases, "track", 0);
+  const std::vector<NearLoops> pairs = near_loops(levels, job.spill, job.workers);
   std::vector<TrackedLoop> loops = loops_of(levels);
   follow(pairs, loops);
   rate(levels, loops);

@@ -2,8 +2,8 @@
 // track: follows the same hole through the levels, and chooses one of its loops (method.md, D).
 #pragma once
 
+#include "engine/config/job.hpp"
 #include "engine/loops/loops.hpp"
-#include "engine/run/job.hpp"
 #include "engine/track/level_loops.hpp"
 
 #include <vector>

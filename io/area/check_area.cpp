@@ -2,7 +2,7 @@
 #include "io/area/check_area.hpp"
 
 #include "engine/run/error.hpp"
-#include "engine/run/job.hpp"
+#include "engine/run/memory.hpp"
 #include "engine/run/regular_file.hpp"
 #include "io/area/area_basis.hpp"
 #include "io/area/area_polygons.hpp"

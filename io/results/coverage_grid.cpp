@@ -2,7 +2,7 @@
 #include "io/results/coverage_grid.hpp"
 
 #include "engine/run/error.hpp"
-#include "engine/run/job.hpp"
+#include "engine/run/memory.hpp"
 #include "io/scan/scan_pass.hpp"
 
 #include <algorithm>

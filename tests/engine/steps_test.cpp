@@ -36,7 +36,7 @@ struct SharedRun {
     MemoryScan input(cloud);
     const ScratchFolder scratch;
     NoProgress quiet;
-    return work(input, config, step, task, scratch.path(), quiet);
+    return do_task(input, config, step, task, scratch.path(), quiet);
   }
   Step step(const char* name) const { return step_of_name(name, config.run.workspace).value(); }
   std::string bytes() const { return run_engine(cloud, config).bytes(); }
@@ -243,7 +243,7 @@ TEST_CASE("names of steps go forth and back, and others are none") {
     const std::optional<Step> read = step_of_name(step.name(), run.config.run.workspace);
     REQUIRE(read);
     CHECK(read->level == step.level);
-    CHECK(read->form == step.form);
+    CHECK(read->rule == step.rule);
     CHECK(read->tasks == step.tasks);
   }
   for (const char* name : {"", "level", "level-", "level--1", "evaluate-0x", "evaluate-500", "tiles-0"})

@@ -2,7 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks that each folder of a source folder includes only those above it in the table of its README.
 
-usage: check_arrows.py FOLDER
+With BASE, the folders from that one on are a base: each includes only those below it, and all others may include
+them. Files of FOLDER itself may include all.
+
+usage: check_arrows.py FOLDER [BASE]
 """
 import pathlib
 import re
@@ -11,6 +14,8 @@ import sys
 folder = pathlib.Path(sys.argv[1])
 rows = re.findall(r"^\| `([\w]+)/?` \|", (folder / "README.md").read_text(encoding="utf-8"), re.MULTILINE)
 order = {name: place for place, name in enumerate(rows)}
+if len(sys.argv) > 2:
+    order |= {name: -order[name] for name in rows[rows.index(sys.argv[2]):]}
 
 
 def room(path):
@@ -18,12 +23,12 @@ def room(path):
 
 
 failed = False
-for source in sorted(folder.rglob("*.[ch]pp")):
+for source in sorted(folder.glob("*/**/*.[ch]pp" if len(sys.argv) > 2 else "**/*.[ch]pp")):
     if room(source) not in order:
         sys.exit(f"{source}: its folder is not in the table of {folder}/README.md")
     for name in re.findall(rf'^#include "({folder.name}/[^"]+)"', source.read_text(encoding="utf-8"), re.MULTILINE):
         included = folder.parent / name
-        if included.exists() and order[room(included)] > order[room(source)]:
-            print(f"{source}: includes {name}, which is below it in the table of {folder}/README.md")
+        if included.exists() and order.get(room(included), -len(rows)) > order[room(source)]:
+            print(f"{source}: includes {name}, against the order of the table of {folder}/README.md")
             failed = True
 sys.exit(failed)

@@ -19,9 +19,9 @@ DrawnLoop square(double half, LoopKind kind, const Eigen::Vector3d& centre, int 
   return loop;
 }
 
-MeasuredLoops measured(std::span<const DrawnLoop> drawn, Job& job) {
+MeasuredLoops measured(std::span<const DrawnLoop> drawn, const std::filesystem::path& folder) {
   MeasuredLoops loops;
-  Loops& level = loops.loops.levels.emplace_back(job.file("loops"));
+  Loops& level = loops.loops.levels.emplace_back(folder / "loops");
   std::uint64_t id = 0;
   for (const DrawnLoop& loop : drawn) {
     Loop points;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "engine/loops/measure_loops.hpp"
-#include "engine/run/job.hpp"
 #include "tests/support/test.hpp"
 
 namespace lacuna::test {
@@ -16,6 +15,6 @@ struct DrawnLoop {
 // A square, with `on_side` points from a corner to the next.
 DrawnLoop square(double half, LoopKind kind, const Eigen::Vector3d& centre = {0, 0, 0}, int on_side = 5);
 
-MeasuredLoops measured(std::span<const DrawnLoop> drawn, Job& job);
+MeasuredLoops measured(std::span<const DrawnLoop> drawn, const std::filesystem::path& folder);
 
 }  // namespace lacuna::test

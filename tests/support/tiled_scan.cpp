@@ -12,13 +12,13 @@ namespace {
 Level make_level(PointSource& scan, Job& job) {
   SurveyedScan survey = survey_scan(scan, job);
   const TilePlan plan = plan_tiles(survey, job);
-  const PointForm form{survey.precision(), scan.has_normals()};
+  const PointLayout layout{survey.precision(), scan.has_normals()};
   scan.rewind();
-  const ScatteredPoints scattered = scatter_points(scan, plan, form.precision, plan.points, job);
+  const ScatteredPoints scattered = scatter_points(scan, plan, layout.precision, plan.points, job);
   TileStore store = store_tiles(
-      plan, {}, survey.bounds, form,
+      plan, {}, survey.bounds, layout,
       [&](std::size_t place, const VisitPoints& visit) { scattered.for_each(place, visit); },
-      temporary_files(job), job);
+      temporary_store(job.spill), job.workers, job.phases);
   const double extent = extent_of(survey.bounds);
   return {.survey = survey, .extent = extent, .store = std::move(store), .represented = {}};
 }
@@ -32,7 +32,7 @@ TiledScan::TiledScan(PointSource& scan, const Config& given)
     : config(given), job(config, folder.path(), quiet), level(make_level(scan, job)), store(level.store) {}
 
 TileOutputs TiledScan::evaluate(const std::vector<TileConsumer>& consumers) {
-  TileOutputs outputs(store.tiling(), {}, {}, job);
+  TileOutputs outputs(store.tiling(), {}, {}, job.spill);
   const std::vector<TileIndex> tiles = all_tiles();
   evaluate_tiles(level, tiles, exchange_halo(store, tiles, job), consumers, outputs, job);
   return outputs;

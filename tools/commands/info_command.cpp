@@ -3,7 +3,7 @@
 
 #include "engine/config/config.hpp"
 #include "engine/inspect.hpp"
-#include "engine/run/job.hpp"
+#include "engine/run/parallel.hpp"
 #include "io/formats.hpp"
 #include "io/loops/json.hpp"
 #include "io/scan/scan_files.hpp"

@@ -4,7 +4,6 @@
 #include "engine/parts/kept_run.hpp"
 #include "engine/run/disk_space.hpp"
 #include "engine/run/error.hpp"
-#include "engine/run/job.hpp"
 #include "engine/steps.hpp"
 #include "io/scan/scan_identity.hpp"
 #include "io/scan/scan_pass.hpp"
@@ -60,7 +59,7 @@ void print_plan(const PlanArguments& arguments, const std::vector<Step>& steps, 
   std::uint64_t all = 0;
   for (const Step& step : steps) {
     add(step.name(), step.tasks, step.points, minutes_of(step));
-    all += step.form->name == kEvaluate ? step.points : 0;
+    all += step.rule->name == kEvaluate ? step.points : 0;
   }
   // All tiles are read again, and their loops found; the levels that are no steps are made.
   add("finish", 1, all, minutes_of({.points = all}));
@@ -105,7 +104,7 @@ void run_work(const WorkArguments& arguments) {
   const ScratchFolder scratch(parent);
   const std::unique_ptr<Progress> progress = arguments.run.show_progress({});
   ScanPass pass(scan);
-  const bool exists = work(pass, config, *step, arguments.task, scratch.path(), *progress);
+  const bool exists = do_task(pass, config, *step, arguments.task, scratch.path(), *progress);
   if (!fs::exists(arguments.workspace / kRunPart))
     throw Error(arguments.workspace.string() +
                 ": its run was removed meanwhile; lacuna clean removes what this task has left");

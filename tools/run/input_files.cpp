@@ -2,7 +2,7 @@
 #include "tools/run/input_files.hpp"
 
 #include "engine/run/error.hpp"
-#include "engine/run/job.hpp"
+#include "engine/run/memory.hpp"
 #include "io/files/input_file.hpp"
 #include "io/files/number.hpp"
 #include "io/files/result_folder.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/run/own_process.hpp"
 
-#include "engine/run/job.hpp"
+#include "engine/run/memory.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -11,7 +11,7 @@ namespace lacuna::paper {
 
 // Vertices are numbered by row: near in space, near in memory.
 void find_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_edge, std::uint64_t edge_count,
-                          std::int64_t e, std::uint64_t memory, const Job& job, RawLoops& loops) {
+                          std::int64_t e, std::uint64_t memory, const Spill& spill, RawLoops& loops) {
   if (edge_count <= static_cast<std::uint64_t>(e)) return;  // a loop has more
   RowNumbers rows;
   rows.collect(edge_count, [&](auto&& add) {
@@ -21,7 +21,7 @@ void find_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_ed
     });
   });
   if (rows.size() <= static_cast<std::uint64_t>(e)) return;
-  Scratch scratch(job.temporary, memory / 3);
+  Scratch scratch(spill.folder, memory / 3);
   const std::span<PointId> ids = scratch.array<PointId>(rows.size());
   for_each_edge([&](const BoundaryEdge& edge) {
     scratch.trim();
@@ -35,10 +35,10 @@ void find_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_ed
   };
   SpanningGraph cycles;
   {
-    Scratch work(job.temporary, memory / 2);
+    Scratch work(spill.folder, memory / 2);
     cycles = keep_cycles(span_whole(ids, for_each_passed, e, memory / 6, work), scratch);
   }
-  Scratch search(job.temporary, memory / 3 * 2);
+  Scratch search(spill.folder, memory / 3 * 2);
   find_loops_of(
       cycles, [&](LocalIndex v) { return rows.row(v); }, search, loops);
 }

@@ -7,7 +7,6 @@
 #include "engine/boundary/paper/raw_loops.hpp"
 #include "engine/boundary/paper/spanning.hpp"
 #include "engine/model/boundary_graph.hpp"
-#include "engine/run/job.hpp"
 #include "engine/stitch/stitch.hpp"
 #include "engine/store/scratch.hpp"
 
@@ -31,6 +30,6 @@ void find_loops_of(const SpanningGraph& graph, RowOf&& row_of, Scratch& scratch,
 // `edge_count`: edges of the whole component, in any order. `e`: an edge may close a loop of more than e
 // edges. `memory`: bytes. Arrays beyond it are mapped from files.
 void find_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_edge, std::uint64_t edge_count,
-                          std::int64_t e, std::uint64_t memory, const Job& job, RawLoops& loops);
+                          std::int64_t e, std::uint64_t memory, const Spill& spill, RawLoops& loops);
 
 }  // namespace lacuna::paper

@@ -50,7 +50,7 @@ class TileVertices {
     for (const EligibleCrossing& crossing : crossings) ids_[foreign(crossing)] = crossing.foreign.id;
   }
 
-  PartVertices part() const { return {ids_, own_}; }
+  KnownVertices known() const { return {ids_, own_}; }
   LocalIndex own(LocalIndex point) const { return numbers_[point]; }
   LocalIndex foreign(const EligibleCrossing& crossing) const {
     const auto at = std::lower_bound(foreign_.begin(), foreign_.end(), crossing.foreign.row);
@@ -67,13 +67,15 @@ class TileVertices {
 
 }  // namespace
 
-PaperBoundary::PaperBoundary(const Tiling& tiling, Job& job)
+PaperBoundary::PaperBoundary(const Tiling& tiling, const SpanningConfig& config, const Spill& spill,
+                             const Workers& workers)
     : tiling_(tiling),
-      job_(job),
-      config_(job.config.spanning),
-      crossings_(job.file("crossings"), tiling.tiles.size(), job.lists),
-      strengths_(job.file("strengths")),
-      loops_(job.file("raw-loops")) {}
+      config_(config),
+      spill_(spill),
+      workers_(workers),
+      crossings_(spill, "crossings", tiling.tiles.size()),
+      strengths_(spill.file("strengths")),
+      loops_(spill.file("raw-loops")) {}
 
 void PaperBoundary::emit(const EvaluatedTile& tile, TileOutput& output) const {
   const auto strength = [&](LocalIndex p) {
@@ -108,13 +110,14 @@ void PaperBoundary::emit(const EvaluatedTile& tile, TileOutput& output) const {
 
 void PaperBoundary::complete_edges(const TileOutputs& outputs) {
   const std::size_t tiles = tiling_.tiles.size();
-  job_.arena.for_each(tiles, [&](std::size_t i) {
+  workers_.arena.for_each(tiles, [&](std::size_t i) {
     const auto t = static_cast<TileIndex>(i);
     std::vector<Row> rows;
     for (const LocalIndex p : outputs.read(kBorder, t)) rows.push_back(tiling_.tiles[t].row(p));
     write_rows<Strength>(strengths_, rows, outputs.read(kStrengths, t));
   });
-  job_.arena.for_each(tiles, [&](std::size_t t) { decide_crossings(outputs, static_cast<TileIndex>(t)); });
+  workers_.arena.for_each(tiles,
+                          [&](std::size_t t) { decide_crossings(outputs, static_cast<TileIndex>(t)); });
 }
 
 void PaperBoundary::decide_crossings(const TileOutputs& outputs, TileIndex t) {
@@ -150,36 +153,36 @@ void PaperBoundary::span_tile(const TileOutputs& outputs, TileIndex t) {
   for (const EligibleCrossing& crossing : crossings)
     edges.push_back({vertices.own(crossing.owned), vertices.foreign(crossing), crossing.weight});
   std::atomic_ref(edges_) += static_cast<std::uint64_t>(std::count_if(
-      edges.begin(), edges.end(), [&](const WeightedEdge& edge) { return vertices.part().reports(edge); }));
+      edges.begin(), edges.end(), [&](const WeightedEdge& edge) { return vertices.known().reports(edge); }));
 
-  Scratch scratch(job_.temporary, job_.memory.limit);
-  const PartialSpanning spanned = span_partially(vertices.part(), std::move(edges), minimum_loop_, scratch);
+  Scratch scratch(spill_.folder, workers_.memory.limit);
+  const PartialSpanning spanned = span_partially(vertices.known(), std::move(edges), minimum_loop_, scratch);
   find_loops_of(
       spanned.complete, [&](LocalIndex v) { return vertices[v].row; }, scratch, loops_);
-  GraphPart<BoundaryEdge> part{.vertices = vertices.part().size(), .links = spanned.links};
+  TileGraph<BoundaryEdge> graph{.vertices = vertices.known().size(), .links = spanned.links};
   for (const EligibleCrossing& c : crossings)
-    part.crossings.push_back({vertices.own(c.owned), c.own.row, c.foreign.row});
+    graph.crossings.push_back({vertices.own(c.owned), c.own.row, c.foreign.row});
   const auto pass_on = [&](std::span<const WeightedEdge> some, std::uint64_t is_taken) {
     for (const WeightedEdge& edge : some) {
-      part.records.push_back({edge.weight, vertices[edge.a], vertices[edge.b], is_taken});
-      part.vertex_of.push_back(edge.a);
+      graph.records.push_back({edge.weight, vertices[edge.a], vertices[edge.b], is_taken});
+      graph.vertex_of.push_back(edge.a);
     }
   };
   pass_on(spanned.taken, 1);
   pass_on(spanned.undecided, 0);
-  stitch_->add(t, part);
+  stitch_->add(t, graph);
 }
 
 void PaperBoundary::stitch(const TileOutputs& outputs, const Totals& totals) {
   minimum_loop_ = minimum_loop(config_, totals.mean_neighbours());
-  stitch_.emplace(tiling_.tiles.size(), kBytesPerEdge, job_);
+  stitch_.emplace(tiling_.tiles.size(), kBytesPerEdge, spill_, workers_);
   std::vector<std::uint64_t> needs(tiling_.tiles.size());
   for (TileIndex t = 0; t < needs.size(); ++t) {
     needs[t] = (outputs.count(kInside, t) + crossings_.count(t)) * kBytesPerEdge +
                outputs.count(kVertices, t) * kBytesPerVertex + tiling_.tiles[t].points * sizeof(LocalIndex);
   }
-  job_.for_each_within(job_.memory.work, needs,
-                       [&](std::size_t t) { span_tile(outputs, static_cast<TileIndex>(t)); });
+  workers_.for_each_within(workers_.memory.work, needs,
+                           [&](std::size_t t) { span_tile(outputs, static_cast<TileIndex>(t)); });
 }
 
 FoundLoops PaperBoundary::find_loops(const TileOutputs& outputs) {
@@ -189,13 +192,13 @@ FoundLoops PaperBoundary::find_loops(const TileOutputs& outputs) {
         const auto for_each_edge = [&](const auto& visit) {
           std::for_each(edges.begin(), edges.end(), visit);
         };
-        find_component_loops(for_each_edge, edges.size(), minimum_loop_, kAsMuchAsItTakes, job_, loops_);
+        find_component_loops(for_each_edge, edges.size(), minimum_loop_, kAsMuchAsItTakes, spill_, loops_);
       },
       [&](const auto& for_each_edge, std::uint64_t count) {
-        const MemoryLedger::Lease lease = job_.ledger.take(job_.memory.work / 4 * 3);
-        find_component_loops(for_each_edge, count, minimum_loop_, lease.bytes(), job_, loops_);
+        const MemoryLedger::Lease lease = workers_.memory.ledger.take(workers_.memory.work / 4 * 3);
+        find_component_loops(for_each_edge, count, minimum_loop_, lease.bytes(), spill_, loops_);
       });
-  return {.loops = loops_.with_points(outputs, tiling_, job_),
+  return {.loops = loops_.with_points(outputs, tiling_, spill_, workers_.arena),
           .edges = edges_,
           .components = stitch_->components(),
           .minimum_loop = minimum_loop_};

@@ -34,7 +34,8 @@ struct EligibleCrossing {
 // on disk and spanned in mapped arrays.
 class PaperBoundary final : public BoundaryMethod {
  public:
-  PaperBoundary(const Tiling& tiling, Job& job);
+  PaperBoundary(const Tiling& tiling, const SpanningConfig& config, const Spill& spill,
+                const Workers& workers);
 
   void emit(const EvaluatedTile& tile, TileOutput& output) const override;
   // Decides the edges between tiles, with Pi and r of both ends.
@@ -50,8 +51,9 @@ class PaperBoundary final : public BoundaryMethod {
   void span_tile(const TileOutputs& outputs, TileIndex tile);
 
   const Tiling& tiling_;
-  Job& job_;
   const SpanningConfig& config_;
+  const Spill& spill_;
+  const Workers& workers_;
   AppendLists<EligibleCrossing> crossings_;  // by tile
   Column<Strength> strengths_;               // by row, of points with foreign neighbours
   std::optional<Stitch<BoundaryEdge>> stitch_;

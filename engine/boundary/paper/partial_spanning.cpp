@@ -5,12 +5,11 @@
 #include "engine/boundary/paper/order_edges.hpp"
 #include "engine/stitch/union_find.hpp"
 
-#include <algorithm>
 #include <numeric>
 
 namespace lacuna::paper {
 
-PartialSpanning span_partially(const PartVertices& vertices, std::vector<WeightedEdge> edges, std::int64_t e,
+PartialSpanning span_partially(const KnownVertices& vertices, std::vector<WeightedEdge> edges, std::int64_t e,
                                Scratch& scratch) {
   std::vector<LocalIndex> foreign(vertices.size() - vertices.owned);
   std::iota(foreign.begin(), foreign.end(), vertices.owned);

@@ -17,8 +17,8 @@ struct WantedPoint {
 };
 using WantedPoints = AppendLists<WantedPoint>;
 
-WantedPoints wanted_points(const Column<Vertex>& vertices, const Tiling& tiling, const Job& job) {
-  WantedPoints wanted(job.file("wanted-points"), tiling.tiles.size(), job.lists);
+WantedPoints wanted_points(const Column<Vertex>& vertices, const Tiling& tiling, const Spill& spill) {
+  WantedPoints wanted(spill, "wanted-points", tiling.tiles.size());
   Outbox<WantedPoint> outbox(wanted);
   ColumnReader<Vertex> reader(vertices);
   for (std::uint64_t place = 0; place < vertices.size(); ++place) {
@@ -55,15 +55,16 @@ void RawLoops::add(std::span<const Vertex> loop) {
   counts_.push_back(loop.size());
 }
 
-Loops RawLoops::with_points(const TileOutputs& outputs, const Tiling& tiling, Job& job) const {
-  Column<LoopPoint> points(job.file("placed-points"));
-  const WantedPoints wanted = wanted_points(vertices_, tiling, job);
-  job.arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
+Loops RawLoops::with_points(const TileOutputs& outputs, const Tiling& tiling, const Spill& spill,
+                            const TaskArena& arena) const {
+  Column<LoopPoint> points(spill.file("placed-points"));
+  const WantedPoints wanted = wanted_points(vertices_, tiling, spill);
+  arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
     const auto t = static_cast<TileIndex>(i);
     if (wanted.count(t) > 0)
       place_points(wanted.read(t), outputs.read(kVertices, t), tiling.tiles[t], points);
   });
-  Loops loops(job.file("loops"));
+  Loops loops(spill.file("loops"));
   ColumnReader<LoopPoint> reader(points);
   std::uint64_t first = 0;
   for (const std::uint64_t count : counts_) {

@@ -5,7 +5,7 @@
 #include "engine/evaluate/tile_outputs.hpp"
 #include "engine/loops/loops.hpp"
 #include "engine/model/boundary_graph.hpp"
-#include "engine/run/job.hpp"
+#include "engine/run/parallel.hpp"
 #include "engine/store/column.hpp"
 
 #include <cstdint>
@@ -32,7 +32,8 @@ class RawLoops {
   std::size_t size() const { return counts_.size(); }
 
   // Joins each vertex with its point, and sorts the loops. Cost: a pass over the tiles' vertices.
-  Loops with_points(const TileOutputs& outputs, const Tiling& tiling, Job& job) const;
+  Loops with_points(const TileOutputs& outputs, const Tiling& tiling, const Spill& spill,
+                    const TaskArena& arena) const;
 
  private:
   Column<Vertex> vertices_;            // loop after loop

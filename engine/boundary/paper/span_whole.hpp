@@ -3,7 +3,6 @@
 #pragma once
 
 #include "engine/boundary/paper/spanning.hpp"
-#include "engine/model/boundary_graph.hpp"
 #include "engine/store/scratch.hpp"
 
 #include <cstdint>

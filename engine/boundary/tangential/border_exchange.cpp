@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/tangential/border_exchange.hpp"
 
+#include "engine/boundary/rounds.hpp"
 #include "engine/boundary/tangential/belt.hpp"
 #include "engine/boundary/tangential/growth.hpp"
-#include "engine/run/rounds.hpp"
 
 #include <algorithm>
 #include <set>
@@ -39,9 +39,11 @@ std::vector<TileIndex> without_marked(std::span<const TileIndex> tiles, std::spa
 
 }  // namespace
 
-BorderExchange::BorderExchange(const TileOutputs& outputs, const Tiling& tiling, Job& job)
-    : job_(job),
-      stars_(outputs, tiling, job),
+BorderExchange::BorderExchange(const TileOutputs& outputs, const Tiling& tiling,
+                               const TangentialConfig& config, const Spill& spill, const Workers& workers)
+    : config_(config),
+      workers_(workers),
+      stars_(outputs, tiling, spill, workers.arena),
       is_published_(tiling.tiles.size()),
       is_sampled_(tiling.tiles.size()),
       is_measured_(tiling.tiles.size()) {}
@@ -62,8 +64,7 @@ OpenWedges BorderExchange::wedges(TileIndex tile) {
   GrowingTile growing(stars_, tile, is_measured_);
   OpenWedges open{growing.growth.wedges(), {}};
   open.points.reserve(open.wedges.size());
-  for (const Wedge& wedge : open.wedges)
-    open.points.push_back(growing.growth.curve_point(wedge, job_.config.tangential));
+  for (const Wedge& wedge : open.wedges) open.points.push_back(growing.growth.curve_point(wedge, config_));
   return open;
 }
 
@@ -89,17 +90,16 @@ std::vector<TileIndex> BorderExchange::with_neighbours(std::span<const TileIndex
 // Measures the belts of tiles with an active belt point. On clean scans, most tiles have none.
 void BorderExchange::measure(std::span<const TileIndex> tiles) {
   std::vector<std::uint8_t> is_inactive(is_measured_);
-  job_.arena.for_each(tiles.size(), [&](std::size_t i) {
+  workers_.arena.for_each(tiles.size(), [&](std::size_t i) {
     if (!has_active_belt(tiles[i])) is_inactive[tiles[i]] = 1;
   });
   const std::vector<TileIndex> to_measure = without_marked(tiles, is_inactive);
   const std::vector<TileIndex> to_sample = without_marked(with_neighbours(to_measure), is_sampled_);
   const std::vector<TileIndex> to_publish = without_marked(with_neighbours(to_sample), is_published_);
-  const TangentialConfig& config = job_.config.tangential;
   const auto bytes = [&](TileIndex t) { return belt_bytes(stars_, t); };
   for_each(to_publish, bytes, [&](TileIndex t) { stars_.publish(t); });
-  for_each(to_sample, bytes, [&](TileIndex t) { sample_border(stars_, t, config); });
-  for_each(to_measure, bytes, [&](TileIndex t) { measure_belt(stars_, t, config); });
+  for_each(to_sample, bytes, [&](TileIndex t) { sample_border(stars_, t, config_); });
+  for_each(to_measure, bytes, [&](TileIndex t) { measure_belt(stars_, t, config_); });
   for (const TileIndex t : to_publish) is_published_[t] = 1;
   for (const TileIndex t : to_sample) is_sampled_[t] = 1;
   for (const TileIndex t : to_measure) is_measured_[t] = 1;
@@ -128,7 +128,7 @@ void BorderExchange::for_each(std::span<const TileIndex> tiles, Bytes&& bytes, S
   std::vector<std::uint64_t> needs;
   needs.reserve(tiles.size());
   for (const TileIndex t : tiles) needs.push_back(bytes(t));
-  job_.for_each_within(job_.memory.work, needs, [&](std::size_t i) { step(tiles[i]); });
+  workers_.for_each_within(workers_.memory.work, needs, [&](std::size_t i) { step(tiles[i]); });
 }
 
 }  // namespace lacuna::tangential

@@ -29,7 +29,8 @@ struct OpenWedges {
 // the open stars once in each round.
 class BorderExchange {
  public:
-  BorderExchange(const TileOutputs& outputs, const Tiling& tiling, Job& job);
+  BorderExchange(const TileOutputs& outputs, const Tiling& tiling, const TangentialConfig& config,
+                 const Spill& spill, const Workers& workers);
 
   // Finds all active points.
   void find_active_points();
@@ -47,7 +48,8 @@ class BorderExchange {
   template <class Bytes, class Step>
   void for_each(std::span<const TileIndex> tiles, Bytes&& bytes, Step&& step);
 
-  Job& job_;
+  const TangentialConfig& config_;
+  const Workers& workers_;
   StarExchange stars_;
   std::vector<std::uint8_t> is_published_, is_sampled_, is_measured_;  // by tile
 };

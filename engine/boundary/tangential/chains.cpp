@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <optional>
 #include <tuple>
-#include <utility>
 
 namespace lacuna::tangential {
 namespace {

@@ -12,7 +12,6 @@
 #include <filesystem>
 #include <functional>
 #include <span>
-#include <vector>
 
 namespace lacuna::tangential {
 

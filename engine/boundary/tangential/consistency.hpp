@@ -4,7 +4,6 @@
 
 #include "engine/boundary/tangential/stars.hpp"
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 

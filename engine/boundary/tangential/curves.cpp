@@ -6,8 +6,6 @@
 #include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
-#include <cassert>
-#include <cmath>
 #include <numeric>
 #include <optional>
 

@@ -8,7 +8,6 @@
 #include "engine/store/scratch.hpp"
 
 #include <array>
-#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>

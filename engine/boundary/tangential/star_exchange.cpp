@@ -12,17 +12,18 @@ bool operator<(const RemoteTriangle& a, const RemoteTriangle& b) {
   return std::tie(a.to, a.from, a.other) < std::tie(b.to, b.from, b.other);
 }
 
-StarExchange::StarExchange(const TileOutputs& outputs, const Tiling& tiling, const Job& job)
+StarExchange::StarExchange(const TileOutputs& outputs, const Tiling& tiling, const Spill& spill,
+                           const TaskArena& arena)
     : outputs(outputs),
       tiling(tiling),
       active(tiling.row_count()),
       around(tiling.tiles.size()),
-      sites(job.file("sites")),
-      samples(job.file("samples")),
-      remote_triangles(job.file("remote-triangles"), tiling.tiles.size(), job.lists),
+      sites(spill.file("sites")),
+      samples(spill.file("samples")),
+      remote_triangles(spill, "remote-triangles", tiling.tiles.size()),
       numbers_(tiling.tiles.size()),
-      belt_stars_(job.file("belt-stars"), tiling.tiles.size(), job.lists),
-      belt_vertices_(job.file("belt-vertices"), tiling.tiles.size(), job.lists) {
+      belt_stars_(spill, "belt-stars", tiling.tiles.size()),
+      belt_vertices_(spill, "belt-vertices", tiling.tiles.size()) {
   // The sampled points of one tile after the other have places in the columns of sites and samples.
   std::uint64_t place = 0;
   for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
@@ -30,7 +31,7 @@ StarExchange::StarExchange(const TileOutputs& outputs, const Tiling& tiling, con
     place += outputs.count(kSampled, t);
   }
   // Tiles begin with the points that they know to be active, and with the tiles that their belts touch.
-  job.arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
+  arena.for_each(tiling.tiles.size(), [&](std::size_t i) {
     const auto t = static_cast<TileIndex>(i);
     for (const LocalIndex p : outputs.read(kActive, t)) active.insert(tiling.tiles[t].row(p));
     around[t] = tiling.tiles_of(outputs.read(kBeltRows, t));

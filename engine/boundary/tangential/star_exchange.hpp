@@ -4,7 +4,7 @@
 
 #include "engine/boundary/tangential/star_streams.hpp"
 #include "engine/model/tiling.hpp"
-#include "engine/run/job.hpp"
+#include "engine/run/parallel.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/column.hpp"
 #include "engine/store/row_numbers.hpp"
@@ -29,7 +29,7 @@ struct RemoteTriangle {
 // Lists are by tile. Columns have the rows of the belts one after the other, tile by tile.
 struct StarExchange {
   // Takes the active points that each tile has found. `outputs` must outlive this.
-  StarExchange(const TileOutputs& outputs, const Tiling& tiling, const Job& job);
+  StarExchange(const TileOutputs& outputs, const Tiling& tiling, const Spill& spill, const TaskArena& arena);
 
   // Writes the sites and samples of a tile to the columns, where other tiles read them.
   void publish(TileIndex tile);

@@ -22,7 +22,6 @@
 #include "engine/simd/batch.hpp"
 
 #include <array>
-#include <cstdint>
 #include <span>
 #include <vector>
 

@@ -20,13 +20,15 @@ constexpr std::uint64_t kBytesPerChain = sizeof(OpenChain) + 64;
 
 }  // namespace
 
-TangentialBoundary::TangentialBoundary(const Tiling& tiling, Job& job)
+TangentialBoundary::TangentialBoundary(const Tiling& tiling, const TangentialConfig& config,
+                                       const Spill& spill, const Workers& workers)
     : tiling_(tiling),
-      job_(job),
-      config_(job.config.tangential),
-      curve_budget_(job.memory.work / 8 / job.arena.threads()),
-      chain_points_(job.file("chain-points")),
-      loops_(job.file("loops")) {}
+      config_(config),
+      spill_(spill),
+      workers_(workers),
+      curve_budget_(workers.memory.work / 8 / workers.arena.threads()),
+      chain_points_(spill.file("chain-points")),
+      loops_(spill.file("loops")) {}
 
 void TangentialBoundary::emit(const EvaluatedTile& tile, TileOutput& output) const {
   TileBoundary boundary(tile, config_);
@@ -37,7 +39,7 @@ void TangentialBoundary::emit(const EvaluatedTile& tile, TileOutput& output) con
   TileLoops loops;
   const auto add_loops = [&](std::span<const CurveStep> curve, Scale scale) {
     if (curve.size() < static_cast<std::size_t>(config_.min_curve)) return;  // most are: no Scratch for them
-    Scratch scratch(job_.temporary, curve_budget_);
+    Scratch scratch(spill_.folder, curve_budget_);
     find_loops_along(curve, scale, data, config_, scratch,
                      [&](std::span<const CurveStep> loop, const LoopEvidence& evidence) {
                        loops.loops.push_back({loop.size(), evidence});
@@ -50,7 +52,7 @@ void TangentialBoundary::emit(const EvaluatedTile& tile, TileOutput& output) con
 }
 
 void TangentialBoundary::complete_edges(const TileOutputs& outputs) {
-  exchange_.emplace(outputs, tiling_, job_);
+  exchange_.emplace(outputs, tiling_, config_, spill_, workers_);
   exchange_->find_active_points();
 }
 
@@ -81,20 +83,20 @@ void TangentialBoundary::add_closed_loops(const TileLoops& closed) {
 // stars are known by now, and form chains, too.
 void TangentialBoundary::stitch_tile(const TileOutputs& outputs, TileIndex t) {
   add_closed_loops(TileLoops::read(outputs, t));
-  GraphPart<OpenChain> part;
+  TileGraph<OpenChain> graph;
   const auto add = [&](OpenChains open) {
     std::atomic_ref(edges_) += open.totals.edges;
     std::atomic_ref(closed_components_) += open.totals.components;
     const std::uint64_t first = chain_points_.append(open.points);
-    const LocalIndex before = part.vertices;
+    const LocalIndex before = graph.vertices;
     for (std::size_t c = 0; c < open.chains.size(); ++c) {
       OpenChain& chain = open.chains[c];
       chain.first += first;
       const LocalIndex vertex = before + open.components[c];
-      part.vertices = std::max(part.vertices, vertex + 1);
-      for (const ChainEnd& end : chain.ends) part.crossings.push_back({vertex, end.own, end.foreign});
-      part.records.push_back(chain);
-      part.vertex_of.push_back(vertex);
+      graph.vertices = std::max(graph.vertices, vertex + 1);
+      for (const ChainEnd& end : chain.ends) graph.crossings.push_back({vertex, end.own, end.foreign});
+      graph.records.push_back(chain);
+      graph.vertex_of.push_back(vertex);
     }
   };
   add(OpenChains::read(outputs, t));
@@ -102,29 +104,29 @@ void TangentialBoundary::stitch_tile(const TileOutputs& outputs, TileIndex t) {
   add(follow_curves(
       open.wedges, [&](std::uint64_t w) { return open.points[w]; },
       [&](std::span<const CurveStep> curve, Scale scale) {
-        Scratch scratch(job_.temporary, curve_budget_);
+        Scratch scratch(spill_.folder, curve_budget_);
         add_loops(curve, scale, open.points, scratch);
       }));
-  std::vector<LocalIndex> links(part.vertices);
-  part.links = links;
-  stitch_->add(t, part);
+  std::vector<LocalIndex> links(graph.vertices);
+  graph.links = links;
+  stitch_->add(t, graph);
 }
 
 void TangentialBoundary::stitch(const TileOutputs& outputs, const Totals&) {
   const std::size_t tiles = tiling_.tiles.size();
-  stitch_.emplace(tiles, kBytesPerChain, job_);
+  stitch_.emplace(tiles, kBytesPerChain, spill_, workers_);
   std::vector<std::uint64_t> needs(tiles);
   for (TileIndex t = 0; t < tiles; ++t)
     needs[t] = exchange_->growing_bytes(t) + exchange_->most_wedges(t) * kBytesPerWedge +
                TileLoops::bytes(outputs, t) + 2 * OpenChains::bytes(outputs, t);
-  const MemoryLedger::Lease curves = job_.ledger.take(job_.memory.work / 8);
-  job_.for_each_within(job_.memory.work - curves.bytes(), needs,
-                       [&](std::size_t t) { stitch_tile(outputs, static_cast<TileIndex>(t)); });
+  const MemoryLedger::Lease curves = workers_.memory.ledger.take(workers_.memory.work / 8);
+  workers_.for_each_within(workers_.memory.work - curves.bytes(), needs,
+                           [&](std::size_t t) { stitch_tile(outputs, static_cast<TileIndex>(t)); });
   exchange_.reset();
 }
 
 FoundLoops TangentialBoundary::find_loops(const TileOutputs&) {
-  const MemoryLedger::Lease curves = job_.ledger.take(job_.memory.work / 8);
+  const MemoryLedger::Lease curves = workers_.memory.ledger.take(workers_.memory.work / 8);
   const auto add = [&](std::span<const CurvePoint> points, Scale scale, Scratch& scratch) {
     const std::span<CurveStep> curve = scratch.array<CurveStep>(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -135,11 +137,11 @@ FoundLoops TangentialBoundary::find_loops(const TileOutputs&) {
   };
   stitch_->for_each_component(
       [&](std::span<const OpenChain> chains) {
-        close_chains(chains, chain_points_, job_.temporary, curve_budget_, add);
+        close_chains(chains, chain_points_, spill_.folder, curve_budget_, add);
       },
       [&](const auto& for_each_chain, std::uint64_t count) {
-        const MemoryLedger::Lease lease = job_.ledger.take(job_.memory.work / 4 * 3);
-        close_many_chains(for_each_chain, count, chain_points_, job_.temporary, lease.bytes() / 3, add);
+        const MemoryLedger::Lease lease = workers_.memory.ledger.take(workers_.memory.work / 4 * 3);
+        close_many_chains(for_each_chain, count, chain_points_, spill_.folder, lease.bytes() / 3, add);
       });
   loops_.sort();
   return {

@@ -20,7 +20,8 @@ namespace lacuna::tangential {
 
 class TangentialBoundary final : public BoundaryMethod {
  public:
-  TangentialBoundary(const Tiling& tiling, Job& job);
+  TangentialBoundary(const Tiling& tiling, const TangentialConfig& config, const Spill& spill,
+                     const Workers& workers);
 
   // Finds the stars of the tile's active points, and follows their wedges, as far as the tile alone can.
   void emit(const EvaluatedTile& tile, TileOutput& output) const override;
@@ -34,7 +35,7 @@ class TangentialBoundary final : public BoundaryMethod {
   // through.
   RowSet boundary_candidates(const TileOutputs& outputs, const RowSet&,
                              const RowSet& on_loop) const override {
-    return candidates_between(on_loop, outputs, tiling_, job_);
+    return candidates_between(on_loop, outputs, tiling_, workers_.arena);
   }
 
  private:
@@ -44,8 +45,9 @@ class TangentialBoundary final : public BoundaryMethod {
   void stitch_tile(const TileOutputs& outputs, TileIndex tile);
 
   const Tiling& tiling_;
-  Job& job_;
   const TangentialConfig& config_;
+  const Spill& spill_;
+  const Workers& workers_;
   std::uint64_t curve_budget_;  // bytes for the arrays of a curve, with all threads at work
   std::optional<BorderExchange> exchange_;
   std::optional<Stitch<OpenChain>> stitch_;

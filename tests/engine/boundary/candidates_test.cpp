@@ -34,7 +34,7 @@ std::vector<Row> coherent_plainly(const std::vector<Candidate>& candidates, cons
 std::vector<Row> coherent(std::vector<Candidate> candidates, TiledScan& scan) {
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return a.row < b.row; });
-  TileOutputs outputs(scan.store.tiling(), {}, {}, scan.job);
+  TileOutputs outputs(scan.store.tiling(), {}, {}, scan.job.spill);
   for (auto first = candidates.begin(); first != candidates.end();) {
     const TileIndex tile = scan.tile_of(first->row);
     std::vector<Candidate> of_tile;
@@ -43,7 +43,8 @@ std::vector<Row> coherent(std::vector<Candidate> candidates, TiledScan& scan) {
     output.add(kCandidates, of_tile);
     outputs.add(tile, output);
   }
-  const RowSet boundary = coherent_candidates(outputs, scan.store.tiling(), scan.job);
+  const RowSet boundary =
+      coherent_candidates(outputs, scan.store.tiling(), scan.job.workers.arena, scan.job.phases);
   std::vector<Row> left;
   for (const Row row : all_rows(scan))
     if (boundary.contains(row)) left.push_back(row);

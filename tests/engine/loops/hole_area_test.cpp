@@ -2,6 +2,7 @@
 // How much surface is missing: places of several holes count once.
 #include "engine/loops/hole_area.hpp"
 
+#include "engine/config/job.hpp"
 #include "tests/support/measured_loops.hpp"
 
 namespace lacuna {
@@ -14,13 +15,10 @@ constexpr LoopKind kHole = LoopKind::kHole, kOuter = LoopKind::kOuter;
 
 MeasuredLoops with_areas(const std::vector<DrawnLoop>& drawn) {
   const ScratchFolder scratch;
-  NoProgress progress;
-  const Config config;
-  Job job(config, scratch.path(), progress);
-  MeasuredLoops loops = test::measured(drawn, job);
+  MeasuredLoops loops = test::measured(drawn, scratch.path());
   std::vector<std::size_t> all(drawn.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  const double area = measure_hole_area(loops, all, job);
+  const double area = measure_hole_area(loops, all, {scratch.path(), nullptr}, workers_of({}));
   const auto add = [](double sum, const LoopMeasures& loop) { return sum + loop.own_area; };
   CHECK(std::accumulate(loops.measures.begin(), loops.measures.end(), 0.0, add) == Approx(area));
   return loops;

@@ -24,9 +24,9 @@ bool same(const LoopMeasures& a, const LoopMeasures& b) {
          a.planarity == b.planarity && a.mean_probability == b.mean_probability && a.tiles == b.tiles;
 }
 
-// `memory`: bytes for the global stage while loops are measured; 0: as many as the job gives it.
+// `memory`: bytes for the global stage while loops are measured; 0: as many as the run gives it.
 MeasuredLoops measured_loops(TiledScan& scan, std::uint64_t memory = 0) {
-  paper::PaperBoundary boundary(scan.store.tiling(), scan.job);
+  paper::PaperBoundary boundary(scan.store.tiling(), scan.config.spanning, scan.job.spill, scan.job.workers);
   const TileOutputs outputs =
       scan.evaluate({[&](const EvaluatedTile& tile, TileOutput& output) { boundary.emit(tile, output); }});
   FoundLoops found = scan.find_loops(boundary, outputs);
@@ -34,9 +34,10 @@ MeasuredLoops measured_loops(TiledScan& scan, std::uint64_t memory = 0) {
   ChosenLoops chosen;
   for (std::uint32_t loop = 0; loop < count; ++loop) chosen.chosen.push_back({0, loop});
   chosen.levels.push_back(std::move(found.loops));
-  if (memory > 0) scan.job.memory.work = memory;
+  if (memory > 0) scan.job.workers.memory.work = memory;
   const std::vector<LoopTrack> tracks(count);
-  return measure_loops(std::move(chosen), tracks, scan.totals(outputs).mean_edge_length(), scan.job);
+  return measure_loops(std::move(chosen), tracks, scan.totals(outputs).mean_edge_length(), scan.job.spill,
+                       scan.job.workers, scan.job.phases);
 }
 
 TEST_CASE(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/loops/nest_loops.hpp"
 
+#include "engine/config/job.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/measured_loops.hpp"
 
@@ -16,15 +17,15 @@ using test::square;
 
 constexpr LoopKind kHole = LoopKind::kHole, kOuter = LoopKind::kOuter;
 
-// `memory`: bytes for the step; 0: as many as the job gives it.
+// `memory`: bytes for the step; 0: as many as the run gives it.
 std::vector<LoopMeasures> nested(const std::vector<DrawnLoop>& drawn, std::uint64_t memory = 0) {
   const ScratchFolder scratch;
   NoProgress progress;
   const Config config;
   Job job(config, scratch.path(), progress);
-  if (memory > 0) job.memory.work = memory;
-  MeasuredLoops loops = test::measured(drawn, job);
-  nest_loops(loops, job);
+  if (memory > 0) job.workers.memory.work = memory;
+  MeasuredLoops loops = test::measured(drawn, scratch.path());
+  nest_loops(loops, job.spill, job.workers, job.phases);
   return loops.measures;
 }
 

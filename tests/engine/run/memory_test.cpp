@@ -41,11 +41,11 @@ TEST_CASE("an idle list gives way to a busy one") {
   const ScratchFolder folder;
   const auto pool = std::make_shared<BufferPool>(1 << 20);
   const std::vector<std::uint64_t> records(1 << 12, 7);  // 32 KiB
-  AppendLists<std::uint64_t> idle(folder / "idle", 2, pool);
+  AppendLists<std::uint64_t> idle({folder.path(), pool}, "idle", 2);
   // Buffers double: these take 768 KiB, and 256 KiB more are too much.
   for (int i = 0; i < 15; ++i) idle.append(0, records);
   for (int i = 0; i < 8; ++i) idle.append(1, records);
-  AppendLists<std::uint64_t> busy(folder / "busy", 1, pool);
+  AppendLists<std::uint64_t> busy({folder.path(), pool}, "busy", 1);
   for (int i = 0; i < 4; ++i) busy.append(0, records);
   CHECK(!is_on_disk("idle"));
   for (int i = 0; i < 4; ++i) busy.append(0, records);
@@ -60,7 +60,7 @@ TEST_CASE("lists that end give their memory back") {
   const auto pool = std::make_shared<BufferPool>(1 << 20);
   const std::vector<std::uint64_t> records(1 << 16, 7);  // 512 KiB
   for (int i = 0; i < 10; ++i) {
-    AppendLists<std::uint64_t> list(folder / "list", 1, pool);
+    AppendLists<std::uint64_t> list({folder.path(), pool}, "list", 1);
     list.append(0, records);
     CHECK(!is_on_disk("list"));
   }
@@ -70,7 +70,7 @@ TEST_CASE("lists of one pool may be filled from several threads") {
   const ScratchFolder folder;
   const auto pool = std::make_shared<BufferPool>(0);
   std::vector<AppendLists<std::uint64_t>> lists;
-  for (int i = 0; i < 3; ++i) lists.emplace_back(folder / std::to_string(i), 5, pool);
+  for (int i = 0; i < 3; ++i) lists.emplace_back(Spill{folder.path(), pool}, std::to_string(i), 5);
   {
     std::vector<std::jthread> threads;
     for (std::uint64_t t = 0; t < 3; ++t) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/stitch/stitch.hpp"
 
+#include "engine/config/job.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/test.hpp"
 
@@ -28,37 +29,36 @@ struct Stitched {
 };
 
 // By tile: the edges with an end there.
-GraphPart<Edge> part_of(std::uint64_t tile, const std::vector<Edge>& edges, std::vector<LocalIndex>& links) {
+TileGraph<Edge> graph_of(std::uint64_t tile, const std::vector<Edge>& edges, std::vector<LocalIndex>& links) {
   links.assign(kTilePoints, 0);
   UnionFind connected(links);
-  GraphPart<Edge> part{.vertices = kTilePoints, .links = links};
+  TileGraph<Edge> graph{.vertices = kTilePoints, .links = links};
   const auto local = [&](Row row) { return static_cast<LocalIndex>(value(row) - tile * kTilePoints); };
   for (const Edge& edge : edges) {
     const bool has_a = tile_of(edge.a) == tile, has_b = tile_of(edge.b) == tile;
     if (has_a && has_b) connected.unite(local(edge.a), local(edge.b));
     if (has_a != has_b) {
       const Row own = has_a ? edge.a : edge.b;
-      part.crossings.push_back({local(own), own, has_a ? edge.b : edge.a});
+      graph.crossings.push_back({local(own), own, has_a ? edge.b : edge.a});
     }
   }
   std::set<LocalIndex> open;  // roots
-  for (const CrossingEdge& crossing : part.crossings) open.insert(connected.find(crossing.vertex));
+  for (const CrossingEdge& crossing : graph.crossings) open.insert(connected.find(crossing.vertex));
   for (const Edge& edge : edges) {
     if (tile_of(edge.a) != tile || !open.contains(connected.find(local(edge.a)))) continue;
-    part.records.push_back(edge);
-    part.vertex_of.push_back(local(edge.a));
+    graph.records.push_back(edge);
+    graph.vertex_of.push_back(local(edge.a));
   }
-  return part;
+  return graph;
 }
 
 Stitched stitch(const std::vector<Edge>& edges, std::uint64_t tiles, std::uint64_t memory,
                 std::int64_t threads) {
   const ScratchFolder folder;
-  const Config config = tiled({}, 100, threads);
-  NoProgress quiet;
-  Job job(config, folder.path(), quiet);
-  job.memory.work = memory;
-  Stitch<Edge> stitch(tiles, sizeof(Edge), job);
+  Workers workers = workers_of({.threads = threads});
+  workers.memory.work = memory;
+  const Spill spill{folder.path(), std::make_shared<BufferPool>(workers.memory.lists)};
+  Stitch<Edge> stitch(tiles, sizeof(Edge), spill, workers);
   Stitched result;
   std::mutex mutex;
   const auto add = [&](Component component) {
@@ -66,9 +66,9 @@ Stitched stitch(const std::vector<Edge>& edges, std::uint64_t tiles, std::uint64
     const std::lock_guard lock(mutex);
     CHECK(result.components.insert(component).second);
   };
-  job.arena.for_each(tiles, [&](std::size_t t) {
+  workers.arena.for_each(tiles, [&](std::size_t t) {
     std::vector<LocalIndex> links;
-    stitch.add(static_cast<TileIndex>(t), part_of(t, edges, links));
+    stitch.add(static_cast<TileIndex>(t), graph_of(t, edges, links));
   });
   stitch.for_each_component(
       [&](std::span<const Edge> component) {

@@ -18,8 +18,8 @@ using test::Record;
 TEST_CASE("lists beyond the budget read back all that was appended, each its own") {
   const ScratchFolder folder;
   constexpr std::size_t kLists = 37;
-  AppendLists<Record> lists(folder / "lists", kLists,
-                            std::make_shared<BufferPool>(0));  // the least budget there is
+  // The least budget there is.
+  AppendLists<Record> lists({folder.path(), std::make_shared<BufferPool>(0)}, "lists", kLists);
   std::vector<std::vector<Record>> expected(kLists);
   Random random(2);
   std::vector<Record> batch;
@@ -51,7 +51,7 @@ TEST_CASE("lists beyond the budget read back all that was appended, each its own
 
 TEST_CASE("one thread's appends to a list stay in order") {
   const ScratchFolder folder;
-  AppendLists<std::uint64_t> lists(folder / "lists", 3, std::make_shared<BufferPool>(0));
+  AppendLists<std::uint64_t> lists({folder.path(), std::make_shared<BufferPool>(0)}, "lists", 3);
   for (std::uint64_t i = 0; i < 100'000; ++i) lists.append(i % 3, i);
   for (std::size_t list = 0; list < 3; ++list) {
     const std::vector<std::uint64_t> read = lists.read(list);
@@ -64,7 +64,7 @@ TEST_CASE("many lists on disk in many small pieces take no more memory than thei
   const ScratchFolder folder;
   const std::size_t before = heap_in_use();
   constexpr std::uint64_t kLists = 500, kRecords = 500'000;
-  AppendLists<std::uint64_t> lists(folder / "lists", kLists, std::make_shared<BufferPool>(0));
+  AppendLists<std::uint64_t> lists({folder.path(), std::make_shared<BufferPool>(0)}, "lists", kLists);
   for (std::uint64_t i = 0; i < kRecords; ++i) lists.append(i % kLists, i);
   CHECK(heap_in_use() - before < 160 << 10);
   for (const std::size_t list : {0, 1, 499}) {
@@ -76,7 +76,7 @@ TEST_CASE("many lists on disk in many small pieces take no more memory than thei
 
 TEST_CASE("lists whose file was cut short are an error to read and to append to, never zeros") {
   const ScratchFolder folder;
-  AppendLists<std::uint64_t> lists(folder / "lists", 3, std::make_shared<BufferPool>(0));
+  AppendLists<std::uint64_t> lists({folder.path(), std::make_shared<BufferPool>(0)}, "lists", 3);
   for (std::uint64_t i = 0; i < 100'000; ++i) lists.append(i % 3, i);
   REQUIRE(test::cut_open_file(getpid(), "lists"));
   const auto names_file = Contains((folder / "lists").string() + ": the file was cut short");
@@ -92,7 +92,7 @@ TEST_CASE("lists whose file was cut short are an error to read and to append to,
 
 TEST_CASE("every record arrives at its tile in the order in which it was added, and few are held back") {
   const ScratchFolder folder;
-  AppendLists<std::uint32_t> lists(folder / "lists", 3, std::make_shared<BufferPool>(1 << 20));
+  AppendLists<std::uint32_t> lists({folder.path(), std::make_shared<BufferPool>(1 << 20)}, "lists", 3);
   std::vector<std::vector<std::uint32_t>> wanted(3);
   Outbox<std::uint32_t> outbox(lists);
   Random random(1);

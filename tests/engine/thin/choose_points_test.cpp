@@ -38,7 +38,8 @@ std::vector<std::size_t> plain_ids(const Cloud& cloud, double edge) {
 }
 
 ChosenPoints choose_all(TiledScan& scan, double edge, std::uint64_t represented_ids = 0) {
-  return choose_points(scan.store, scan.store.tiling().tiles_in({}), edge, represented_ids, scan.job);
+  return choose_points(scan.store, scan.store.tiling().tiles_in({}), edge, represented_ids, scan.job.spill,
+                       scan.job.workers);
 }
 
 // Several tasks choose together.
@@ -47,7 +48,8 @@ std::vector<std::size_t> chosen_ids(TiledScan& scan, double edge, std::size_t ta
   std::vector<std::size_t> ids;
   for (std::size_t task = 0; task < tasks; ++task) {
     const std::size_t before = ids.size();
-    const ChosenPoints chosen = choose_points(scan.store, tiling.tiles_in({task, tasks}), edge, 0, scan.job);
+    const ChosenPoints chosen =
+        choose_points(scan.store, tiling.tiles_in({task, tasks}), edge, 0, scan.job.spill, scan.job.workers);
     for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
       const std::vector<ScanPoint> points = scan.store.points(t);
       for (LocalIndex p = 0; p < points.size(); ++p)

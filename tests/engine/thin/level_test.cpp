@@ -19,8 +19,8 @@ struct AtLevel {
   friend bool operator==(const AtLevel&, const AtLevel&) = default;
 };
 
-Totals totals_alone(const Level& level, const Run& run) {
-  return read_totals(evaluate_level(level, {}, run), level.store.tiling(), level.extent);
+Totals totals_alone(const Level& level, const StepContext& given) {
+  return read_totals(evaluate_level(level, {}, given), level.store.tiling(), level.extent);
 }
 
 AtLevel seen(const Level& level) {
@@ -38,12 +38,12 @@ std::vector<AtLevel> levels_of(const Cloud& cloud, const Config& config) {
   Job job(config, folder.path(), quiet);
   MemoryScan scan(cloud);
   const Parts nothing_kept;
-  const Run run{scan, nothing_kept, job};
-  const Level first = first_level(run);
+  const StepContext given{scan, nothing_kept, job};
+  const Level first = first_level(given);
   std::vector<AtLevel> levels = {seen(first)};
   std::optional<Level> below;
-  const auto totals = [&] { return totals_alone(below ? *below : first, run); };
-  while (std::optional<Level> level = level_above(below ? *below : first, totals, run)) {
+  const auto totals = [&] { return totals_alone(below ? *below : first, given); };
+  while (std::optional<Level> level = level_above(below ? *below : first, totals, given)) {
     levels.push_back(seen(*level));
     below.emplace(*std::move(level));
   }

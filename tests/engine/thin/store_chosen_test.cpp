@@ -11,13 +11,14 @@ struct ThinnedStore {
   ThinnedStore(const Cloud& cloud, std::int64_t tile_points_below, std::uint64_t tile_points,
                std::uint64_t cell_points, double edge = 0.05)
       : below(cloud, tiled({}, tile_points_below)),
-        chosen(choose_points(below.store, below.store.tiling().tiles_in({}), edge, 0, below.job)),
+        chosen(choose_points(below.store, below.store.tiling().tiles_in({}), edge, 0, below.job.spill,
+                             below.job.workers)),
         join(join_tiles(below.store.tiling(), chosen, tile_points, cell_points)),
-        store(store_chosen(below.store, chosen, join, files(below), below.job)) {}
+        store(store_chosen(below.store, chosen, join, files(below), below.job.workers)) {}
 
   static StoreFiles files(const TiledScan& scan) {
-    return {StoreFile(scan.job.file("chosen")), StoreFile(scan.job.file("chosen-normals")),
-            scan.job.file("none")};
+    return {StoreFile(scan.job.spill.file("chosen")), StoreFile(scan.job.spill.file("chosen-normals")),
+            scan.job.spill};
   }
 
   TiledScan below;

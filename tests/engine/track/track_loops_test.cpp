@@ -25,8 +25,10 @@ class Drawn {
 
   // A level of circles, of points one edge apart.
   void add(double edge, const std::vector<DrawnLoop>& loops) {
-    LevelLoops level{
-        .edge = edge, .cell_edge = edge > 0 ? edge : 1, .points = 1000, .loops = Loops(job_.file("drawn"))};
+    LevelLoops level{.edge = edge,
+                     .cell_edge = edge > 0 ? edge : 1,
+                     .points = 1000,
+                     .loops = Loops(job_.spill.file("drawn"))};
     for (const DrawnLoop& loop : loops) {
       const int count = std::max(8, static_cast<int>(2 * std::numbers::pi * loop.radius / level.cell_edge));
       const LoopEvidence evidence{.clearness = 0.7,
@@ -48,7 +50,7 @@ class Drawn {
     levels_.push_back(std::move(level));
   }
 
-  std::vector<NearLoops> near() const { return near_loops(levels_, job_); }
+  std::vector<NearLoops> near() const { return near_loops(levels_, job_.spill, job_.workers); }
   TrackedLoops track() { return track_loops(std::move(levels_), job_); }
 
  private:

@@ -18,13 +18,13 @@ struct Traced {
   friend bool operator==(const Traced&, const Traced&) = default;
 };
 
-// `global_memory`: bytes for the global stage; 0: as many as the job gives it.
+// `global_memory`: bytes for the global stage; 0: as many as the run gives it.
 Traced trace(const Cloud& cloud, const Config& config, std::uint64_t global_memory) {
   TiledScan scan(cloud, config);
-  PaperBoundary boundary(scan.store.tiling(), scan.job);
+  PaperBoundary boundary(scan.store.tiling(), scan.config.spanning, scan.job.spill, scan.job.workers);
   const TileOutputs outputs =
       scan.evaluate({[&](const EvaluatedTile& tile, TileOutput& output) { boundary.emit(tile, output); }});
-  if (global_memory > 0) scan.job.memory.work = global_memory;
+  if (global_memory > 0) scan.job.workers.memory.work = global_memory;
   const FoundLoops traced = scan.find_loops(boundary, outputs);
   Traced result{.eligible_edges = traced.edges, .components = traced.components};
   for (std::size_t i = 0; i < traced.loops.size(); ++i) {

@@ -40,7 +40,7 @@ Found wedges_of(const Cloud& cloud, std::int64_t tile_points, std::int64_t threa
     output.add(kCertain, boundary.wedges());
     output.add(kCertainPoints, std::move(points));
   }});
-  BorderExchange exchange(outputs, tiling, scan.job);
+  BorderExchange exchange(outputs, tiling, scan.config.tangential, scan.job.spill, scan.job.workers);
   exchange.find_active_points();
 
   Found found{.tiles = tiling.tiles.size()};

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/run/job.hpp"
+#include "engine/bucket/tile_size.hpp"
 
 #include "engine/run/error.hpp"
-#include "engine/run/machine_memory.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
-#include <utility>
-
-#include <malloc.h>
+#include <string>
 
 namespace lacuna {
 namespace {
@@ -18,10 +14,6 @@ constexpr std::uint64_t kMiB = 1 << 20;
 
 // A tile at work takes these bytes, whatever its points.
 constexpr std::uint64_t kTileBytes = kMiB / 4;
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 // Stored point, position, id, row, tree, evaluation, edges, outputs; k neighbours in two lists.
 std::uint64_t bytes_per_tile_point(const Config& config) {
@@ -45,29 +37,15 @@ TileSizes tile_sizes(const Memory& memory, std::uint64_t points, const Config& c
 
 }  // namespace
 
-Job::Job(const Config& config, std::filesystem::path temporary, Progress& progress)
-    : config(config),
-      temporary(std::move(temporary)),
-      progress(progress),
-      arena(static_cast<std::size_t>(config.run.threads)),
-      memory(Memory::share(config.run.memory_limit)),
-      ledger(memory.work),
-      lists(std::make_shared<BufferPool>(memory.lists)) {}
-
-void Job::for_each_within(std::uint64_t bytes, std::span<const std::uint64_t> needs,
-                          const std::function<void(std::size_t)>& body) const {
-  const MemoryLedger::Lease lease = ledger.take(bytes);
-  arena.for_each_within_budget(needs, bytes, body);
-}
-
-std::uint64_t Job::tile_bytes(std::uint64_t points) const {
+std::uint64_t tile_bytes(std::uint64_t points, const Config& config) {
   return points * bytes_per_tile_point(config) + kTileBytes;
 }
 
-std::uint64_t Job::tile_points(std::uint64_t points) const {
+std::uint64_t points_per_tile(std::uint64_t points, const Config& config, const Workers& workers) {
   constexpr std::uint64_t kLeast = 4096;        // smaller ones are mostly border
   constexpr std::uint64_t kMost = 256 << 10;    // larger ones gain little
   constexpr std::uint64_t kTilesPerThread = 2;  // so that the last tiles do not leave threads idle
+  const Memory& memory = workers.memory;
   TileSizes sizes = tile_sizes(memory, points, config);
   if (sizes.least > sizes.most) {
     std::uint64_t limit = memory.limit / kMiB * kMiB;
@@ -78,38 +56,18 @@ std::uint64_t Job::tile_points(std::uint64_t points) const {
   if (config.run.tile_points > 0)
     return std::clamp(static_cast<std::uint64_t>(config.run.tile_points), sizes.least, sizes.most);
   // Halves are not quite equal: without space for the larger ones some would be halved once more.
-  const std::uint64_t threads = arena.threads(), share = points * 9 / 8 / (kTilesPerThread * threads);
+  const std::uint64_t threads = workers.arena.threads(), even = points * 9 / 8 / (kTilesPerThread * threads);
   // Without the fixed bytes of each further tile: tiles are rarely full, and `for_each_within_budget` holds
   // the budget. Smaller tiles cost more time: within 64 MiB, 16 threads took 17 % longer with them counted.
-  const std::uint64_t wanted = std::min(std::clamp(share, kLeast, kMost), sizes.most / threads);
+  const std::uint64_t wanted = std::min(std::clamp(even, kLeast, kMost), sizes.most / threads);
   return std::max(wanted, sizes.least);
 }
 
-std::uint64_t Job::cell_points(std::uint64_t points) const {
+std::uint64_t points_per_cell(std::uint64_t points, const Memory& memory) {
   constexpr std::uint64_t kFew = 32;
   constexpr std::uint64_t kBytesPerCell = 128;  // with its share of the tree
   // Cuts leave cells about half full.
   return std::max(kFew, 2 * points * kBytesPerCell / memory.cells);
-}
-
-Phase::Phase(Job& job, std::string_view name, std::uint64_t total)
-    : job_(job), is_shown_(!std::exchange(job.is_in_phase, true)), start_(now()) {
-  if (!is_shown_) return;
-  job_.phases.push_back({std::string(name), 0});
-  job_.progress.begin(name, total);
-}
-
-void Job::trim(double share) const {
-  if (static_cast<double>(resident_memory().all) > share * static_cast<double>(memory.limit))
-    ::malloc_trim(0);
-}
-
-Phase::~Phase() {
-  job_.trim();
-  if (!is_shown_) return;
-  job_.is_in_phase = false;
-  job_.phases.back().seconds = now() - start_;
-  job_.progress.end();
 }
 
 }  // namespace lacuna

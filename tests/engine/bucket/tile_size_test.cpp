@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/run/job.hpp"
+#include "engine/bucket/tile_size.hpp"
 
+#include "engine/config/job.hpp"
+#include "engine/run/error.hpp"
 #include "tests/support/test.hpp"
 
 namespace lacuna {
@@ -10,12 +12,10 @@ constexpr std::uint64_t kMiB = 1 << 20;
 
 std::uint64_t tile_points(std::uint64_t points, std::uint64_t memory_limit, std::int64_t threads,
                           std::int64_t k = 15, std::int64_t wanted = 0) {
-  const ScratchFolder folder;
-  NoProgress progress;
   Config config;
   config.run = {.threads = threads, .memory_limit = memory_limit, .tile_points = wanted};
   config.neighbourhood.k = k;
-  return Job(config, folder.path(), progress).tile_points(points);
+  return points_per_tile(points, config, workers_of(config.run));
 }
 
 TEST_CASE("however many threads work, the tables with entries for each tile fit in memory") {
