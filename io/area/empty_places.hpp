@@ -4,6 +4,7 @@
 
 #include "engine/run/progress.hpp"
 #include "io/area/area_tiles.hpp"
+#include "io/area/convex_hull.hpp"
 #include "io/area/height_groups.hpp"
 #include "io/area/plan_raster.hpp"
 #include "io/area/point_density.hpp"

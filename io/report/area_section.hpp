@@ -2,6 +2,8 @@
 // The check of an area, for the report.
 #pragma once
 
+#include "io/loops/json.hpp"
+
 #include <filesystem>
 
 namespace lacuna::io {

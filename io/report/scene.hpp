@@ -3,6 +3,8 @@
 // results.
 #pragma once
 
+#include "engine/model/loop.hpp"
+#include "io/loops/json.hpp"
 #include "io/stations/cause.hpp"
 
 #include <array>

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
+#include "io/options/options.hpp"
 #include "io/stations/cause.hpp"
 #include "io/stations/inside_places.hpp"
 #include "io/stations/station_views.hpp"
