@@ -14,14 +14,14 @@ namespace lacuna {
 namespace {
 
 // Spreads the lowest 8 bits to every third bit of the result.
-std::uint32_t spread(std::uint32_t bits) {
-  bits = (bits | bits << 8) & 0x0f00f;
-  bits = (bits | bits << 4) & 0xc30c3;
-  return (bits | bits << 2) & 0x249249;
+std::uint32_t spread(std::uint32_t bits) {  // ................hgfedcba
+  bits = (bits | bits << 8) & 0x0f00f;      // ........hgfe........dcba
+  bits = (bits | bits << 4) & 0xc30c3;      // ....hg....fe....dc....ba
+  return (bits | bits << 2) & 0x249249;     // ..h..g..f..e..d..c..b..a
 }
 
-// Returns where a coordinate lies within its cell, to 1/256 of the edge. It is 255 far from the origin, where
-// that is not a number.
+// Returns where a coordinate lies within its cell, to 1/256 of the edge: 255 where rounding leaves no
+// fraction.
 std::uint32_t fraction(double x, double scale, double origin) {
   const double cells = x * scale - origin;
   const double within = (cells - std::floor(cells)) * 256;

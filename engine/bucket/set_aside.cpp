@@ -9,7 +9,8 @@
 namespace lacuna {
 namespace {
 
-// The tile that grows at the end of the store.
+// The tile that grows at the end of the store. Points come along the curve, copies one after the other. So a
+// tile is full after its most points, and its cells are runs of the curve.
 class LastTile {
  public:
   LastTile(TileStore& store, std::uint64_t most_points, std::uint64_t cell_points)

@@ -58,7 +58,8 @@ Covariance weigh(const Slice& slice, V sigma, Surface<V>& surface) {
 }
 
 // Finds eigenvalues in closed form, divided by their sum, and the eigenvector of the smallest. Returns false
-// where the two smallest are so near each other that digits are lost.
+// where the two smallest are so near each other that digits are lost: these points take an iteration instead.
+// Source: Smith, *Eigenvalues of a symmetric 3 x 3 matrix*, 1961.
 Mask eigen(const Covariance& c, Surface<V>& surface) {
   const V sum = (c.diagonal.x + c.diagonal.y) + c.diagonal.z;
   const Vector<V> a = c.diagonal / sum, b = c.off_diagonal / sum;

@@ -135,7 +135,15 @@ std::uint64_t bytes_of_tile(const Tiling& tiling, const Tile& tile, std::uint64_
                             const Config& config, const Memory& memory) {
   constexpr std::uint64_t kHaloPointBytes = 120;  // an edge, and its point twice
   std::uint64_t foreign = edges;
-  for (const std::uint32_t cell : halo_cells(tiling, tile, eps)) foreign += tiling.cells[cell].points;
+  if (eps > 0) {  // at most the cells near the box of the tile
+    Eigen::AlignedBox3d box;
+    for (std::uint32_t cell = tile.first_cell; cell < tile.last_cell; ++cell)
+      box.extend(Eigen::AlignedBox3d(tiling.cells[cell].box));
+    for_each_cell_near(tiling, box, eps * eps, tile.first_cell, tile.last_cell, [&](std::uint32_t near) {
+      foreign += tiling.cells[near].points;
+      return true;
+    });
+  }
   return tile_bytes(tile.points, config) + foreign * kHaloPointBytes +
          ball_bytes(tiling, tile, eps, most_ball_bytes(memory));
 }

@@ -82,8 +82,8 @@ std::span<std::uint32_t> nearest_in_column(const Raster& raster, std::span<const
 }
 
 // Returns for each pixel the nearest marked one, of those equally near the first along its row, or kNowhere.
-// Along a row, each column is nearest over one run of pixels, which ends where the next column is nearer
-// (Felzenszwalb, Huttenlocher, *Distance Transforms of Sampled Functions*, 2012). Cost: linear.
+// Along a row, each column is nearest over one run of pixels, which ends where the next one is nearer. Cost:
+// linear. Source: Felzenszwalb, Huttenlocher, *Distance Transforms of Sampled Functions*, 2012.
 std::span<std::uint32_t> nearest_marked(const Raster& raster, std::span<const std::uint8_t> is_marked,
                                         Scratch& scratch) {
   struct Run {

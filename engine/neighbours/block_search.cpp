@@ -45,7 +45,9 @@ void BlockSearch::nearest(LocalIndex first, LocalIndex last, std::size_t k, List
   }
 }
 
-// Neighbours of the queries of a run.
+// Finds the neighbours of the queries of a run. One walk lists the points around all of them, since what is
+// near in the store is near in space. Then the queries are ranked side by side. The radius is a guess from the
+// query before: so few candidates are too many or too few, and only these are searched alone.
 void BlockSearch::find(LocalIndex first, LocalIndex last, std::size_t k, Lists lists) {
   prepare(neighbours_of(k));
   if (neighbours_ == 0) return;

@@ -93,6 +93,8 @@ void sample_border(StarExchange& exchange, TileIndex t, const TangentialConfig& 
   replace_rows<StarSample>(exchange.samples, places, samples);
 }
 
+// Looks the rows of the belt up once, and goes by their places from there on. A batch of stars is found among
+// the sites, and bounded by the samplings. Each star is measured with what lies around.
 void measure_belt(StarExchange& exchange, TileIndex t, const TangentialConfig& config) {
   const Belt belt(exchange.outputs, t);
   const std::vector<Row> places = exchange.places_of(belt.rows());
@@ -107,9 +109,22 @@ void measure_belt(StarExchange& exchange, TileIndex t, const TangentialConfig& c
   Outbox<RemoteTriangle> outbox(exchange.remote_triangles);
   RadiusBounder bounder(samplings, config);
   RadiiAround around;
+  // Each star becomes an open star of this tile. A triangle within the bound is undecided until the stars of
+  // its other vertices are known. So it goes to the tiles of its foreign link vertices.
+  const auto add = [&](const BeltPoint& point, const StarQuery& query, const Star<LocalIndex>& star) {
+    around.gather(query.point, query.neighbours,
+                  [&](LocalIndex q) { return std::pair(samples[q].radii, samples[q].sampling.distance); });
+    open.add(
+        point.point, point.owned, star, samplings[query.point].distance, around,
+        surface_around(query.neighbours, [&](LocalIndex q) { return samples[q].surface; }),
+        [&](LocalIndex q) { return std::pair(belt.rows()[q], distance(sites[query.point], sites[q])); },
+        [&](std::size_t i) {
+          const Scale scale = star.scale_of(i);
+          return Consistency{.scale = scale, .is_undecided = scale != Scale::kNone};
+        });
+    send_triangles(belt.rows()[query.point], star, belt.rows(), exchange.tiling, t, outbox);
+  };
   std::vector<LinkVertex<LocalIndex>> link;
-  // Find the stars a batch at a time, and the bound of each. Each star becomes an open star of this tile. Its
-  // triangles go to the tiles of its foreign link vertices.
   StarFinder(sites).for_each_batch(
       queries.size(), [&](std::size_t i) { return queries[i]; },
       [&](std::size_t first, std::span<const FoundStar> stars) {
@@ -118,26 +133,10 @@ void measure_belt(StarExchange& exchange, TileIndex t, const TangentialConfig& c
         };
         bounder.for_each(stars.size(), surroundings, [&](std::size_t i, const RadiusBound& bound) {
           const StarQuery& query = queries[first + i];
-          const BeltPoint& point = belt.points()[first + i];
           link.clear();
           for (std::size_t v = 0; v < stars[i].size(); ++v)
             link.push_back({query.neighbours[stars[i][v].point], stars[i][v].radius});
-          const Star<LocalIndex> star{link, bound};
-          around.gather(query.point, query.neighbours, [&](LocalIndex q) {
-            return std::pair(samples[q].radii, samples[q].sampling.distance);
-          });
-          const float surface =
-              surface_around(query.neighbours, [&](LocalIndex q) { return samples[q].surface; });
-          open.add(point.point, point.owned, bound, samplings[query.point].distance, around, surface);
-          // A triangle within the bound is undecided until the stars of its other vertices are known.
-          for (std::size_t v = 0; v < star.size(); ++v) {
-            const Scale scale = star.scale_of(v);
-            open.add_vertex({.row = belt.rows()[link[v].point],
-                             .length = distance(sites[query.point], sites[link[v].point]),
-                             .radius = link[v].radius,
-                             .consistency = {.scale = scale, .is_undecided = scale != Scale::kNone}});
-          }
-          send_triangles(belt.rows()[query.point], star, belt.rows(), exchange.tiling, t, outbox);
+          add(belt.points()[first + i], query, {link, bound});
         });
       });
   exchange.add_belt_stars(t, open);

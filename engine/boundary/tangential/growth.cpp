@@ -35,6 +35,8 @@ Growth::Growth(const Tiling& tiling, TileIndex tile, std::span<const std::uint8_
   }
 }
 
+// Each open star whose point is active is looked at again until all points of its link are active. A star
+// leaves the list then: nothing is left that it could make active. Rounds end when no star has found a point.
 void Growth::find_active_points(const std::function<void(Row)>& visit) {
   std::vector<std::uint32_t> undone(points_.size());
   std::iota(undone.begin(), undone.end(), 0U);

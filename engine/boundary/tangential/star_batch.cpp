@@ -176,7 +176,11 @@ HWY_INLINE void store_vertices(Count rank, Radius radius, LinkVertex<LocalIndex>
   __builtin_memcpy(link, packed, sizeof packed);
 }
 
-// Gift wrapping: the convex hull from vertex to vertex, counterclockwise.
+// Gift wrapping: the convex hull from vertex to vertex, counterclockwise. A chain of sorted views would take
+// fewer comparisons, but every lane would sort and go back in its own way. Here all lanes take the same
+// steps: each vertex costs one pass over the views. `on_edge` counts the views on the edge before, and adds
+// up their ranks. So the rank of its end is known without a search, and where there are not two, the star is
+// left to `find_star_exactly`.
 void find_stars_from(std::size_t first, const Views& views, BatchStars& stars) {
   V squared_distance;
   Count defined;

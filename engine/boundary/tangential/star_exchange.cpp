@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/tangential/star_exchange.hpp"
 
-#include "engine/store/merge_runs.hpp"
-
+#include <algorithm>
 #include <span>
 #include <tuple>
 
@@ -67,13 +66,14 @@ OpenStars StarExchange::open_stars(TileIndex tile) const {
   OpenStars open{outputs.read(kOpenStars, tile), outputs.read(kOpenVertices, tile)};
   // The links of the belt's stars come last.
   const auto before = static_cast<std::uint32_t>(open.vertices.size());
+  const auto of_tile = static_cast<std::ptrdiff_t>(open.stars.size());
   for (OpenStar star : belt_stars_.read(tile)) {
     star.place.begin += before;
     open.stars.push_back(star);
   }
   const std::vector<OpenLinkVertex> vertices = belt_vertices_.read(tile);
   open.vertices.insert(open.vertices.end(), vertices.begin(), vertices.end());
-  merge_runs(open.stars, [](const OpenStar& a, const OpenStar& b) { return a.owned < b.owned; });
+  std::ranges::inplace_merge(open.stars, open.stars.begin() + of_tile, {}, &OpenStar::owned);
   return open;
 }
 

@@ -46,19 +46,23 @@ struct OpenStars {
   std::vector<OpenStar> stars;
   std::vector<OpenLinkVertex> vertices;
 
-  void add(const LoopPoint& point, LocalIndex owned, const RadiusBound& bound, double distance,
-           const RadiiAround& around, float surface) {
+  // Adds a measured star. `around` and `surface` are of its point. end_of(q) returns the row of a link vertex
+  // and its distance from the point. consistency_of(i) returns that of triangle i.
+  template <class EndOf, class ConsistencyOf>
+  void add(const LoopPoint& point, LocalIndex owned, const Star<LocalIndex>& star, double distance,
+           const RadiiAround& around, float surface, EndOf&& end_of, ConsistencyOf&& consistency_of) {
     stars.push_back(
         {point,
          owned,
-         {static_cast<std::uint32_t>(vertices.size()), 0, bound},
+         {static_cast<std::uint32_t>(vertices.size()), static_cast<std::uint32_t>(star.size()), star.bound},
          distance,
-         {around.sampling_radius(bound.fine * distance), around.sampling_radius(bound.coarse * distance)},
+         {around.sampling_radius(star.bound.fine * distance),
+          around.sampling_radius(star.bound.coarse * distance)},
          surface});
-  }
-  void add_vertex(const OpenLinkVertex& vertex) {  // of the last star
-    vertices.push_back(vertex);
-    ++stars.back().place.size;
+    for (std::size_t i = 0; i < star.size(); ++i) {
+      const auto [row, length] = end_of(star.link[i].point);
+      vertices.push_back({row, length, star.link[i].radius, consistency_of(i)});
+    }
   }
 };
 

@@ -121,15 +121,10 @@ void TileBoundary::emit_open_stars(TileOutput& output) {
   for (LocalIndex p = 0; p < tile_.points.owned; ++p) {
     const auto consistencies = found_.stars.consistencies_of(p);
     if (!is_measured(found_.states[p]) || !is_open(found_.states[p], consistencies)) continue;
-    const Star<LocalIndex> star = found_.stars[p];
-    open.add(loop_point_of(tile_, p), p, star.bound, found_.samplings[p].distance, around(p), surface(p));
-    for (std::size_t i = 0; i < star.size(); ++i) {
-      const auto [q, radius] = star.link[i];
-      open.add_vertex({.row = tile_.points.rows[q],
-                       .length = length(p, q),
-                       .radius = radius,
-                       .consistency = consistencies[i]});
-    }
+    open.add(
+        loop_point_of(tile_, p), p, found_.stars[p], found_.samplings[p].distance, around(p), surface(p),
+        [&](LocalIndex q) { return std::pair(tile_.points.rows[q], length(p, q)); },
+        [&](std::size_t i) { return consistencies[i]; });
   }
   output.add(kOpenStars, std::move(open.stars));
   output.add(kOpenVertices, std::move(open.vertices));

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the results of the steps before the first level are parts.
+#pragma once
+
+#include "engine/bucket/scattered_points.hpp"
+#include "engine/scan_steps.hpp"
+#include "engine/store/sealed_part.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+namespace lacuna {
+
+struct SurveyForm {
+  static std::optional<TaskSurvey> read(const PartReader& part) {
+    TaskSurvey task;
+    static_cast<SurveyTotals&>(task.survey) = part.record<SurveyTotals>("survey");
+    task.survey.cells = part.records<CountedCell>("cells");
+    task.pass_counts = part.records<std::uint64_t>("input");
+    task.seal = line_of(part.checksum());
+    return task;
+  }
+  static void write(const TaskSurvey& task, PartWriter& part) {
+    part.add_one<SurveyTotals>("survey", task.survey);
+    part.add("cells", task.survey.cells);
+    part.add("input", task.pass_counts);
+  }
+};
+
+struct TilesForm {
+  static std::optional<ScanTiles> read(const PartReader& part) {
+    return ScanTiles{{part.record<PlanTotals>("plan"), part.records<CountedCell>("cells"),
+                      part.records<Tile>("tiles"), part.records<CountedCell>("heavy")},
+                     part.record<SurveyTotals>("survey"),
+                     part.records<std::uint64_t>("input"),
+                     part.records<std::uint64_t>("first ids"),
+                     line_of(part.checksum())};
+  }
+  static void write(const ScanTiles& tiles, PartWriter& part) {
+    part.add_one<PlanTotals>("plan", tiles.plan);
+    part.add("cells", tiles.plan.cells);
+    part.add("tiles", tiles.plan.tiles);
+    part.add("heavy", tiles.plan.heavy);
+    part.add_one("survey", tiles.survey);
+    part.add("input", tiles.pass_counts);
+    part.add("first ids", tiles.first_ids);
+  }
+};
+
+struct BucketForm {
+  PointLayout layout;
+
+  std::optional<ScatteredPoints> read(PartReader part) const {
+    return ScatteredPoints(std::move(part), layout);
+  }
+  static void write(const ScatteredPoints& points, PartWriter& part) { points.write(part); }
+};
+
+}  // namespace lacuna
