@@ -46,8 +46,8 @@ struct OpenStars {
   std::vector<OpenStar> stars;
   std::vector<OpenLinkVertex> vertices;
 
-  // Adds a measured star. `around` and `surface` are of its point. end_of(q) returns the row of a link vertex
-  // and its distance from the point. consistency_of(i) returns that of triangle i.
+  // Adds a measured star, and what lies around its point. end_of(q) returns the row and the distance of a link
+  // vertex. consistency_of(i) is of triangle i.
   template <class EndOf, class ConsistencyOf>
   void add(const LoopPoint& point, LocalIndex owned, const Star<LocalIndex>& star, double distance,
            const RadiiAround& around, float surface, EndOf&& end_of, ConsistencyOf&& consistency_of) {
