@@ -46,8 +46,8 @@ struct OpenStars {
   std::vector<OpenStar> stars;
   std::vector<OpenLinkVertex> vertices;
 
-  // Adds a measured star, and what lies around its point. end_of(q) returns the row and the distance of a link
-  // vertex. consistency_of(i) is of triangle i.
+  // Adds a measured star, with what lies around it. end_of(q): row and distance of a link vertex.
+  // consistency_of(i): of triangle i.
   template <class EndOf, class ConsistencyOf>
   void add(const LoopPoint& point, LocalIndex owned, const Star<LocalIndex>& star, double distance,
            const RadiiAround& around, float surface, EndOf&& end_of, ConsistencyOf&& consistency_of) {
