@@ -17,6 +17,7 @@
 #include "io/files/result_folder.hpp"
 #include "io/options/options.hpp"
 #include "io/scan/scan_files.hpp"
+#include "io/stations/cause.hpp"
 
 namespace lacuna::io {
 

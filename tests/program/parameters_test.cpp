@@ -320,7 +320,7 @@ std::set<std::string> offered_by(const std::string& command) {
 class Sweep {
  public:
   Sweep() {
-    io::const ScanFiles scan(
+    const io::ScanFiles scan(
         {synth("scan", scratch_ / "plant.ply", {"--scene", "plant", "--stations", "1", "--points", "6000"})},
         {});
     PointBatch batch;

@@ -394,7 +394,7 @@ TEST_CASE("faces of a mesh are a warning with their number, in every format that
   }
   const auto points = folder.write("c.ply", ply("face 0", ""));
   CHECK(warnings({points}).empty());
-  const Strings all = warnings({points, {files[0].file, parse_pose("1 2 3 0 0 0 1")}, files[2]});
+  const Strings all = warnings({points, {files[0].name, parse_pose("1 2 3 0 0 0 1")}, files[2]});
   REQUIRE(all.size() == 1);
   CHECK_THAT(all[0], Contains("a.ply, and 1 more file: 3 faces; only their vertices are read"));
 }

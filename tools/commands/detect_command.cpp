@@ -75,8 +75,8 @@ std::unique_ptr<KeptFolder> use_workspace(const fs::path& folder) {
 }
 
 // What a run holds until its results are written. Each member may use the ones before, and goes before them.
-struct RunParts {
-  RunParts(const std::vector<ScanInput>& inputs, const FilesConfig& config, const ResultArguments& arguments)
+struct RunResources {
+  RunResources(const std::vector<ScanInput>& inputs, const FilesConfig& config, const ResultArguments& arguments)
       : scan(open_inputs(inputs, config)), area(read_area(scan, config)), out(arguments.out, "holes.json") {
     check_results(scan, config, out.results());
     workspace = use_workspace(config.run.workspace);
@@ -142,7 +142,7 @@ void detect_to(const std::vector<ScanInput>& inputs, FilesConfig config, const R
   const Clock::time_point start = Clock::now();
   require_outside_results(config.run.workspace, arguments.out, "--workspace");
   require_outside_results(config.run.scratch, arguments.out, "--scratch");
-  RunParts run(inputs, config, arguments);
+  RunResources run(inputs, config, arguments);
   ScanPass pass(run.scan, run.stations.get());
   const std::unique_ptr<Detection> found = detect(pass, config, run.scratch->path(), *run.progress);
   ExplainedDetection detection(*found, pass.counts());
