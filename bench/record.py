@@ -9,13 +9,15 @@ import os
 import re
 
 COLUMNS = ["case", "points", "positions", "order", "program", "threads", "memory_limit", "run", "phase", "seconds",
-           "points_per_second", "bytes_per_second", "peak_bytes"]
+           "points_per_second", "bytes_per_second", "peak_bytes", "processor_seconds"]
 
 
-def peak_resident_bytes(time_file):
-    """What /usr/bin/time -v found."""
+def read_time(time_file):
+    """What /usr/bin/time -v found: the peak of resident bytes, and the seconds of all processors."""
     with open(time_file, encoding="utf-8") as lines:
-        return 1024 * int(re.search(r"Maximum resident set size \(kbytes\): (\d+)", lines.read()).group(1))
+        text = lines.read()
+    found = {name: float(value) for name, value in re.findall(r"^\s*(.+?)(?: \(.*\))?: ([0-9.]+)$", text, re.M)}
+    return 1024 * int(found["Maximum resident set size"]), found["User time"] + found["System time"]
 
 
 def read_report(report_file):
@@ -57,9 +59,9 @@ def main():
     else:
         points, memory_limit, phases, peak, untimed = read_printed(given.printed)
     total = float(given.end) - float(given.begin) - untimed
-    rows = [(name, seconds, peak) for name, seconds in phases.items()]
-    rows.append(("rest", max(total - sum(phases.values()), 0), ""))  # starting, writing the results, ending
-    rows.append(("total", total, peak_resident_bytes(given.time)))
+    rows = [(name, seconds, peak, "") for name, seconds in phases.items()]
+    rows.append(("rest", max(total - sum(phases.values()), 0), "", ""))  # starting, writing the results, ending
+    rows.append(("total", total, *read_time(given.time)))
 
     scan_bytes = os.path.getsize(given.scan)
     is_new = not os.path.exists(given.csv)
@@ -67,10 +69,10 @@ def main():
         writer = csv.writer(file, lineterminator="\n")
         if is_new:
             writer.writerow(COLUMNS)
-        for phase, seconds, peak_bytes in rows:
+        for phase, seconds, *whole in rows:
             rates = [round(amount / seconds) if seconds > 0 else "" for amount in (points, scan_bytes)]
             writer.writerow([given.case, points, given.positions, given.order, given.program, given.threads,
-                             memory_limit, given.run, phase, f"{seconds:.6f}", *rates, peak_bytes])
+                             memory_limit, given.run, phase, f"{seconds:.6f}", *rates, *whole])
 
 
 main()

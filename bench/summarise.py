@@ -26,7 +26,7 @@ class Configuration:
 
 def read(files):
     """The values of every configuration, in the order of the files. By phase, they are those of all runs as (seconds,
-    peak bytes or None)."""
+    peak bytes or None). "processor" is no phase: its seconds are those of all threads together."""
     configurations = {}
     for file in files:
         with open(file, encoding="utf-8", newline="") as lines:
@@ -36,11 +36,17 @@ def read(files):
                 phases = configurations.setdefault(key, {})
                 peak = int(row["peak_bytes"]) if row["peak_bytes"] else None
                 phases.setdefault(row["phase"], []).append((float(row["seconds"]), peak))
+                if row.get("processor_seconds"):
+                    phases.setdefault("processor", []).append((float(row["processor_seconds"]), None))
     return configurations
 
 
 def seconds(phases, phase="total"):
     return statistics.median(value for value, _ in phases[phase])
+
+
+def processor(phases):
+    return f"{seconds(phases, 'processor'):#.3g}" if "processor" in phases else "-"
 
 
 def peak(phases):
@@ -83,13 +89,13 @@ def limit_in_words(amount):
 
 def print_medians(configurations):
     rows = [("case", "positions", "order", "program", "points", "threads", "limit MiB", "runs", "seconds", "M points/s",
-             "spread %", "peak MiB", "x lacuna")]
+             "spread %", "processor s", "peak MiB", "x lacuna")]
     for key, phases in configurations.items():
         total = seconds(phases)
         ours = None if key.program == "lacuna" else times_of("lacuna", key, configurations)
         rows.append((key.case, key.positions, key.order, key.program, f"{key.points:,}", str(key.threads),
                      mebibytes(key.limit), str(len(phases["total"])), f"{total:.3f}", f"{key.points / total / 1e6:.3f}",
-                     f"{spread(phases):.0f}", mebibytes(peak(phases)), f"{total / ours:.2f}" if ours else ""))
+                     f"{spread(phases):.0f}", processor(phases), mebibytes(peak(phases)), f"{total / ours:.2f}" if ours else ""))
     print_table(rows, 4)
 
 
@@ -97,7 +103,7 @@ def print_phases(configurations):
     print("\nNanoseconds per point, by phase:")
     for program in dict.fromkeys(key.program for key in configurations):
         chosen = {key: phases for key, phases in configurations.items() if key.program == program}
-        names = list(dict.fromkeys(name for phases in chosen.values() for name in phases))
+        names = list(dict.fromkeys(name for phases in chosen.values() for name in phases if name != "processor"))
         print()
         rows = [("case", "positions", "order", "program", "threads", "limit MiB", *names)]
         for key, phases in chosen.items():
@@ -110,9 +116,9 @@ def print_phases(configurations):
 def print_readme(configurations):
     """A row for each scan, order, number of threads and limit: random positions, then jittered ones, then real scans as
     they come."""
-    print("| scan | points | order | memory limit | seconds | spread % | M points/s a core | peak MiB | "
-          "times as fast as PCL | times the kernel |")
-    print("|---|---|---|---|---|---|---|---|---|---|")
+    print("| scan | points | order | memory limit | seconds | spread % | processor seconds | M points/s a core | "
+          "peak MiB | times as fast as PCL | times the kernel |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|")
     ours = [key for key in configurations if key.program == "lacuna" and key.points >= LEAST_POINTS]
     for key in sorted(ours, key=lambda key: ("random", "jittered", "file").index(key.positions)):
         phases = configurations[key]
@@ -120,7 +126,7 @@ def print_readme(configurations):
         pcl, kernel = (times_of(program, key, configurations) for program in ("pcl", "kernel"))
         name = KINDS.get(key.positions) or REAL.get(key.case, key.case)
         print(f"| {name} | {key.points / 1e6:.1f} M | {key.order} | {limit_in_words(key.limit)} | {total:#.3g} | "
-              f"{spread(phases):.0f} | {key.points / total / key.threads / 1e6:.2f} | {mebibytes(peak(phases))} | "
+              f"{spread(phases):.0f} | {processor(phases)} | {key.points / total / key.threads / 1e6:.2f} | {mebibytes(peak(phases))} | "
               f"{f'{pcl / total:.1f}' if pcl else '-'} | {f'{total / kernel:.1f}' if kernel else '-'} |")
 
 

@@ -78,7 +78,7 @@ cmake --build "$build" --parallel "$(nproc)" --target lacuna lacuna-bench lacuna
 lacuna=$build/lacuna
 
 if ((peers)); then
-  install_packages libpcl-dev libopen3d-dev
+  for name in "${peer_programs[@]}"; do install_packages "lib$name-dev"; done
   cmake -G Ninja -S bench/peers -B "$build/peers" -DCMAKE_BUILD_TYPE=Release
   for name in "${peer_programs[@]}"; do
     cmake --build "$build/peers" --parallel "$(nproc)" --target "${name}_boundary"
