@@ -83,8 +83,8 @@ class TileStore {
   void add_duplicates(TileIndex tile, std::span<const Duplicate> duplicates) {
     duplicates_.append(tile, duplicates);
   }
-  // Returns the tile behind the last one. Points that were never raw are `put` there. One thread calls it,
-  // while no other uses the store.
+  // Returns the tile behind the last one. Tiles of points that were set aside are appended there. One thread
+  // calls it, while no other uses the store.
   TileIndex next_tile() const { return static_cast<TileIndex>(tiling_.tiles.size()); }
   void add_tile(std::span<const ScanPoint> points, std::span<const PlainNormal> normals,
                 std::vector<Cell> cells);

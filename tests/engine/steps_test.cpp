@@ -224,7 +224,7 @@ TEST_CASE("a shared scan without a finite point is refused by the first pass ove
     CountedScan input(run.cloud);
     const ScratchFolder scratch;
     NoProgress quiet;
-    CHECK_THROWS_WITH(work(input, run.config, run.step(step), 0, scratch.path(), quiet), "has no point");
+    CHECK_THROWS_WITH(do_task(input, run.config, run.step(step), 0, scratch.path(), quiet), "has no point");
     CHECK(input.passes == 1);
   }
 }
