@@ -184,7 +184,9 @@ TEST_CASE("wedges of both scales at the same points chain apart") {
         std::set<std::set<std::uint64_t>>{{1, 3}, {1, 4}});
 }
 
-TEST_CASE("loops along a curve have the means of its points; without surface, these are not even looked at") {
+TEST_CASE(
+    "loops along a curve have the means of its points, which are not even looked at where there is no "
+    "surface") {
   const ScratchFolder folder;
   Scratch scratch(folder.path(), 1 << 20);
   const std::vector<CurveStep> curve = curve_of({1, 2, 3, 4, 5, 6, 7, 8});
