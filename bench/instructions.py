@@ -13,7 +13,7 @@ PARTS = {
     "all": r"PROGRAM TOTALS",
     "neighbours": r"\S*lacuna::find_neighbourhoods\(",
     "evaluate": r"\S*lacuna::evaluate\(",
-    "stars": r"\S*lacuna::tangential::emit_stars\(",
+    "stars": r"\S*lacuna::tangential::TangentialBoundary::emit\(",
     "loops": r"\S*lacuna::tangential::TangentialBoundary::find_loops\(",
     "levels": r"\S*lacuna::level_above\(",
     "write": r"\S*lacuna::io::write_results\(",
