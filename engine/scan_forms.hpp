@@ -1,16 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the results of the steps before the first level are parts.
+// The results of the steps before the first level, and how they are parts.
 #pragma once
 
 #include "engine/bucket/scattered_points.hpp"
-#include "engine/scan_steps.hpp"
+#include "engine/bucket/split.hpp"
+#include "engine/parts/parts.hpp"
 #include "engine/store/sealed_part.hpp"
+#include "engine/survey/survey.hpp"
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace lacuna {
+
+// The counts of the points that a task reads.
+struct TaskSurvey {
+  SurveyedScan survey;
+  std::vector<std::uint64_t> pass_counts;  // `PointSource::pass_counts`
+  std::string seal;                        // the checksum of its part, a line; empty: it is not kept
+};
+
+// The tiles of the scan, from all counts.
+struct ScanTiles {
+  TilePlan plan;
+  SurveyTotals survey;                     // of the whole scan
+  std::vector<std::uint64_t> pass_counts;  // of the whole scan
+  std::vector<std::uint64_t> first_ids;    // of each task's points
+  std::string seal;
+};
 
 struct SurveyForm {
   static std::optional<TaskSurvey> read(const PartReader& part) {

@@ -3,19 +3,15 @@
 // several tasks that each read parts of the scan.
 #pragma once
 
-#include "engine/bucket/scattered_points.hpp"
-#include "engine/bucket/split.hpp"
 #include "engine/config/job.hpp"
 #include "engine/model/points.hpp"
 #include "engine/parts/parts.hpp"
-#include "engine/survey/survey.hpp"
+#include "engine/scan_forms.hpp"
 #include "engine/thin/level.hpp"
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace lacuna {
 
@@ -30,22 +26,8 @@ struct StepContext {
 inline constexpr std::string_view kSurvey = "survey", kTiles = "tiles", kBucket = "bucket", kLevel = "level";
 std::string step_of_level(std::string_view name, std::size_t level);  // "level-0"
 
-// The counts of the points that a task reads.
-struct TaskSurvey {
-  SurveyedScan survey;
-  std::vector<std::uint64_t> pass_counts;  // `PointSource::pass_counts`
-  std::string seal;                        // the checksum of its part, a line; empty: it is not kept
-};
 TaskSurvey survey_of_task(const StepContext& given, std::size_t task);
 
-// The tiles of the scan, from all counts.
-struct ScanTiles {
-  TilePlan plan;
-  SurveyTotals survey;                     // of the whole scan
-  std::vector<std::uint64_t> pass_counts;  // of the whole scan
-  std::vector<std::uint64_t> first_ids;    // of each task's points
-  std::string seal;
-};
 ScanTiles tiles_of_scan(const StepContext& given);
 
 // The points that a task reads, each at its place in the plan.

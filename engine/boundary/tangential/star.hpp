@@ -20,6 +20,9 @@ struct alignas(64) Site {
   double weight;     // decides ties among points on one circle, alike for all of them
 };
 
+// Larger circumradii count as this one, in units of `Sampling::distance`.
+inline constexpr double kLargestRadius = 8;
+
 // One vertex of a star's link, and the circumradius of the triangle of the star's point, this vertex and the
 // next one around.
 template <class Name>

@@ -12,9 +12,6 @@ namespace lacuna::tangential {
 
 inline constexpr std::size_t kMostNeighbours = 64;  // of one point
 
-// Larger circumradii count as this one, in units of `Sampling::distance`.
-inline constexpr double kLargestRadius = 8;
-
 struct StarBatch {
   const Site* sites;  // of all points
   LocalIndex points[kBatchSize];
