@@ -34,6 +34,10 @@ constexpr std::uint64_t kFewestCells = 2048;
 // A cell's share of the index and the tree built from it.
 constexpr std::uint64_t kBytesPerCell = 96;
 
+// Cells that do not merge within so many doublings are apart from each other. A first batch of 64 Ki points
+// that is one part in 4^8 of a scan has cells that much too fine.
+constexpr int kDoublingsAhead = 8;
+
 // Regions of 128^3 cells.
 constexpr int kRegionDoublings = 7;
 
@@ -216,16 +220,20 @@ bool Survey::is_full() const {
   return table_.size() > std::min(memory_ / 2 / CellTable::kBytesPerCell, std::max(2 * wanted, kFewestCells));
 }
 
+// Where the first batch is a small part of the scan, cells may be far finer than the spacing of the points:
+// one doubling merges none of them.
 void Survey::make_space() {
-  if (scan_.grid.shift < CellGrid::kMaxShift) {
-    CellTable larger = table_.merged(scan_.grid.shift + 1);
-    if (!are_sparse(table_.size(), larger.size())) {
-      table_ = std::move(larger);
-      ++scan_.grid.shift;
-      return;
-    }
+  const auto is_sparse = [&](const CellTable& larger) { return are_sparse(table_.size(), larger.size()); };
+  int shift = scan_.grid.shift;
+  if (is_sparse(table_.merged(std::min(shift + kDoublingsAhead, CellGrid::kMaxShift)))) {
+    store_cells();
+    return;
   }
-  store_cells();
+  CellTable larger;
+  do larger = table_.merged(++shift);
+  while (is_sparse(larger));
+  table_ = std::move(larger);
+  scan_.grid.shift = shift;
 }
 
 void Survey::store_cells() {

@@ -52,7 +52,7 @@ struct CellCounts {
 // overflow.
 CellCounts count_cells(const PointBatch& batch, const CellGrid& grid);
 
-// Counts in a hash table. The first batch sets a fine cell size. Where the table is full, the size doubles if
+// Counts in a hash table. The first batch sets a fine cell size. Where the table is full, the size grows if
 // that merges many cells. Else the cells go to the disk, and the table begins anew: cells of outliers merge
 // at no size that suits the other points. At the end all cells are sorted along a Z curve, so that those of
 // any larger size follow each other. Then the size doubles until a cell holds about `kPointsPerCell` points

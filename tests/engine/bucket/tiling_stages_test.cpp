@@ -152,6 +152,18 @@ TEST_CASE("cells hold about sixteen points on average, save where they cannot me
   CHECK(scan.cells.size() * Survey::kPointsPerCell >= 20'000 / 5);
 }
 
+TEST_CASE("cells that are finer than the spacing merge in memory") {
+  Cloud strip;  // each batch shows a small part of it
+  for (int row = 0; row < 8'000; ++row)
+    for (int i = 0; i < 20; ++i) strip.positions.emplace_back(i, row, 0);
+  const ScratchFolder folder;
+  Survey survey(400'000, strip.size(), folder / "cells");
+  MemoryScan scan(strip, 1000);
+  for (PointBatch points; scan.next(points);) survey.add(points);
+  CHECK_FALSE(std::filesystem::exists(folder / "cells"));
+  check_counts(strip, survey.finish());
+}
+
 TEST_CASE("outliers far from all else do not make the cells of a surface larger") {
   const Cloud surface = plane(200);
   const auto cells_of_surface = [&](const SurveyedScan& scan) {
