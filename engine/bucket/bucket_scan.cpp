@@ -160,18 +160,17 @@ TileStore store_tiles(const TilePlan& plan, const TaskShare& share, const Eigen:
   for (const Tile& tile : plan.tiles) weights.push_back(tile.raw);
   const IndexRange range = share_of(weights, share);
   const std::span<const Tile> mine = std::span(plan.tiles).subspan(range.first, range.last - range.first);
-  std::vector<Tile> tiles;
-  std::vector<std::uint64_t> needs;
-  std::uint64_t row = 0;
-  for (const Tile& tile : mine) {
-    tiles.push_back({.first_row = Row{row}, .raw = tile.raw});
-    needs.push_back(tile.raw * 120);
-    row = aligned_row(row + tile.raw);
-  }
-  Phase phase(phases, "order", row);
-  const std::uint64_t most_tiles = plan.most_tiles() - plan.tiles.size() + tiles.size();
   const std::filesystem::path aside_file = files.spill.file("aside");
-  TileStore store(std::move(files), std::move(tiles), most_tiles, layout.precision, layout.with_normals);
+  const std::uint64_t most_tiles = plan.most_tiles() - plan.tiles.size() + mine.size();
+  StoreWriter store(std::move(files), most_tiles, layout.precision, layout.with_normals);
+  std::vector<std::uint64_t> needs;
+  std::uint64_t points = 0;
+  for (const Tile& tile : mine) {
+    store.reserve(tile.raw);
+    needs.push_back(tile.raw * 120);
+    points += tile.raw;
+  }
+  Phase phase(phases, "order", points);
   const std::uint32_t first_cell = mine.empty() ? 0 : mine.front().first_cell;
   const std::uint32_t last_cell = mine.empty() ? 0 : mine.back().last_cell;
   const CellIndex index(plan.grid, std::span(plan.cells).subspan(first_cell, last_cell - first_cell));
@@ -205,8 +204,7 @@ TileStore store_tiles(const TilePlan& plan, const TaskShare& share, const Eigen:
     }
     aside.store(store, plan.cell_points);
   }
-  store.finish();
-  return store;
+  return store.finish();
 }
 
 }  // namespace lacuna

@@ -6,7 +6,7 @@
 #include "engine/bucket/split.hpp"
 #include "engine/config/job.hpp"
 #include "engine/model/points.hpp"
-#include "engine/store/tile_store.hpp"
+#include "engine/store/store_writer.hpp"
 #include "engine/survey/survey.hpp"
 
 #include <cstddef>

@@ -13,7 +13,7 @@ namespace {
 // tile is full after its most points, and its cells are runs of the curve.
 class LastTile {
  public:
-  LastTile(TileStore& store, std::uint64_t most_points, std::uint64_t cell_points)
+  LastTile(StoreWriter& store, std::uint64_t most_points, std::uint64_t cell_points)
       : store_(store), most_points_(most_points), cell_points_(cell_points) {}
 
   bool is_full() const { return points_.size() == most_points_; }
@@ -23,7 +23,7 @@ class LastTile {
 
   void add(const ScanPoint& point, const PlainNormal& normal, const ZPlace& place) {
     points_.push_back(point);
-    if (store_.has_normals()) normals_.push_back(normal);
+    if (store_.with_normals()) normals_.push_back(normal);
     places_.push_back(place);
   }
 
@@ -43,7 +43,7 @@ class LastTile {
       for (; begin < end; ++begin) cell.box.extend(points_[begin].position());
       cells.push_back(cell);
     }
-    store_.add_tile(points_, normals_, std::move(cells));
+    store_.put(store_.reserve(points_.size()), points_, normals_, std::move(cells));
     points_.clear();
     normals_.clear();
     places_.clear();
@@ -57,7 +57,7 @@ class LastTile {
     copies_.clear();
   }
 
-  TileStore& store_;
+  StoreWriter& store_;
   std::uint64_t most_points_, cell_points_;
   std::vector<ScanPoint> points_;
   std::vector<PlainNormal> normals_;
@@ -87,7 +87,7 @@ void SetAside::add(std::uint32_t group, const ScanPoint& point, const PlainNorma
   sort_.add({point, normal, curves_[group].place(point.position()), group});
 }
 
-void SetAside::store(TileStore& store, std::uint64_t cell_points) {
+void SetAside::store(StoreWriter& store, std::uint64_t cell_points) {
   for (std::size_t group = 0; group < counts_.size(); ++group) {
     const std::uint64_t counted = plan_.group_points(group);
     if (counts_[group] != counted && std::min(counts_[group], counted) < kMostCounted)

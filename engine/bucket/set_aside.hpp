@@ -6,7 +6,7 @@
 #include "engine/bucket/split.hpp"
 #include "engine/bucket/z_curve.hpp"
 #include "engine/store/sorted_runs.hpp"
-#include "engine/store/tile_store.hpp"
+#include "engine/store/store_writer.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -26,9 +26,9 @@ class SetAside {
   // Adds a point of a cell of the plan's group `group`. By one thread at a time.
   void add(std::uint32_t group, const ScanPoint& point, const PlainNormal& normal);
 
-  // Appends the tiles to the store, once all points are added. Throws `Error` where a cell got other points
+  // Puts the tiles into the store, once all points are added. Throws `Error` where a cell got other points
   // than were counted.
-  void store(TileStore& store, std::uint64_t cell_points);
+  void store(StoreWriter& store, std::uint64_t cell_points);
 
  private:
   struct Record {

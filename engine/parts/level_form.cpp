@@ -88,11 +88,15 @@ std::optional<Level> LevelForm::read(const PartReader& part) const {
   std::optional<StoreFile> normals =
       open_file(column_of(*this, numbers.normals_digest, kNormals), numbers.normals_bytes);
   if (!points || !normals) return std::nullopt;
-  TileStore store({std::move(*points), std::move(*normals), job.spill}, std::move(tiling),
-                  part.records<TileDigests>("digests"), numbers.survey.precision(), numbers.has_normals != 0);
-  for (TileIndex t = 0; t < store.tiling().tiles.size(); ++t)
-    part.for_each<Duplicate>(
-        "duplicates", t, [&](std::span<const Duplicate> duplicates) { store.add_duplicates(t, duplicates); });
+  AppendLists<Duplicate> duplicates(job.spill, "duplicates", tiling.tiles.size());
+  for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
+    part.for_each<Duplicate>("duplicates", t,
+                             [&](std::span<const Duplicate> some) { duplicates.append(t, some); });
+  }
+  TileStore store(
+      {PointColumn(std::move(*points), numbers.survey.precision()), Column<PlainNormal>(std::move(*normals))},
+      numbers.has_normals != 0, std::move(tiling), std::move(duplicates),
+      part.records<TileDigests>("digests"));
   return Level{.number = numbers.number,
                .edge = numbers.edge,
                .survey = numbers.survey,

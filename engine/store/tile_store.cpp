@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/store/tile_store.hpp"
 
-#include "engine/run/error.hpp"
 #include "engine/store/sealed_part.hpp"
 
 #include <algorithm>
@@ -10,29 +9,17 @@
 #include <iterator>
 
 namespace lacuna {
-namespace {
 
-constexpr const char* kOtherPoints = "not the points that were counted";
-
-}  // namespace
-
-TileStore::TileStore(StoreFiles files, std::vector<Tile> tiles, std::uint64_t most_tiles, Precision precision,
-                     bool with_normals)
-    : cells_(tiles.size()),
+TileStore::TileStore(StoreColumns columns, bool with_normals, Tiling tiling,
+                     AppendLists<Duplicate> duplicates, std::vector<TileDigests> digests)
+    : tiling_(std::move(tiling)),
       has_normals_(with_normals),
       stores_normals_(with_normals),
-      duplicates_(files.spill, "duplicates", most_tiles) {
-  tiling_.tiles = std::move(tiles);
-  columns_.push_back(
-      {PointColumn(std::move(files.points), precision), Column<PlainNormal>(std::move(files.normals))});
-}
-
-TileStore::TileStore(StoreFiles files, Tiling tiling, std::vector<TileDigests> digests, Precision precision,
-                     bool with_normals)
-    : TileStore(std::move(files), {}, tiling.tiles.size(), precision, with_normals) {
-  tiling_ = std::move(tiling);
-  digests_ = std::move(digests);
-  is_checked_.resize(digests_.size());
+      duplicates_(std::move(duplicates)),
+      digests_(std::move(digests)),
+      is_checked_(digests_.size()) {
+  columns_.push_back(std::move(columns));
+  assert(tiling_.check());
 }
 
 TileStore TileStore::joined(std::vector<TileStore> parts, const Spill& spill) {
@@ -73,13 +60,15 @@ TileStore TileStore::joined(std::vector<TileStore> parts, const Spill& spill) {
   return std::move(all);
 }
 
-const TileStore::Columns& TileStore::columns_of(std::uint64_t row) const {
-  const auto lies_before = [](std::uint64_t at, const Columns& columns) { return at < columns.first_row; };
+const StoreColumns& TileStore::columns_of(std::uint64_t row) const {
+  const auto lies_before = [](std::uint64_t at, const StoreColumns& columns) {
+    return at < columns.first_row;
+  };
   return *std::prev(std::upper_bound(columns_.begin(), columns_.end(), row, lies_before));
 }
 
 void TileStore::read_points(std::uint64_t row, std::span<ScanPoint> points) const {
-  const Columns& columns = columns_of(row);
+  const StoreColumns& columns = columns_of(row);
   columns.points.read(row - columns.first_row, points);
 }
 
@@ -91,7 +80,7 @@ std::vector<ScanPoint> TileStore::read_points(std::uint64_t row, std::uint64_t c
 
 TileDigests TileStore::digests(TileIndex index) const {
   const Tile& tile = tiling_.tiles[index];
-  const Columns& columns = columns_of(value(tile.first_row));
+  const StoreColumns& columns = columns_of(value(tile.first_row));
   const std::uint64_t row = value(tile.first_row) - columns.first_row;
   return {columns.points.digest(row, tile.points),
           columns.normals.digest(row, stores_normals_ ? tile.points : 0)};
@@ -100,7 +89,7 @@ TileDigests TileStore::digests(TileIndex index) const {
 // Several threads may check a tile at once. They find the same.
 void TileStore::check_digests(TileIndex tile) const {
   const TileDigests found = digests(tile);
-  const Columns& columns = columns_of(value(tiling_.tiles[tile].first_row));
+  const StoreColumns& columns = columns_of(value(tiling_.tiles[tile].first_row));
   if (found.points != digests_[tile].points) throw DamagedFile(columns.points.file().path());
   if (found.normals != digests_[tile].normals) throw DamagedFile(columns.normals.file().path());
   std::atomic_ref(is_checked_[tile]).store(1, std::memory_order_relaxed);
@@ -117,7 +106,7 @@ std::vector<Eigen::Vector3d> TileStore::normals(TileIndex index) const {
   if (!has_normals_) return normals;
   check(index);
   const Tile& tile = tiling_.tiles[index];
-  const Columns& columns = columns_of(value(tile.first_row));
+  const StoreColumns& columns = columns_of(value(tile.first_row));
   for (const PlainNormal& n : columns.normals.read(value(tile.first_row) - columns.first_row, tile.points))
     normals.emplace_back(n.data());
   return normals;
@@ -147,46 +136,6 @@ void TileStore::read_cells(std::span<const std::uint32_t> cells, std::vector<Sca
     read_points(first, std::span(points).subspan(at));
     for (std::uint64_t row = first; row < end; ++row) rows.push_back(Row{row});
   }
-}
-
-void TileStore::put(TileIndex index, std::span<const ScanPoint> points, std::span<const PlainNormal> normals,
-                    std::vector<Cell> cells) {
-  Tile& tile = tiling_.tiles[index];
-  if (points.size() > tile.raw)  // its rows would run into the next tile's
-    fail_changed(kOtherPoints);
-  tile.points = points.size();
-  std::uint64_t row = value(tile.first_row);
-  for (Cell& cell : cells) {
-    cell.first_row = Row{row};
-    row += cell.points;
-  }
-  cells_[index] = std::move(cells);
-  columns_.front().points.write(value(tile.first_row), points);
-  if (has_normals_) columns_.front().normals.write(value(tile.first_row), normals);
-}
-
-void TileStore::add_tile(std::span<const ScanPoint> points, std::span<const PlainNormal> normals,
-                         std::vector<Cell> cells) {
-  const TileIndex index = next_tile();
-  if (index >= duplicates_.lists()) fail_changed(kOtherPoints);
-  tiling_.tiles.push_back({.first_row = Row{aligned_row(tiling_.row_count())}, .raw = points.size()});
-  cells_.emplace_back();
-  put(index, points, normals, std::move(cells));
-}
-
-void TileStore::finish() {
-  std::size_t count = 0;
-  for (const std::vector<Cell>& cells : cells_) count += cells.size();
-  tiling_.cells.reserve(count);
-  for (std::size_t t = 0; t < cells_.size(); ++t) {
-    Tile& tile = tiling_.tiles[t];
-    tile.first_cell = static_cast<std::uint32_t>(tiling_.cells.size());
-    tiling_.cells.insert(tiling_.cells.end(), cells_[t].begin(), cells_[t].end());
-    tile.last_cell = static_cast<std::uint32_t>(tiling_.cells.size());
-    std::vector<Cell>().swap(cells_[t]);
-  }
-  tiling_.build_tree();
-  assert(tiling_.check());
 }
 
 }  // namespace lacuna

@@ -34,24 +34,22 @@ struct TileDigests {
   Digest points, normals;
 };
 
-// The files of a store; empty ones for a store that is to be filled.
-struct StoreFiles {
-  StoreFile points, normals;
-  Spill spill;  // for the duplicates
+// The points and normals of a run of rows, in files.
+struct StoreColumns {
+  PointColumn points;
+  Column<PlainNormal> normals;
+  std::uint64_t first_row = 0;
 };
 
-// The tiles are put, in any order. From then on the store is read only. Reads may come from several threads.
+// Reads may come from several threads. `StoreWriter` makes a store.
 class TileStore {
  public:
-  // `tiles`: with space for `raw` points each; `most_tiles`: the number of tiles with those that are added
-  // later.
-  TileStore(StoreFiles files, std::vector<Tile> tiles, std::uint64_t most_tiles, Precision precision,
-            bool with_normals);
-  // Opens a store that was finished before, to be joined. `files`: sealed ones. Reading a tile throws
-  // `DamagedFile` where its bytes have other digests. The caller adds the duplicates.
-  TileStore(StoreFiles files, Tiling tiling, std::vector<TileDigests> digests, Precision precision,
-            bool with_normals);
-  // Joins finished stores of the same kind, at least one: tiles of the first one come first.
+  // `digests`: of each tile of a store that was finished before; none of a new one. Reading a tile throws
+  // `DamagedFile` where its bytes have other digests.
+  TileStore(StoreColumns columns, bool with_normals, Tiling tiling, AppendLists<Duplicate> duplicates,
+            std::vector<TileDigests> digests = {});
+  // Joins stores of the same kind, at least one, of all of which the digests are known, or of none. Tiles of
+  // the first one come first.
   static TileStore joined(std::vector<TileStore> parts, const Spill& spill);
 
   const Tiling& tiling() const { return tiling_; }
@@ -75,36 +73,14 @@ class TileStore {
   void read_cells(std::span<const std::uint32_t> cells, std::vector<ScanPoint>& points,
                   std::vector<Row>& rows) const;
 
-  // Puts the distinct points of a tile, in the order of its cells. It sets the rows of the cells. From
-  // several threads, for different tiles.
-  void put(TileIndex tile, std::span<const ScanPoint> points, std::span<const PlainNormal> normals,
-           std::vector<Cell> cells);
-  // Adds copies of a tile's points, once or in several goes. From any thread.
-  void add_duplicates(TileIndex tile, std::span<const Duplicate> duplicates) {
-    duplicates_.append(tile, duplicates);
-  }
-  // Returns the tile behind the last one. Tiles of points that were set aside are appended there. One thread
-  // calls it, while no other uses the store.
-  TileIndex next_tile() const { return static_cast<TileIndex>(tiling_.tiles.size()); }
-  void add_tile(std::span<const ScanPoint> points, std::span<const PlainNormal> normals,
-                std::vector<Cell> cells);
-  // Ends the filling once all tiles are put: counts are final.
-  void finish();
-
   Precision precision() const { return columns_.front().points.precision(); }
-  // Return the digests and the files for sealing, once the store is finished. It is not joined of others.
+  // Return the digests and the files for sealing, where the store is not joined of others.
   TileDigests digests(TileIndex tile) const;
   StoreFile& points_file() { return columns_.front().points.file(); }
   StoreFile& normals_file() { return columns_.front().normals.file(); }
 
  private:
-  // The points and normals of a run of rows.
-  struct Columns {
-    PointColumn points;
-    Column<PlainNormal> normals;
-    std::uint64_t first_row = 0;
-  };
-  const Columns& columns_of(std::uint64_t row) const;
+  const StoreColumns& columns_of(std::uint64_t row) const;
   void read_points(std::uint64_t row, std::span<ScanPoint> points) const;
   std::vector<ScanPoint> read_points(std::uint64_t row, std::uint64_t count) const;
   // Checks a tile before it is read for the first time.
@@ -115,10 +91,9 @@ class TileStore {
   void check_digests(TileIndex tile) const;
 
   Tiling tiling_;
-  std::vector<std::vector<Cell>> cells_;  // of each tile, until the store is finished
   bool has_normals_;
-  bool stores_normals_;           // also where they are left out
-  std::vector<Columns> columns_;  // in ascending row
+  bool stores_normals_;                // also where they are left out
+  std::vector<StoreColumns> columns_;  // in ascending row
   AppendLists<Duplicate> duplicates_;
   std::vector<TileDigests> digests_;              // of a store that was finished before
   mutable std::vector<std::uint8_t> is_checked_;  // of each of these tiles

@@ -148,18 +148,14 @@ TileStore store_chosen(const TileStore& below, const ChosenPoints& chosen, const
                        StoreFiles files, const Workers& workers) {
   constexpr std::uint64_t kBytesPerPoint = 128;  // while it is put
   const Tiling& tiling = below.tiling();
-  std::vector<Tile> tiles;
+  StoreWriter store(std::move(files), join.first.size(), below.precision(), below.has_normals());
   std::vector<std::uint64_t> needs;
-  std::uint64_t row = 0;
   for (std::size_t t = 0; t < join.first.size(); ++t) {
     const std::uint64_t points = count_tiles(tiling, chosen, join.first[t], end_of(join, t, chosen.tiles));
-    tiles.push_back({.first_row = Row{row}, .raw = points});
-    row = aligned_row(row + points);
+    store.reserve(points);
     needs.push_back(points * kBytesPerPoint);
   }
   const std::vector<JoinedCells> cells = Joiner(tiling, chosen, join.tile_points, join.cell_points).cells();
-  TileStore store(std::move(files), std::move(tiles), join.first.size(), below.precision(),
-                  below.has_normals());
   workers.for_each_within(workers.memory.tiles, needs, [&](std::size_t t) {
     JoinedTile to;
     to.points.reserve(needs[t] / kBytesPerPoint);
@@ -174,8 +170,7 @@ TileStore store_chosen(const TileStore& below, const ChosenPoints& chosen, const
     add_cells({begin, end}, to);
     store.put(static_cast<TileIndex>(t), to.points, to.normals, std::move(to.cells));
   });
-  store.finish();
-  return store;
+  return store.finish();
 }
 
 }  // namespace lacuna

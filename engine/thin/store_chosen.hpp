@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/run/parallel.hpp"
-#include "engine/store/tile_store.hpp"
+#include "engine/store/store_writer.hpp"
 #include "engine/thin/choose_points.hpp"
 
 #include <cstdint>

@@ -5,7 +5,7 @@
 #include "engine/config/config.hpp"
 #include "engine/config/job.hpp"
 #include "engine/model/length_bins.hpp"
-#include "engine/store/tile_store.hpp"
+#include "engine/store/store_writer.hpp"
 #include "engine/thin/level.hpp"
 
 #include <cstdint>
