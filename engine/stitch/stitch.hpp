@@ -58,14 +58,15 @@ class Stitch {
     open_.append(tile, members);
   }
 
-  // Calls visit(record) for each record of a component, as often as wanted.
+  // A component: calls visit(record) for each of its records, in any order and as often as wanted.
   using ForEachRecord = std::function<void(const std::function<void(const Record&)>&)>;
+  // Receives a component, the number of its records, and the bytes that its search may take.
+  using VisitComponent =
+      std::function<void(const ForEachRecord& for_each_record, std::uint64_t count, std::uint64_t memory)>;
 
-  // Goes through the components once all tiles are added. `in_memory(records)` gets the records of one
-  // component, in any order, and is called for several components at a time. `on_disk(for_each, count)` gets
-  // one component whose records do not fit in memory, one at a time.
-  void for_each_component(const std::function<void(std::span<const Record>)>& in_memory,
-                          const std::function<void(const ForEachRecord&, std::uint64_t count)>& on_disk) {
+  // Goes through the components once all tiles are added. Several components are visited at a time, with as
+  // much memory as they take. A component that does not fit in memory is visited alone, from disk.
+  void for_each_component(const VisitComponent& visit) {
     const std::uint64_t fits = workers_.memory.work / 2 / record_bytes_;
     const AppendLists<Member> batches =
         make_batches(std::max<std::uint64_t>(fits / workers_.arena.threads(), 1));
@@ -73,12 +74,13 @@ class Stitch {
     for (std::size_t b = 0; b < batches.lists(); ++b)
       needs.push_back(batches.count(b) > fits ? 0 : batches.count(b) * record_bytes_);
     workers_.for_each_within(workers_.memory.work / 2, needs, [&](std::size_t b) {
-      if (batches.count(b) <= fits) visit_batch(batches.read(b), in_memory);
+      if (batches.count(b) <= fits) visit_batch(batches.read(b), visit);
     });
     for (std::size_t b = 0; b < batches.lists(); ++b) {
       if (batches.count(b) <= fits) continue;
-      on_disk([&](const auto& visit) { batches.for_each(b, [&](const Member& m) { visit(m.record); }); },
-              batches.count(b));
+      const MemoryLedger::Lease lease = workers_.memory.ledger.take(workers_.memory.work / 4 * 3);
+      visit([&](const auto& add) { batches.for_each(b, [&](const Member& m) { add(m.record); }); },
+            batches.count(b), lease.bytes());
     }
   }
 
@@ -113,16 +115,17 @@ class Stitch {
     }
   }
 
-  static void visit_batch(std::vector<Member> members,
-                          const std::function<void(std::span<const Record>)>& visit) {
+  static void visit_batch(std::vector<Member> members, const VisitComponent& visit) {
     std::sort(members.begin(), members.end(),
               [](const Member& x, const Member& y) { return x.component < y.component; });
-    std::vector<Record> records;
     for (std::size_t begin = 0, end; begin < members.size(); begin = end) {
-      records.clear();
-      for (end = begin; end < members.size() && members[end].component == members[begin].component; ++end)
-        records.push_back(members[end].record);
-      visit(records);
+      for (end = begin; end < members.size() && members[end].component == members[begin].component;) ++end;
+      const std::span<const Member> component = std::span(members).subspan(begin, end - begin);
+      visit(
+          [&](const auto& add) {
+            for (const Member& m : component) add(m.record);
+          },
+          component.size(), UINT64_MAX);
     }
   }
 

@@ -224,16 +224,13 @@ bool Survey::is_full() const {
 // one doubling merges none of them.
 void Survey::make_space() {
   const auto is_sparse = [&](const CellTable& larger) { return are_sparse(table_.size(), larger.size()); };
-  int shift = scan_.grid.shift;
-  if (is_sparse(table_.merged(std::min(shift + kDoublingsAhead, CellGrid::kMaxShift)))) {
-    store_cells();
-    return;
-  }
+  int& shift = scan_.grid.shift;
+  const int most = std::min(shift + kDoublingsAhead, CellGrid::kMaxShift);
+  if (shift == most || is_sparse(table_.merged(most))) return store_cells();
   CellTable larger;
   do larger = table_.merged(++shift);
   while (is_sparse(larger));
   table_ = std::move(larger);
-  scan_.grid.shift = shift;
 }
 
 void Survey::store_cells() {

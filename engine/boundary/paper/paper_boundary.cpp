@@ -186,18 +186,9 @@ void PaperBoundary::stitch(const TileOutputs& outputs, const Totals& totals) {
 }
 
 FoundLoops PaperBoundary::find_loops(const TileOutputs& outputs) {
-  stitch_->for_each_component(
-      [&](std::span<const BoundaryEdge> edges) {
-        constexpr std::uint64_t kAsMuchAsItTakes = UINT64_MAX;
-        const auto for_each_edge = [&](const auto& visit) {
-          std::for_each(edges.begin(), edges.end(), visit);
-        };
-        find_component_loops(for_each_edge, edges.size(), minimum_loop_, kAsMuchAsItTakes, spill_, loops_);
-      },
-      [&](const auto& for_each_edge, std::uint64_t count) {
-        const MemoryLedger::Lease lease = workers_.memory.ledger.take(workers_.memory.work / 4 * 3);
-        find_component_loops(for_each_edge, count, minimum_loop_, lease.bytes(), spill_, loops_);
-      });
+  stitch_->for_each_component([&](const auto& for_each_edge, std::uint64_t count, std::uint64_t memory) {
+    find_component_loops(for_each_edge, count, minimum_loop_, memory, spill_, loops_);
+  });
   return {.loops = loops_.with_points(outputs, tiling_, spill_, workers_.arena),
           .edges = edges_,
           .components = stitch_->components(),

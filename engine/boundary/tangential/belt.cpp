@@ -113,7 +113,7 @@ void measure_belt(StarExchange& exchange, TileIndex t, const TangentialConfig& c
   // its other vertices are known. So it goes to the tiles of its foreign link vertices.
   const auto add = [&](const BeltPoint& point, const StarQuery& query, const Star<LocalIndex>& star) {
     around.gather(query.point, query.neighbours,
-                  [&](LocalIndex q) { return std::pair(samples[q].radii, samples[q].sampling.distance); });
+                  [&](LocalIndex q) { return ScaledRadii{samples[q].radii, samples[q].sampling.distance}; });
     open.add(
         point.point, point.owned, star, samplings[query.point].distance, around,
         surface_around(query.neighbours, [&](LocalIndex q) { return samples[q].surface; }),

@@ -27,39 +27,23 @@ struct NumberedEnd {
   }
 };
 
-// Calls add(end) for both ends of a chain.
-template <class Add>
-void add_ends(const OpenChain& chain, LocalIndex number, Add&& add) {
-  for (const LocalIndex side : {0, 1}) add(NumberedEnd(chain.ends[side], 2 * number + side, chain.scale));
-}
-
-// Fills in the end that shares the boundary edge of each end, from all ends in ascending order.
-class Partners {
- public:
-  explicit Partners(std::span<LocalIndex> partners) : partners_(partners) {}
-
-  void add(const NumberedEnd& end) {
-    if (!first_) {
-      first_ = end;
+// Fills in the end that shares the boundary edge of each end.
+void join_ends(SortedRuns<NumberedEnd>& ends, std::span<LocalIndex> partners, Scratch& scratch) {
+  std::optional<NumberedEnd> first;  // of two that share a boundary edge
+  const auto fail = [] { fail_inconsistent("a boundary curve ends at the border of a tile"); };
+  ends.for_each([&](const NumberedEnd& end) {
+    scratch.trim();
+    if (!first) {
+      first = end;
       return;
     }
-    if (first_->low != end.low || first_->high != end.high || first_->scale != end.scale) fail();
-    partners_[first_->end] = end.end;
-    partners_[end.end] = first_->end;
-    first_.reset();
-  }
-
-  // Ends the search, once all ends are added.
-  void finish() const {
-    if (first_) fail();
-  }
-
- private:
-  [[noreturn]] static void fail() { fail_inconsistent("a boundary curve ends at the border of a tile"); }
-
-  std::span<LocalIndex> partners_;
-  std::optional<NumberedEnd> first_;  // of two that share a boundary edge
-};
+    if (first->low != end.low || first->high != end.high || first->scale != end.scale) fail();
+    partners[first->end] = end.end;
+    partners[end.end] = first->end;
+    first.reset();
+  });
+  if (first) fail();
+}
 
 void read_points(const OpenChain& chain, bool forwards, const Column<CurvePoint>& points,
                  std::span<CurvePoint> to) {
@@ -74,13 +58,12 @@ class ChainFollower {
                 std::span<std::uint8_t> is_done, Scratch& scratch)
       : chains_(chains), partners_(partners), is_done_(is_done), scratch_(scratch) {}
 
-  void for_each_curve(const Column<CurvePoint>& points, const std::filesystem::path& temporary,
-                      std::uint64_t budget, const VisitCurve& visit) {
+  void for_each_curve(const Column<CurvePoint>& points, std::uint64_t budget, const VisitCurve& visit) {
     for (LocalIndex start = 0; start < chains_.size(); ++start) {
       if (is_done_[start]) continue;
       std::uint64_t count = 0;
       for_each_chain_from(start, [&](const OpenChain& chain, bool) { count += chain.count; });
-      Scratch scratch(temporary, budget);
+      Scratch scratch(scratch_.folder(), budget);
       const std::span<CurvePoint> curve = scratch.array<CurvePoint>(count);
       std::span<CurvePoint> left = curve;
       for_each_chain_from(start, [&](const OpenChain& chain, bool forwards) {
@@ -112,43 +95,23 @@ class ChainFollower {
 
 }  // namespace
 
-void close_chains(std::span<const OpenChain> chains, const Column<CurvePoint>& points,
-                  const std::filesystem::path& temporary, std::uint64_t budget, const VisitCurve& visit) {
-  std::vector<NumberedEnd> ends;
-  ends.reserve(2 * chains.size());
-  for (LocalIndex c = 0; c < chains.size(); ++c)
-    add_ends(chains[c], c, [&](const NumberedEnd& end) { ends.push_back(end); });
-  std::sort(ends.begin(), ends.end());
-  std::vector<LocalIndex> partners(ends.size());
-  Partners join(partners);
-  for (const NumberedEnd& end : ends) join.add(end);
-  join.finish();
-  std::vector<std::uint8_t> is_done(chains.size());
-  Scratch none(temporary, budget);
-  ChainFollower(chains, partners, is_done, none).for_each_curve(points, temporary, budget, visit);
-}
-
-void close_many_chains(const Stitch<OpenChain>::ForEachRecord& for_each_chain, std::uint64_t count,
-                       const Column<CurvePoint>& points, const std::filesystem::path& temporary,
-                       std::uint64_t budget, const VisitCurve& visit) {
-  Scratch scratch(temporary, budget);
-  SortedRuns<NumberedEnd> ends(temporary / "chain-ends", budget);
+void close_chains(const Stitch<OpenChain>::ForEachRecord& for_each_chain, std::uint64_t count,
+                  const Column<CurvePoint>& points, std::uint64_t curve_budget, Scratch& scratch,
+                  const VisitCurve& visit) {
+  SortedRuns<NumberedEnd> ends(scratch.folder() / "chain-ends", scratch.budget() / 2);
   const std::span<OpenChain> chains = scratch.array<OpenChain>(count);
   LocalIndex number = 0;
   for_each_chain([&](const OpenChain& chain) {
     scratch.trim();
     chains[number] = chain;
-    add_ends(chain, number++, [&](const NumberedEnd& end) { ends.add(end); });
+    for (const LocalIndex side : {0, 1})
+      ends.add(NumberedEnd(chain.ends[side], 2 * number + side, chain.scale));
+    ++number;
   });
   const std::span<LocalIndex> partners = scratch.array<LocalIndex>(2 * count);
-  Partners join(partners);
-  ends.for_each([&](const NumberedEnd& end) {
-    scratch.trim();
-    join.add(end);
-  });
-  join.finish();
+  join_ends(ends, partners, scratch);
   ChainFollower(chains, partners, scratch.array<std::uint8_t>(count), scratch)
-      .for_each_curve(points, temporary, budget, visit);
+      .for_each_curve(points, curve_budget, visit);
 }
 
 }  // namespace lacuna::tangential

@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <span>
 
@@ -30,15 +29,11 @@ struct OpenChain {
 // Receives each closed curve of whole components, with arrays of its own.
 using VisitCurve = std::function<void(std::span<const CurvePoint>, Scale, Scratch&)>;
 
-// Starts and directions of curves depend on the order of `chains`. Memory: `budget` bytes for the arrays of a
-// curve, and temporary files beyond that. Cost: linear, and a sort of the chains' ends.
-void close_chains(std::span<const OpenChain> chains, const Column<CurvePoint>& points,
-                  const std::filesystem::path& temporary, std::uint64_t budget, const VisitCurve& visit);
-
-// Closes the chains of a component that do not fit in memory. It sorts them on disk and follows them in
-// mapped arrays. Memory: three times the budget.
-void close_many_chains(const Stitch<OpenChain>::ForEachRecord& for_each_chain, std::uint64_t count,
-                       const Column<CurvePoint>& points, const std::filesystem::path& temporary,
-                       std::uint64_t budget, const VisitCurve& visit);
+// Closes the chains of whole components. Starts and directions of curves depend on the order of the chains.
+// Their arrays live in `scratch`, and a sort takes half as much. Memory of a curve: `curve_budget` bytes, and
+// temporary files beyond that. Cost: linear, and a sort of the chains' ends.
+void close_chains(const Stitch<OpenChain>::ForEachRecord& for_each_chain, std::uint64_t count,
+                  const Column<CurvePoint>& points, std::uint64_t curve_budget, Scratch& scratch,
+                  const VisitCurve& visit);
 
 }  // namespace lacuna::tangential

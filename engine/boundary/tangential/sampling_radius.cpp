@@ -7,10 +7,10 @@
 
 namespace lacuna::tangential {
 
-void RadiiAround::add(const std::pair<StarRadii, double>& star) {
-  for (const float radius : star.first.radii) {
+void RadiiAround::add(const ScaledRadii& radii) {
+  for (const float radius : radii.star.radii) {
     if (radius > std::numeric_limits<float>::max()) break;  // the others are infinite, too
-    radii_.push_back(radius * star.second);
+    radii_.push_back(radius * radii.distance);
   }
 }
 

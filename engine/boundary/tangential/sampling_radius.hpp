@@ -15,7 +15,6 @@
 #include <cstddef>
 #include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace lacuna::tangential {
@@ -31,11 +30,16 @@ struct StarRadii {
 template <class Link>
 StarRadii smallest_radii(const Link& link, const TangentialConfig& config);
 
+// The same with their unit, `Sampling::distance`.
+struct ScaledRadii {
+  StarRadii star;
+  double distance;
+};
+
 // The circumradii around a point. It keeps its memory for the next point.
 class RadiiAround {
  public:
-  // Gathers the circumradii of the stars of a point and its neighbours. radii_of(q): of a star, with its
-  // `Sampling::distance`.
+  // Gathers the circumradii of the stars of a point and its neighbours. radii_of(q): `ScaledRadii`.
   template <class RadiiOf>
   void gather(LocalIndex point, std::span<const LocalIndex> neighbours, RadiiOf&& radii_of) {
     radii_.clear();
@@ -49,7 +53,7 @@ class RadiiAround {
  private:
   static constexpr std::size_t kSteps = 64;
 
-  void add(const std::pair<StarRadii, double>& star);
+  void add(const ScaledRadii& radii);
 
   std::vector<double> radii_;
 };

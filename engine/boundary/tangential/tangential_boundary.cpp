@@ -135,14 +135,10 @@ FoundLoops TangentialBoundary::find_loops(const TileOutputs&) {
     }
     add_loops(curve, scale, points, scratch);
   };
-  stitch_->for_each_component(
-      [&](std::span<const OpenChain> chains) {
-        close_chains(chains, chain_points_, spill_.folder, curve_budget_, add);
-      },
-      [&](const auto& for_each_chain, std::uint64_t count) {
-        const MemoryLedger::Lease lease = workers_.memory.ledger.take(workers_.memory.work / 4 * 3);
-        close_many_chains(for_each_chain, count, chain_points_, spill_.folder, lease.bytes() / 3, add);
-      });
+  stitch_->for_each_component([&](const auto& for_each_chain, std::uint64_t count, std::uint64_t memory) {
+    Scratch scratch(spill_.folder, memory / 2);
+    close_chains(for_each_chain, count, chain_points_, curve_budget_, scratch, add);
+  });
   loops_.sort();
   return {
       .loops = std::move(loops_), .edges = edges_, .components = closed_components_ + stitch_->components()};

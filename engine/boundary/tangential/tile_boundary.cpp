@@ -96,7 +96,7 @@ float TileBoundary::surface(LocalIndex p) const {
 
 const RadiiAround& TileBoundary::around(LocalIndex p) {
   around_.gather(p, tile_.neighbourhoods[p],
-                 [&](LocalIndex q) { return std::pair(radii(q), found_.samplings[q].distance); });
+                 [&](LocalIndex q) { return ScaledRadii{radii(q), found_.samplings[q].distance}; });
   return around_;
 }
 

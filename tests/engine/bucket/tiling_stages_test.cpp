@@ -156,11 +156,9 @@ TEST_CASE("cells that are finer than the spacing merge in memory") {
   Cloud strip;  // each batch shows a small part of it
   for (int row = 0; row < 8'000; ++row)
     for (int i = 0; i < 20; ++i) strip.positions.emplace_back(i, row, 0);
-  const ScratchFolder folder;
-  Survey survey(400'000, strip.size(), folder / "cells");
+  Survey survey(400'000, strip.size(), "no folder/cells");  // a file there would be an error
   MemoryScan scan(strip, 1000);
   for (PointBatch points; scan.next(points);) survey.add(points);
-  CHECK_FALSE(std::filesystem::exists(folder / "cells"));
   check_counts(strip, survey.finish());
 }
 

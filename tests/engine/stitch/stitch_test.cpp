@@ -70,16 +70,12 @@ Stitched stitch(const std::vector<Edge>& edges, std::uint64_t tiles, std::uint64
     std::vector<LocalIndex> links;
     stitch.add(static_cast<TileIndex>(t), graph_of(t, edges, links));
   });
-  stitch.for_each_component(
-      [&](std::span<const Edge> component) {
-        add({component.begin(), component.end()});
-      },
-      [&](const auto& for_each, std::uint64_t count) {
-        Component component;
-        for_each([&](const Edge& edge) { component.push_back(edge); });
-        CHECK(component.size() == count);
-        add(component);
-      });
+  stitch.for_each_component([&](const auto& for_each, std::uint64_t count, std::uint64_t) {
+    Component component;
+    for_each([&](const Edge& edge) { component.push_back(edge); });
+    CHECK(component.size() == count);
+    add(component);
+  });
   result.count = stitch.components();
   return result;
 }

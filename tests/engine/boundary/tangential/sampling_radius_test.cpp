@@ -33,7 +33,7 @@ TEST_CASE("the sampling radius depends on the circumradii alone, not on their or
             {radii.begin() + long(i), radii.begin() + long(std::min(i + of_a_star, radii.size()))}));
       }
       RadiiAround around;
-      around.gather(0, neighbours, [&](LocalIndex q) { return std::pair(stars[q], 1.0); });
+      around.gather(0, neighbours, [&](LocalIndex q) { return ScaledRadii{stars[q], 1.0}; });
       return around.sampling_radius(bound);
     };
     const double at_once = within(8);
