@@ -105,6 +105,7 @@ Column<SampledPoint> ScanSample::draw(const TileOutputs& outputs, std::size_t ti
   const KeyBins bins = bins_of(outputs, tiles);
   const MemoryLedger::Lease sorting = workers.memory.ledger.take(workers.memory.work / 4);
   SortedRuns<SampledPoint, ById> sorted(spill.file("sample-sort"), sorting.bytes() / 2);
+  sorted.reserve(bins.keys);
   SortedRuns<DrawnPoint> of_last_bin(spill.file("sample-last"), sorting.bytes() / 2);
   std::uint64_t taken = 0;
   std::mutex mutex;

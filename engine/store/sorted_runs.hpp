@@ -38,6 +38,8 @@ class SortedRuns {
   void add(std::span<const Record> records) {
     for (const Record& record : records) add(record);
   }
+  // Makes space for so many records, within the budget, before the first one.
+  void reserve(std::uint64_t records) { buffer_.reserve(std::min<std::uint64_t>(records, capacity_)); }
   std::uint64_t size() const { return size_; }
 
   // Calls visit(record) in ascending order. It may be called again. Nothing may be added after the first
