@@ -9,7 +9,6 @@
 #include "io/stations/find_causes.hpp"
 #include "tools/console/area_text.hpp"
 #include "tools/console/progress.hpp"
-#include "tools/run/run_steps.hpp"
 #include "tools/run/scan_warnings.hpp"
 
 #include <algorithm>

@@ -12,11 +12,6 @@ namespace {
 using Ids = std::vector<std::uint64_t>;
 using Positions = std::span<const Eigen::Vector3d>;
 
-void sort_once(Ids& ids) {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
-
 std::size_t count_common(const Ids& a, const Ids& b) {
   Ids common;
   std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));

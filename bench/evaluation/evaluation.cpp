@@ -19,7 +19,6 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <string>
 #include <string_view>
 #include <utility>
 

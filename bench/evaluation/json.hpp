@@ -3,15 +3,13 @@
 #pragma once
 
 #include "bench/evaluation/boundary_points.hpp"
+#include "io/loops/json.hpp"
 
 #include <optional>
-#include <string>
-
-#include <nlohmann/json.hpp>
 
 namespace lacuna::evaluation {
 
-using Json = nlohmann::ordered_json;
+using io::Json;
 
 template <class T>
 Json or_null(const std::optional<T>& value) {
@@ -22,11 +20,6 @@ inline Json json_of(const PointScores& scores) {
   return {{"precision", or_null(scores.precision)},
           {"recall", or_null(scores.recall)},
           {"f1", or_null(scores.f1)}};
-}
-
-// Names of files need not be UTF-8.
-inline std::string text_of(const Json& root) {
-  return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace lacuna::evaluation

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/evaluation/loop_order.hpp"
 
+#include "bench/evaluation/spacing.hpp"
 #include "engine/run/error.hpp"
 #include "tools/matching/point_tree.hpp"
 
-#include <algorithm>
 #include <cstddef>
-#include <sstream>
-#include <string>
 #include <vector>
+
+#include <spdlog/fmt/fmt.h>
 
 namespace lacuna::evaluation {
 namespace {
@@ -16,13 +16,6 @@ namespace {
 constexpr std::size_t kLeastPoints = 16;
 constexpr std::size_t kMostTaken = 1 << 12;  // points whose nearest one is searched
 constexpr double kSpacings = 10, kTimes = 8;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  if (values.empty()) return 0;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double median_edge(const LoopIds& loop, const Truth& truth) {
   std::vector<double> lengths;
@@ -39,9 +32,7 @@ double median_nearest(const LoopIds& loop, const Truth& truth) {
   for (const std::uint64_t id : loop) {
     if (truth.positions[id].allFinite()) places.push_back(truth.stand_ins[id]);
   }
-  std::ranges::sort(places);
-  const auto [end, last] = std::ranges::unique(places);
-  places.erase(end, last);
+  sort_once(places);
   std::vector<Eigen::Vector3d> points;
   for (const std::uint64_t place : places) points.push_back(truth.positions[place]);
   const PointTree tree(points);
@@ -63,13 +54,11 @@ void check_order(const Result& result, const Truth& truth) {
     if (edge <= kSpacings * truth.spacing) continue;
     const double nearest = median_nearest(loop, truth);
     if (edge <= kTimes * nearest) continue;
-    std::ostringstream message;
-    message.precision(3);
-    message << result.file.string() << ": loop " << i
-            << " (from 0): its points are not in order along a curve: half of "
-            << "its " << loop.size() << " edges are longer than " << edge << ", and the nearest points only "
-            << nearest << " apart; the ids of a loop must follow its curve";
-    throw Error(message.str());
+    throw Error(fmt::format(
+        "{}: loop {} (from 0): its points are not in order along a curve: half of its {} edges are longer "
+        "than "
+        "{:.3g}, and the nearest points only {:.3g} apart; the ids of a loop must follow its curve",
+        result.file.string(), i, loop.size(), edge, nearest));
   }
 }
 

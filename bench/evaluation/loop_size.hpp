@@ -4,7 +4,6 @@
 
 #include "tools/matching/true_loops.hpp"
 
-#include <cstdint>
 #include <span>
 
 #include <Eigen/Core>

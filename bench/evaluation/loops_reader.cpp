@@ -7,7 +7,6 @@
 #include "io/ply/ply_reader.hpp"
 #include "io/rows/vectors.hpp"
 
-#include <string>
 #include <utility>
 
 namespace lacuna::evaluation {

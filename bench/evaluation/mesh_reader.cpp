@@ -7,7 +7,6 @@
 #include "io/ply/ply_rows.hpp"
 #include "io/rows/scalar.hpp"
 
-#include <algorithm>
 #include <span>
 
 namespace lacuna::evaluation {

@@ -5,30 +5,16 @@
 #include "bench/evaluation/print.hpp"
 
 #include <optional>
+#include <string_view>
 #include <tuple>
 
 namespace lacuna::evaluation {
 namespace {
 
 // The words for the decision on a loop, as docs/evaluate.md defines them.
-const char* name_of(EdgeDecision verdict) {
-  switch (verdict) {
-    case EdgeDecision::kFound:
-      return "found";
-    case EdgeDecision::kRepeated:
-      return "repeated";
-    case EdgeDecision::kShort:
-      return "short";
-    case EdgeDecision::kJoined:
-      return "joined";
-    case EdgeDecision::kParted:
-      return "parted";
-    case EdgeDecision::kStep:
-      return "step";
-    case EdgeDecision::kFalse:
-      break;
-  }
-  return "false";
+std::string_view name_of(EdgeDecision verdict) {
+  constexpr std::string_view kNames[] = {"found", "repeated", "short", "joined", "parted", "step", "false"};
+  return kNames[static_cast<std::size_t>(verdict)];
 }
 
 std::optional<std::string> name_of(const TrueLoop& loop) {
@@ -99,7 +85,7 @@ std::string print_json(const EvaluationText& text) {
                                     {"covered", match.covered},
                                     {"on_step", or_null(match.on_step)}});
   }
-  return text_of(root);
+  return io::print(root, 2) + "\n";
 }
 
 }  // namespace lacuna::evaluation

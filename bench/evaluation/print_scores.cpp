@@ -6,12 +6,13 @@
 #include "tools/console/visible_text.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <spdlog/fmt/fmt.h>
 
 namespace lacuna::evaluation {
 using namespace tools;
@@ -33,10 +34,7 @@ std::string print_tally(const Tally& tally) {
 }
 
 std::string print_number(const std::optional<double>& value) {
-  if (!value) return "-";
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.3f", *value);
-  return buffer;
+  return value ? fmt::format("{:.3f}", *value) : "-";
 }
 
 std::optional<double> share(double part, double whole) {
@@ -177,7 +175,7 @@ std::string print_json(const ScoresByKind& kinds, const ScoredFolders& folders) 
   root["all"] = json_of(named.back().second);
   named.pop_back();
   for (const auto& [name, scores] : named) root["groups"][name] = json_of(scores);
-  return text_of(root);
+  return io::print(root, 2) + "\n";
 }
 
 }  // namespace lacuna::evaluation

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -42,10 +41,6 @@ bool knows_kinds(const EvaluationText& text) {
 
 std::string print_tally(Tally tally, const char* one, const char* several) {
   return print_count(tally.found) + " of " + print_count(tally.all) + " " + (tally.all == 1 ? one : several);
-}
-
-std::string counted(std::size_t count, const char* one, const char* several) {
-  return print_count(count) + " " + (count == 1 ? one : several);
 }
 
 std::string print_sentence(const EvaluationText& text) {
@@ -158,19 +153,10 @@ std::vector<std::size_t> loops_of(const Truth& truth, std::optional<LoopKind> ki
   return loops;
 }
 
-const char* describe(EdgeDecision verdict) {
-  switch (verdict) {
-    case EdgeDecision::kJoined:
-      return "joined with";
-    case EdgeDecision::kParted:
-      return "part of";
-    case EdgeDecision::kStep:
-      return "step of density";
-    case EdgeDecision::kFalse:
-      return "false";
-    default:
-      return "";
-  }
+// Returns the words for a loop that matches no true loop; empty for others.
+std::string_view describe(EdgeDecision verdict) {
+  constexpr std::string_view kWords[] = {"", "", "", "joined with", "part of", "step of density", "false"};
+  return kWords[static_cast<std::size_t>(verdict)];
 }
 
 // Prints loops that match no true loop, the large ones first.
@@ -178,7 +164,7 @@ std::string print_others(const EvaluationText& text, double extent) {
   const std::vector<LoopMatch>& matches = text.evaluation.loops.loops;
   std::vector<std::size_t> loops;
   for (std::size_t i = 0; i < matches.size(); ++i) {
-    if (*describe(matches[i].verdict) != '\0') loops.push_back(i);
+    if (!describe(matches[i].verdict).empty()) loops.push_back(i);
   }
   if (loops.empty()) return "";
   const std::vector<LoopSize> sizes = sizes_of(text.result.loops, text.truth);
@@ -187,7 +173,7 @@ std::string print_others(const EvaluationText& text, double extent) {
   for (std::size_t at = 0; at < std::min(loops.size(), kMostRows); ++at) {
     const std::size_t i = loops[at];
     const LoopMatch& match = matches[i];
-    std::string verdict = describe(match.verdict);
+    std::string verdict(describe(match.verdict));
     if (match.true_loop &&
         (match.verdict == EdgeDecision::kJoined || match.verdict == EdgeDecision::kParted)) {
       const std::string& name = text.truth.loops[*match.true_loop].name;

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numbers>
 #include <numeric>
-#include <vector>
+#include <utility>
 
 namespace lacuna::evaluation {
 namespace {
@@ -31,17 +31,18 @@ double spacing_of_place(const Eigen::Vector3d& place, const PointTree& tree) {
   return distances.back() * std::sqrt(std::numbers::pi / kAround);  // a disc of as many squares
 }
 
-double median_spacing(std::span<const Eigen::Vector3d> points) {
-  return points.size() < 2 ? 0 : median_spacing(points, PointTree(points));
-}
-
 double median_spacing(std::span<const Eigen::Vector3d> points, const PointTree& tree) {
   if (points.size() < 2) return 0;
   std::vector<double> spacings;
   const std::size_t step = (points.size() - 1) / kMostTaken + 1;
   for (std::size_t i = 0; i < points.size(); i += step) spacings.push_back(spacing_at(points[i], tree));
-  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
-  std::nth_element(spacings.begin(), middle, spacings.end());
+  return median(std::move(spacings));
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  if (values.empty()) return 0;
+  std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 

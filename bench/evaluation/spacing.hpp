@@ -5,6 +5,7 @@
 #include "tools/matching/point_tree.hpp"
 
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -22,8 +23,9 @@ double spacing_of_place(const Eigen::Vector3d& place, const PointTree& tree);
 
 // Returns the median over the points; 0 for fewer than two. The points are finite and distinct. If there are
 // more than 130,000 points, the function takes as many, evenly spread. Cost: n log n, for the tree.
-double median_spacing(std::span<const Eigen::Vector3d> points);
-double median_spacing(std::span<const Eigen::Vector3d> points,
-                      const PointTree& tree);  // the tree of the points
+// `tree` has these points.
+double median_spacing(std::span<const Eigen::Vector3d> points, const PointTree& tree);
+
+double median(std::vector<double> values);  // the upper one of two; 0 without values
 
 }  // namespace lacuna::evaluation

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/peers/border_loops.hpp"
 
-#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>

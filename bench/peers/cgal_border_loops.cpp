@@ -4,7 +4,6 @@
 #include "bench/peers/border_loops.hpp"
 #include "bench/peers/read_scan.hpp"
 
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>

@@ -8,7 +8,6 @@
 #include "tools/console/visible_text.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <filesystem>
 #include <iostream>
 #include <memory>

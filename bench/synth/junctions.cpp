@@ -2,7 +2,6 @@
 #include "bench/synth/junctions.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

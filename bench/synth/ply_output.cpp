@@ -1,29 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/synth/ply_output.hpp"
 
+#include "io/files/little_endian.hpp"
+
 #include <array>
-#include <bit>
-#include <cstring>
 #include <span>
 
 namespace lacuna::synth {
 using namespace io;
 
-static_assert(std::endian::native == std::endian::little, "rows are copied as they are in memory");
-
 namespace {
 
 constexpr std::size_t kCountWidth = 20;  // digits of 2^64 - 1
 
-template <typename T>
-std::byte* put(std::byte* at, T value) {
-  std::memcpy(at, &value, sizeof value);
-  return at + sizeof value;
-}
-
-std::byte* put_position(std::byte* at, Vec3 p, Coordinates coordinates) {
-  if (coordinates == Coordinates::kDouble) return put(put(put(at, p.x), p.y), p.z);
-  return put(put(put(at, static_cast<float>(p.x)), static_cast<float>(p.y)), static_cast<float>(p.z));
+void store_position(std::byte*& to, Vec3 p, Coordinates coordinates) {
+  for (const double coordinate : {p.x, p.y, p.z}) {
+    if (coordinates == Coordinates::kDouble) {
+      store_next(to, coordinate);
+    } else {
+      store_next(to, static_cast<float>(coordinate));
+    }
+  }
 }
 
 }  // namespace
@@ -47,15 +44,19 @@ std::string PlyOutput::header() const {
 
 void PlyOutput::add(Vec3 position) {
   std::array<std::byte, 24> row;
-  std::byte* const end = put_position(row.data(), position, coordinates_);
+  std::byte* end = row.data();
+  store_position(end, position, coordinates_);
   file_.write(std::span(row.data(), end));
   ++count_;
 }
 
 void PlyOutput::add(Vec3 position, std::uint8_t scan, float intensity, double time) {
   std::array<std::byte, 40> row;
-  std::byte* end = put(put(put_position(row.data(), position, coordinates_), scan), intensity);
-  if (extras_ == Extras::kScanAndTime) end = put(end, time);
+  std::byte* end = row.data();
+  store_position(end, position, coordinates_);
+  store_next(end, scan);
+  store_next(end, intensity);
+  if (extras_ == Extras::kScanAndTime) store_next(end, time);
   file_.write(std::span(row.data(), end));
   ++count_;
 }

@@ -3,8 +3,6 @@
 
 #include "engine/run/error.hpp"
 
-#include <string>
-
 namespace lacuna::synth {
 using namespace io;
 

@@ -5,7 +5,6 @@
 #include "bench/synth/surface_grid.hpp"
 
 #include <cstdint>
-#include <filesystem>
 #include <vector>
 
 namespace lacuna::synth {

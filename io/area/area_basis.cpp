@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
+
+#include <spdlog/fmt/fmt.h>
 
 namespace lacuna::io {
 namespace {
@@ -14,10 +15,7 @@ std::string counted(std::size_t count, const std::string& thing) {
 }
 
 std::string print(double value, const std::string& unit) {
-  std::ostringstream text;
-  text.precision(3);
-  text << value << (unit.empty() ? "" : " ") << unit;
-  return text.str();
+  return fmt::format("{:.3g}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
 std::size_t files_with(const ScanFiles& scan, const char* column) {

@@ -254,7 +254,6 @@ class Reader {
 }  // namespace
 
 extern "C" void lacuna_read_area_polygons(HeldPolygons& polygons) {
-  register_gdal_drivers();
   Reader(polygons).read();
 }
 

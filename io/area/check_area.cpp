@@ -10,7 +10,6 @@
 #include "io/area/empty_places.hpp"
 #include "io/area/geojson_polygons.hpp"
 #include "io/area/plan_outline.hpp"
-#include "io/area/plan_raster.hpp"
 #include "io/area/trace_voids.hpp"
 #include "io/crs/gis_module.hpp"
 #include "io/crs/length_unit.hpp"
@@ -23,12 +22,12 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <optional>
 #include <sstream>
 #include <system_error>
 #include <tuple>
 #include <utility>
 
+#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
 namespace lacuna::io {
@@ -173,12 +172,10 @@ PlanGrid grid_over(const Eigen::AlignedBox2d& bounds, double void_size, std::siz
     constexpr double kStep = 1.05;
     double allowed = grid.size;
     while (std::isfinite(allowed) && !fits(cells_over(bounds, allowed))) allowed *= kStep;
-    std::ostringstream message;
-    message << "void_rule = " << config.void_rule << ": the area has " << cells.x() << " x " << cells.y()
-            << " cells of an eighth of this size, more than fit in the " << std::floor(memory / (1 << 20))
-            << " MiB that the memory limit leaves for them; allowed: a size of " << allowed
-            << " or more, or a part of the area";
-    throw Error(message.str());
+    throw Error(fmt::format(
+        "void_rule = {}: the area has {:g} x {:g} cells of an eighth of this size, more than fit in the {:g} "
+        "MiB that the memory limit leaves for them; allowed: a size of {:g} or more, or a part of the area",
+        config.void_rule, cells.x(), cells.y(), std::floor(memory / (1 << 20)), allowed));
   }
   return PlanGrid::over(bounds, void_size);
 }
@@ -194,12 +191,11 @@ void check_tiles(const PlanGrid& grid, double memory, const AreaConfig& config) 
   const double tiles =
       (static_cast<double>(grid.columns) / cells + 2) * (static_cast<double>(grid.rows) / cells + 2);
   if (tiles * kBytesOfTile <= memory) return;
-  std::ostringstream message;
-  message << "area_tile = " << config.area_tile << ": the area has " << std::floor(tiles)
-          << " squares with this edge, more than fit in the " << std::floor(memory / (1 << 20))
-          << " MiB that the memory limit leaves for them; allowed: an edge of "
-          << config.area_tile * std::sqrt(tiles * kBytesOfTile / memory) * 1.1 << " or more";
-  throw Error(message.str());
+  throw Error(
+      fmt::format("area_tile = {:g}: the area has {:g} squares with this edge, more than fit in the {:g} MiB "
+                  "that the memory limit leaves for them; allowed: an edge of {:g} or more",
+                  config.area_tile, std::floor(tiles), std::floor(memory / (1 << 20)),
+                  config.area_tile * std::sqrt(tiles * kBytesOfTile / memory) * 1.1));
 }
 
 // The sheet of a check shows the density in squares, a round number of units wide.

@@ -11,7 +11,6 @@
 #include <numbers>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace lacuna::io {
 namespace {

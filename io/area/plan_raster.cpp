@@ -2,7 +2,6 @@
 #include "io/area/plan_raster.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <optional>
 #include <utility>

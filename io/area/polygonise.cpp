@@ -53,15 +53,12 @@ class RowsDataset : public GDALDataset {
 
 void polygonise(const RasterRows& raster,
                 const std::function<void(std::uint8_t value, const OGRPolygon& polygon)>& visit) {
-  register_gdal_drivers();
   const GdalFailures failures;
   const auto require = [&](bool is_well) {
     if (!is_well) throw Error("outlines of voids: GDAL: " + failures.first());
   };
   RowsDataset rows(raster);
-  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("Memory");
-  require(driver != nullptr);
-  const Dataset memory(driver->Create("", 0, 0, 0, GDT_Unknown, nullptr));
+  const Dataset memory = create_dataset("Memory", "");
   require(memory != nullptr);
   OGRLayer* const layer = memory->CreateLayer("voids", nullptr, wkbPolygon, nullptr);
   require(layer != nullptr);

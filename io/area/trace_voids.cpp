@@ -2,7 +2,6 @@
 #include "io/area/trace_voids.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/area/polygonise.hpp"
 
 #include <memory>
 

@@ -125,7 +125,6 @@ ConversionAccuracy accuracy_of(const OGRSpatialReference& from, const OGRSpatial
 
 extern "C" bool lacuna_find_degrees_accuracy(const std::string& crs, const Eigen::Vector3d& place,
                                              ConversionAccuracy& accuracy) {
-  register_gdal_drivers();
   const GdalFailures failures;
   OGRSpatialReference from, to;
   if (!read_crs(crs, from) || to.importFromEPSG(4326) != OGRERR_NONE) return false;

@@ -13,7 +13,6 @@
 namespace lacuna::io {
 
 extern "C" void lacuna_look_up_crs(CrsLookup& lookup) {
-  register_gdal_drivers();
   const GdalFailures failures;
   OGRSpatialReference crs;
   char* text = nullptr;
@@ -24,7 +23,6 @@ extern "C" void lacuna_look_up_crs(CrsLookup& lookup) {
 
 extern "C" bool lacuna_find_scale(const std::string& crs, const Eigen::Vector3d& place,
                                   ProjectionScale& scale) {
-  register_gdal_drivers();
   const GdalFailures failures;
   OGRSpatialReference system;
   if (!read_crs(crs, system) || system.IsProjected() == 0) return false;
@@ -59,14 +57,12 @@ extern "C" bool lacuna_find_scale(const std::string& crs, const Eigen::Vector3d&
 }
 
 extern "C" bool lacuna_is_same_crs(const std::string& a, const std::string& b) {
-  register_gdal_drivers();
   const GdalFailures failures;
   OGRSpatialReference first, second;
   return read_crs(a, first) && read_crs(b, second) && first.IsSame(&second) != 0;
 }
 
 extern "C" bool lacuna_convert_to_degrees(const std::string& crs, std::span<Eigen::Vector3d> places) {
-  register_gdal_drivers();
   const GdalFailures failures;
   OGRSpatialReference system;
   if (!read_crs(crs, system)) return false;

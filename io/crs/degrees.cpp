@@ -6,8 +6,8 @@
 #include "io/crs/gis_module.hpp"
 
 #include <cmath>
-#include <sstream>
 
+#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
 namespace lacuna::io {
@@ -31,15 +31,11 @@ std::optional<std::vector<Eigen::Vector3d>> to_degrees(const std::string& crs,
 }
 
 std::string ConversionAccuracy::print() const {
-  std::ostringstream text;
-  if (std::isfinite(metres)) {
-    text << "to " << metres << " m only";
-  } else {
-    text << "with an error that is not known";
-  }
-  if (!missing_grid.empty())
-    text << "; PROJ does not find the grid " << missing_grid << ", which gives " << with_grid << " m";
-  return text.str();
+  const std::string error =
+      std::isfinite(metres) ? fmt::format("to {:g} m only", metres) : "with an error that is not known";
+  if (missing_grid.empty()) return error;
+  return fmt::format("{}; PROJ does not find the grid {}, which gives {:g} m", error, missing_grid,
+                     with_grid);
 }
 
 void warn_of_accuracy(const std::string& crs, const Eigen::Vector3d& place,

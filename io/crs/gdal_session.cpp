@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <string>
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
@@ -23,18 +22,13 @@ void CloseDataset::operator()(GDALDataset* dataset) const {
   GDALClose(dataset);
 }
 
-void register_gdal_drivers() {
-  static const bool done = [] {
-    const GdalSetting no_file_of_the_user("GDAL_CONFIG_FILE", "");
-    RegisterOGRGeoPackage();
-    RegisterOGRGeoJSON();
-    GDALRegister_GTiff();
-    RegisterOGRShape();
-    RegisterOGRMEM();
-    OSRSetPROJEnableNetwork(FALSE);
-    return true;
-  }();
-  static_cast<void>(done);
+Dataset create_dataset(const char* driver, const std::string& place) {
+  GDALDriver* const found = GetGDALDriverManager()->GetDriverByName(driver);
+  return Dataset(found ? found->Create(place.c_str(), 0, 0, 0, GDT_Unknown, nullptr) : nullptr);
+}
+
+void set_field(OGRFeature& feature, int field, double value) {
+  std::isfinite(value) ? feature.SetField(field, value) : feature.SetFieldNull(field);
 }
 
 bool read_exact_crs(const std::string& text, OGRSpatialReference& crs) {
@@ -88,6 +82,21 @@ GdalSetting::~GdalSetting() {
 
 namespace {
 
+// Registers them once.
+void register_drivers() {
+  static const bool done = [] {
+    const GdalSetting no_file_of_the_user("GDAL_CONFIG_FILE", "");
+    RegisterOGRGeoPackage();
+    RegisterOGRGeoJSON();
+    GDALRegister_GTiff();
+    RegisterOGRShape();
+    RegisterOGRMEM();
+    OSRSetPROJEnableNetwork(FALSE);
+    return true;
+  }();
+  static_cast<void>(done);
+}
+
 // SQLite repeats the whole statement that failed, and its reason comes last.
 std::string in_one_line(std::string text) {
   constexpr std::size_t kBegin = 40, kEnd = 100;
@@ -101,6 +110,7 @@ std::string in_one_line(std::string text) {
 }  // namespace
 
 GdalFailures::GdalFailures() {
+  register_drivers();
   CPLPushErrorHandlerEx(
       [](CPLErr level, CPLErrorNum, const char* text) {
         auto& first = *static_cast<std::string*>(CPLGetErrorHandlerUserData());

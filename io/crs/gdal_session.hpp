@@ -14,6 +14,7 @@
 
 class GDALDataset;
 class OGRCoordinateTransformation;
+class OGRFeature;
 class OGRSpatialReference;
 
 namespace lacuna::io {
@@ -27,8 +28,10 @@ struct CloseDataset {
 };
 using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
 
-// Registers the drivers of the formats that are read and written, once.
-void register_gdal_drivers();
+// Makes an empty file of a driver's format; null where GDAL fails.
+Dataset create_dataset(const char* driver, const std::string& place);
+// Sets a field; to null if the value is not finite.
+void set_field(OGRFeature& feature, int field, double value);
 
 // Reads a coordinate reference system, with x to the east, from a code or well-known text. It uses the
 // database of PROJ alone, no network and no file that the text names. False where GDAL does not understand
@@ -62,7 +65,13 @@ class GdalSetting {
   const char* key_;
 };
 
-// Keeps the first failure that GDAL reports in this thread, as one short line, instead of printing it.
+// Makes equal GeoPackages of equal runs. They are synced in the end, once.
+struct GeoPackageSettings {
+  GdalSetting time{"OGR_CURRENT_DATE", kSameTime}, no_sync{"OGR_SQLITE_SYNCHRONOUS", "OFF"};
+};
+
+// Begins work with GDAL: registers the drivers of the formats that are read and written. Keeps the first
+// failure that GDAL reports in this thread, as one short line, instead of printing it.
 class GdalFailures {
  public:
   GdalFailures();

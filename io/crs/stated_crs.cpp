@@ -2,16 +2,13 @@
 #include "io/crs/stated_crs.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/crs/crs_lookup.hpp"
 #include "io/crs/crs_text.hpp"
 #include "io/crs/gis_module.hpp"
 #include "io/crs/length_unit.hpp"
 #include "io/files/input_file.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
-#include <optional>
 #include <system_error>
 
 #include <spdlog/spdlog.h>

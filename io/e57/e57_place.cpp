@@ -53,7 +53,7 @@ void for_each_position(E57Rows rows, const Change& change) {
 double value_at(Column column, std::size_t row) {
   double value;
   copy_column(
-      {.data = column.data + row * column.stride, .stride = column.stride, .type = column.type},
+      {.data = column.data + row * column.stride, .stride = 0, .type = column.type},
       {.data = reinterpret_cast<std::byte*>(&value), .stride = sizeof value, .type = Scalar::kFloat64}, 1);
   return value;
 }
@@ -97,7 +97,7 @@ void turn_normals(std::array<Column, 3> normals, std::size_t count, const Pose& 
   }
 }
 
-void drop_invalid(E57Rows rows, ConstColumn state) {
+void drop_invalid(E57Rows rows, Column state) {
   with_type(state.type, [&](auto zero) {
     for (std::size_t i = 0; i < rows.count; ++i) {
       if (load<decltype(zero)>(state.data + i * state.stride) == zero) continue;

@@ -29,6 +29,6 @@ void place_points(E57Rows rows, const Pose& pose);
 void turn_normals(std::array<Column, 3> normals, std::size_t count, const Pose& pose);
 
 // Sets the position of each row with a state other than 0 to NaN: 1 is a direction alone, 2 nothing.
-void drop_invalid(E57Rows rows, ConstColumn state);
+void drop_invalid(E57Rows rows, Column state);
 
 }  // namespace lacuna::io

@@ -112,10 +112,7 @@ class E57Reader final : public ScanReader {
       points_->take(i, rows.count, column(property), added);
     }
     for (const std::size_t property : scan_columns_.missing) fill_missing(column(property), rows.count);
-    if (scan_columns_.invalid_state) {
-      const Column state = column(*scan_columns_.invalid_state);
-      drop_invalid(rows, {.data = state.data, .stride = state.stride, .type = state.type});
-    }
+    if (scan_columns_.invalid_state) drop_invalid(rows, column(*scan_columns_.invalid_state));
     const Pose& pose = header_.scans[next_scan_ - 1].pose;
     if (scan_columns_.is_spherical) findings_.wide_angles += spherical_to_cartesian(rows);
     place_points(rows, pose);

@@ -3,7 +3,6 @@
 
 #include "io/files/little_endian.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <cstring>
 

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include <locale.h>
+#include <spdlog/fmt/fmt.h>
 
 namespace lacuna::io {
 
@@ -40,13 +41,12 @@ double reread(double value, std::chars_format format, int digits) {
   return value;
 }
 
-int place_decimals(double distance) {
-  return distance > 0 ? static_cast<int>(std::clamp(std::ceil(3 - std::log10(distance)), 0.0, 300.0)) : 17;
+std::string print_point(const Eigen::Vector3d& point) {
+  return fmt::format("{:.10g} {:.10g} {:.10g}", point.x(), point.y(), point.z());
 }
 
-void append_shortest(std::string& text, double value) {
-  char digits[32];
-  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+int place_decimals(double distance) {
+  return distance > 0 ? static_cast<int>(std::clamp(std::ceil(3 - std::log10(distance)), 0.0, 300.0)) : 17;
 }
 
 void append_plain(std::string& text, double value) {

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <charconv>
+#include <concepts>
 #include <cstdint>
 #include <limits>
 #include <string>
 #include <string_view>
 #include <type_traits>
+
+#include <Eigen/Core>
 
 namespace lacuna::io {
 
@@ -37,7 +40,11 @@ bool parse_foreign_number(std::string_view text, double& value);
 
 // Adds the shortest digits that read back as the same number, such as "0.1" or "1e-07". A number that is not
 // finite becomes "nan", "inf" or "-inf".
-void append_shortest(std::string& text, double value);
+template <std::floating_point T>
+void append_shortest(std::string& text, T value) {
+  char digits[32];
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
 
 // Does so without an exponent, such as "500000.125", for formats whose readers may not know exponents. Below
 // 1e-15 and from 1e15 on there is one.
@@ -46,6 +53,9 @@ void append_plain(std::string& text, double value);
 // Returns the number that reads as so many digits of the value. Arithmetic would round 0.1 + 0.2 to
 // 0.30000000000000004. A number that is not finite stays as it is.
 double reread(double value, std::chars_format format, int digits);
+
+// Returns x y z with ten digits.
+std::string print_point(const Eigen::Vector3d& point);
 
 // Returns the decimals of places, down to a thousandth of the distance of neighbours; 17 where it is 0.
 int place_decimals(double distance);

@@ -6,7 +6,6 @@
 #include "io/laz/laz_encoder.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <limits>
 #include <utility>

@@ -10,7 +10,6 @@
 
 #include <cstdint>
 #include <cstring>
-#include <memory>
 #include <optional>
 
 namespace lacuna::io::laz {
@@ -68,24 +67,18 @@ template <class Layer>
 class Wavepacket14 {
  public:
   Wavepacket14(ChannelRule rule, unsigned channel, const std::byte* first, Layer& layer)
-      : layer_(layer), channels_(rule, channel, read(first), WavepacketModels()) {}
+      : layer_(layer), channels_(rule, channel, load<Wavepacket>(first), WavepacketModels()) {}
 
   void code(unsigned channel, bool changed_channel, ItemByte<Layer>* item) {
     const auto chosen = channels_.choose(channel, changed_channel);
     Wavepacket now = chosen.last;
-    if constexpr (Layer::kEncodes) now = read(item);
+    if constexpr (Layer::kEncodes) now = load<Wavepacket>(item);
     layer_.code(chosen.last, now, [&](auto& coder) { chosen.models.code(coder, chosen.last, now); });
     chosen.last = now;
-    if constexpr (!Layer::kEncodes) std::memcpy(item, &now, sizeof now);
+    if constexpr (!Layer::kEncodes) store(item, now);
   }
 
  private:
-  static Wavepacket read(const std::byte* item) {
-    Wavepacket packet;
-    std::memcpy(&packet, item, sizeof packet);
-    return packet;
-  }
-
   Layer& layer_;
   ChannelValues<Wavepacket, WavepacketModels> channels_;
 };

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/laz/point10.hpp"
 
+#include "io/files/little_endian.hpp"
 #include "io/laz/wrapped.hpp"
-
-#include <cstring>
 
 namespace lacuna::io::laz {
 namespace {
@@ -25,19 +24,16 @@ constexpr unsigned kPointSource = 1, kUserData = 2, kScanAngle = 4, kClassificat
 
 }  // namespace
 
-Point10::Point10(const std::byte* first) {
-  std::memcpy(&last_, first, sizeof last_);
-}
+Point10::Point10(const std::byte* first) : last_(load<Fields>(first)) {}
 
 void Point10::code(ArithmeticDecoder& decoder, std::byte* item) {
   Fields now = last_;
   code_fields(decoder, now);
-  std::memcpy(item, &now, sizeof now);
+  store(item, now);
 }
 
 void Point10::code(ArithmeticEncoder& encoder, const std::byte* item) {
-  Fields now;
-  std::memcpy(&now, item, sizeof now);
+  Fields now = load<Fields>(item);
   code_fields(encoder, now);
 }
 

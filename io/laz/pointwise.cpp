@@ -8,8 +8,6 @@
 #include "io/laz/rgb.hpp"
 #include "io/laz/wavepacket.hpp"
 
-#include <cstring>
-#include <memory>
 #include <optional>
 
 namespace lacuna::io::laz {
@@ -36,14 +34,14 @@ class GpsTime11 {
 template <class Value, class Models>
 class ItemByLast {
  public:
-  explicit ItemByLast(const std::byte* first) { std::memcpy(&last_, first, sizeof last_); }
+  explicit ItemByLast(const std::byte* first) : last_(load<Value>(first)) {}
   void code(ArithmeticDecoder& decoder, std::byte* item) {
     models_.code(decoder, Value(last_), last_);
-    std::memcpy(item, &last_, sizeof last_);
+    store(item, last_);
   }
   void code(ArithmeticEncoder& encoder, const std::byte* item) {
     const Value before = last_;
-    std::memcpy(&last_, item, sizeof last_);
+    last_ = load<Value>(item);
     models_.code(encoder, before, last_);
   }
 

@@ -3,12 +3,12 @@
 // "WAVEPACKET13"). The items are the same; WAVEPACKET14 has a layer and models for each scanner channel.
 #pragma once
 
+#include "io/files/little_endian.hpp"
 #include "io/laz/integer_coder.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 namespace lacuna::io::laz {
 
@@ -24,14 +24,14 @@ class WavepacketModels {
     auto index = std::to_integer<std::uint8_t>(now[0]);
     coder.code(index_, index);
     now[0] = std::byte{index};
-    const auto before = load<std::uint64_t>(last, kOffsetAt);
-    auto offset = load<std::uint64_t>(now, kOffsetAt);
-    code_offset(coder, before, load<std::uint32_t>(last, kSizeAt), offset);
-    put(now, kOffsetAt, offset);
+    const auto before = load<std::uint64_t>(&last[kOffsetAt]);
+    auto offset = load<std::uint64_t>(&now[kOffsetAt]);
+    code_offset(coder, before, load<std::uint32_t>(&last[kSizeAt]), offset);
+    store(&now[kOffsetAt], offset);
     const auto code_word = [&](auto& words, std::size_t at, unsigned context) {
-      auto word = load<std::uint32_t>(now, at);
-      words.code(coder, load<std::uint32_t>(last, at), word, context);
-      put(now, at, word);
+      auto word = load<std::uint32_t>(&now[at]);
+      words.code(coder, load<std::uint32_t>(&last[at]), word, context);
+      store(&now[at], word);
     };
     code_word(size_, kSizeAt, 0);
     code_word(place_, kPlaceAt, 0);
@@ -39,17 +39,6 @@ class WavepacketModels {
   }
 
  private:
-  template <class Value>
-  static Value load(const Wavepacket& packet, std::size_t at) {
-    Value value;
-    std::memcpy(&value, &packet[at], sizeof value);
-    return value;
-  }
-  template <class Value>
-  static void put(Wavepacket& packet, std::size_t at, Value value) {
-    std::memcpy(&packet[at], &value, sizeof value);
-  }
-
   // Packets mostly follow each other, or lie as far apart as the last two.
   template <class Coder>
   void code_offset(Coder& coder, std::uint64_t before, std::uint32_t size, std::uint64_t& offset) {

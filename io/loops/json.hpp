@@ -3,7 +3,6 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
-#include "engine/model/points.hpp"
 #include "io/files/json_file.hpp"
 #include "io/options/options.hpp"
 #include "io/scan/row_filter.hpp"

@@ -2,11 +2,11 @@
 #include "io/mesh/obj_reader.hpp"
 
 #include "io/files/line_words.hpp"
+#include "io/files/little_endian.hpp"
 #include "io/rows/scalar.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -117,12 +117,6 @@ ObjContent survey(const std::filesystem::path& file) {
   return content;
 }
 
-template <class T>
-std::byte* put(std::byte* to, T value) {
-  std::memcpy(to, &value, sizeof value);
-  return to + sizeof value;
-}
-
 class ObjReader final : public ScanReader {
  public:
   explicit ObjReader(const std::filesystem::path& file) : content_(survey(file)), vertices_(file) {
@@ -158,14 +152,14 @@ class ObjReader final : public ScanReader {
   void read_normal(std::byte* to) {
     auto normal = normals_->next("vn");
     if (!normal) normals_->in().fail("has fewer normals than when it was opened");
-    for (int i = 0; i < 3; ++i) to = put(to, normal->number<double>(kNormal));
+    for (int i = 0; i < 3; ++i) store_next(to, normal->number<double>(kNormal));
     normal->require_end(kNormal);
   }
 
   std::byte* read_vertex(LineWords& words, std::byte* to) const {
-    for (int i = 0; i < 3; ++i) to = put(to, words.number<double>(kVertex));
+    for (int i = 0; i < 3; ++i) store_next(to, words.number<double>(kVertex));
     if (content_.has_colours) {
-      for (int i = 0; i < 3; ++i) to = put(to, words.number<float>("the first vertex has a colour"));
+      for (int i = 0; i < 3; ++i) store_next(to, words.number<float>("the first vertex has a colour"));
     } else if (words.count_left() == 1) {
       words.number<double>(kVertex);
     } else if (words.count_left() == 3) {

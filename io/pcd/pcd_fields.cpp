@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/pcd/pcd_fields.hpp"
 
+#include "io/files/little_endian.hpp"
 #include "io/files/property_name.hpp"
 #include "io/rows/scalar.hpp"
 
 #include <array>
 #include <bit>
-#include <cstring>
 #include <set>
 #include <utility>
 
@@ -42,9 +42,8 @@ void convert(const PcdField& field, ConstColumn from, std::byte* to, std::size_t
   if (is_packed_colour(field)) {
     const std::size_t channels = field.name == "rgba" ? 4 : 3;
     constexpr std::array kShift = {16, 8, 0, 24};  // red, green, blue, alpha
-    for (std::size_t row = 0; row < count; ++row) {
-      std::uint32_t packed;
-      std::memcpy(&packed, from.data + row * from.stride, sizeof packed);
+    for (std::size_t row = 0; row < count; ++row, from.data += from.stride) {
+      const auto packed = load<std::uint32_t>(from.data);
       for (std::size_t i = 0; i < channels; ++i) {
         to[row * to_stride + i] = static_cast<std::byte>(packed >> kShift[i]);
       }
@@ -56,11 +55,8 @@ void convert(const PcdField& field, ConstColumn from, std::byte* to, std::size_t
     const std::byte* values = from.data + i * field.size;
     if (field.size == 8 && field.type != 'F') {
       with_pcd_type(field, [&](auto value) {
-        for (std::size_t row = 0; row < count; ++row) {
-          std::memcpy(&value, values + row * from.stride, sizeof value);
-          const double wide = static_cast<double>(value);
-          std::memcpy(to + i * to_size + row * to_stride, &wide, sizeof wide);
-        }
+        for (std::size_t row = 0; row < count; ++row, values += from.stride)
+          store(to + i * to_size + row * to_stride, static_cast<double>(load<decltype(value)>(values)));
       });
     } else {
       copy_column({.data = values, .stride = from.stride, .type = scalar_of(field)},
@@ -109,11 +105,11 @@ RowLayout pcd_layout(const InputFile& in, const PcdHeader& header) {
 
 void convert_pcd_rows(const PcdHeader& header, const std::byte* raw, const RowLayout& layout,
                       RowBatch& batch) {
-  const std::size_t raw_stride = header.row_bytes();
+  const auto stride = static_cast<std::ptrdiff_t>(header.row_bytes());
   std::size_t from = 0, to = 0;
   for (const PcdField& field : header.fields) {
     if (!field.is_padding()) {
-      convert(field, {.data = raw + from, .stride = raw_stride, .type = scalar_of(field)},
+      convert(field, {.data = raw + from, .stride = stride, .type = scalar_of(field)},
               batch.bytes.data() + to, layout.stride, batch.count);
     }
     from += field.bytes();

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <limits>
-#include <optional>
 #include <set>
 #include <string_view>
 

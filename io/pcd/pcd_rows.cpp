@@ -2,6 +2,7 @@
 #include "io/pcd/pcd_rows.hpp"
 
 #include "io/files/line_words.hpp"
+#include "io/files/little_endian.hpp"
 #include "io/pcd/pcd_fields.hpp"
 #include "io/rows/scan_reader.hpp"
 
@@ -159,10 +160,7 @@ void PcdRows::read_text_row(std::byte* to) {
         if (!words.next(word)) words.fail(std::string("fewer values than needed; ") + kNeeded);
         continue;
       }
-      with_pcd_type(field, [&](auto value) {
-        value = words.number<decltype(value)>(kNeeded);
-        std::memcpy(to, &value, sizeof value);
-      });
+      with_pcd_type(field, [&](auto value) { store(to, words.number<decltype(value)>(kNeeded)); });
     }
   }
   words.require_end(kNeeded);

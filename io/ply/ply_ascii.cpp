@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "io/files/little_endian.hpp"
 #include "io/files/number.hpp"
 #include "io/ply/ply_rows.hpp"
 #include "io/rows/scalar.hpp"
 
-#include <cstring>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,14 +56,13 @@ struct RowParser {
     for (auto left = parse_count(in, in.line(), property, word()); left > 0; --left) word();
   }
 
-  // Returns the place behind the value.
-  std::byte* scalar(const PlyProperty& property, std::byte* to) {
+  // Moves `to` behind the value.
+  void scalar(const PlyProperty& property, std::byte*& to) {
     const std::string_view text = word();
-    return with_type(property.type, [&](auto value) {
+    with_type(property.type, [&](auto value) {
       using T = decltype(value);
       if (!parse_number(text, value)) in.fail_at_line(in.line(), not_a_value<T>(property, text));
-      std::memcpy(to, &value, sizeof(value));
-      return to + sizeof(value);
+      store_next(to, value);
     });
   }
 };
@@ -123,7 +122,7 @@ void read_ascii_rows(InputFile& in, const PlyElement& element, std::uint64_t cou
       if (property.count_type) {
         parser.skip_list(property);
       } else {
-        rows = parser.scalar(property, rows);
+        parser.scalar(property, rows);
       }
     }
     if (!is_blank_line(parser.rest)) in.fail_at_line(in.line(), many_values(element));

@@ -7,7 +7,6 @@
 
 #include <set>
 #include <span>
-#include <string_view>
 
 namespace lacuna::io {
 namespace {

@@ -6,7 +6,6 @@
 #include "io/ply/ply_camera.hpp"
 #include "io/ply/ply_header.hpp"
 #include "io/rows/moved_reader.hpp"
-#include "io/rows/scalar.hpp"
 
 #include <algorithm>
 #include <cassert>

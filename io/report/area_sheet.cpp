@@ -7,13 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
+#include <spdlog/fmt/fmt.h>
 
 namespace lacuna::io {
 namespace {
@@ -63,9 +63,7 @@ std::string escaped(std::string_view text) {
 }
 
 std::string fixed(double value, int decimals) {
-  char buffer[400];
-  std::snprintf(buffer, sizeof buffer, "%.*f", decimals, value);
-  return buffer;
+  return fmt::format("{:.{}f}", value, decimals);
 }
 
 // Four digits at least, without zeros at the end, and no exponent: 138,944, 0.01234 and 5.

@@ -4,7 +4,6 @@
 #include "engine/run/error.hpp"
 #include "io/files/number.hpp"
 #include "io/loops/loop_colours.hpp"
-#include "io/report/canvas.hpp"
 #include "io/report/labels.hpp"
 #include "io/report/percentile.hpp"
 
@@ -72,10 +71,9 @@ void draw_points(const Scene::Points& points, const View& view, const Projection
 template <class Draw>
 void trace(const Scene::Loops& loops, std::size_t loop, const Projection& project, const Canvas& canvas,
            const Draw& draw) {
-  const std::size_t first = loops.first[loop], end = loops.first[loop + 1];
-  for (std::size_t i = first; i < end; ++i) {
-    const Eigen::Vector3f a = project(loops.vertices[i]);
-    const Eigen::Vector3f b = project(loops.vertices[i + 1 < end ? i + 1 : first]);
+  const std::span<const Eigen::Vector3f> vertices = loops.vertices_of(loop);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Eigen::Vector3f a = project(vertices[i]), b = project(vertices[(i + 1) % vertices.size()]);
     const float length = std::max((b - a).head<2>().norm(), 1.0f);
     if (length > 4 * float(canvas.height())) continue;  // far beyond the picture
     const float reach = kThick * kFiner;
@@ -90,11 +88,9 @@ void trace(const Scene::Loops& loops, std::size_t loop, const Projection& projec
 // Makes what lies behind a hole pale, so that the hole does not look like a closed surface.
 void veil_behind(const Scene& scene, std::size_t hole, const View& view, const Projection& project,
                  Canvas& canvas) {
-  const Scene::Loops& loops = scene.loops;
   std::vector<Eigen::Vector3f> outline;
-  for (std::size_t i = loops.first[hole]; i < loops.first[hole + 1]; ++i)
-    outline.push_back(project(loops.vertices[i]));
-  const LoopMeasures& measures = loops.measures[hole];
+  for (const Eigen::Vector3f& vertex : scene.loops.vertices_of(hole)) outline.push_back(project(vertex));
+  const LoopMeasures& measures = scene.loops.measures[hole];
   const Eigen::Vector3f normal = measures.normal.cast<float>();
   const float ahead = normal.dot(view.towards);
   if (!(std::abs(ahead) > 0.1f)) return;
@@ -143,19 +139,18 @@ class SeenParts {
     draw_points(scene.points, view, project_, false, canvas_);
   }
 
-  // Whether the surface does not hide this vertex of the loops.
-  bool shows(std::size_t vertex) const {
-    const Eigen::Vector3f at = project_(scene_.loops.vertices[vertex]);
+  // Whether the surface does not hide this vertex of a loop.
+  bool shows(const Eigen::Vector3f& vertex) const {
+    const Eigen::Vector3f at = project_(vertex);
     return project_.is_drawn(at.z()) &&
            canvas_.shows(at.x(), at.y(), at.z() + kNearer * scene_.points.spacing);
   }
 
   // The share of a loop's vertices that it shows.
   float share(std::size_t loop) const {
-    const auto& first = scene_.loops.first;
-    std::size_t seen = 0;
-    for (std::size_t i = first[loop]; i < first[loop + 1]; ++i) seen += shows(i);
-    return static_cast<float>(seen) / static_cast<float>(first[loop + 1] - first[loop]);
+    const std::span<const Eigen::Vector3f> vertices = scene_.loops.vertices_of(loop);
+    const auto seen = std::ranges::count_if(vertices, [&](const auto& vertex) { return shows(vertex); });
+    return static_cast<float>(seen) / static_cast<float>(vertices.size());
   }
 
  private:
@@ -177,15 +172,15 @@ std::vector<Label> find_labels(const Scene& scene, const View& view, PictureSize
   const Projection project(view, size);
   std::vector<Labelled> labelled;
   for (const std::size_t loop : order) {
-    const std::size_t first = loops.first[loop], end = loops.first[loop + 1];
+    const std::span<const Eigen::Vector3f> vertices = loops.vertices_of(loop);
     std::size_t shown = 0;
     Eigen::AlignedBox2f box;
-    for (std::size_t i = first; i < end; ++i) {
-      if (loop != view.loop && !seen.shows(i)) continue;
+    for (const Eigen::Vector3f& vertex : vertices) {
+      if (loop != view.loop && !seen.shows(vertex)) continue;
       ++shown;
-      box.extend(project(loops.vertices[i]).head<2>());
+      box.extend(project(vertex).head<2>());
     }
-    if (shown > 0 && 2 * shown >= end - first) labelled.push_back({loops.ids[loop], box});
+    if (shown > 0 && 2 * shown >= vertices.size()) labelled.push_back({loops.ids[loop], box});
   }
   return place_labels(labelled, size);
 }
@@ -199,7 +194,7 @@ View looking_from(const Eigen::Vector3f& towards, const Eigen::Vector3f& above) 
 }
 
 // Chooses half of the height that holds these positions, but for outliers.
-void fit(const std::vector<Eigen::Vector3f>& positions, float aspect, View& view) {
+void fit(std::span<const Eigen::Vector3f> positions, float aspect, View& view) {
   if (positions.empty()) return;
   const auto range = [&](const Eigen::Vector3f& axis) {
     std::vector<float> along;
@@ -220,14 +215,13 @@ void fit(const std::vector<Eigen::Vector3f>& positions, float aspect, View& view
 View view_along(const Scene& scene, std::size_t loop, const Eigen::Vector3f& normal, float aspect) {
   View view =
       looking_from(normal, std::abs(normal.z()) > 0.9f ? Eigen::Vector3f(0, 1, 0) : Eigen::Vector3f(0, 0, 1));
-  const auto first = scene.loops.vertices.begin() + static_cast<std::ptrdiff_t>(scene.loops.first[loop]);
-  const auto end = scene.loops.vertices.begin() + static_cast<std::ptrdiff_t>(scene.loops.first[loop + 1]);
-  fit({first, end}, aspect, view);
+  const std::span<const Eigen::Vector3f> vertices = scene.loops.vertices_of(loop);
+  fit(vertices, aspect, view);
   Eigen::AlignedBox3f box;
   float foremost = 0;
-  for (auto vertex = first; vertex != end; ++vertex) {
-    box.extend(*vertex);
-    foremost = std::max(foremost, (*vertex - view.middle).dot(view.towards));
+  for (const Eigen::Vector3f& vertex : vertices) {
+    box.extend(vertex);
+    foremost = std::max(foremost, (vertex - view.middle).dot(view.towards));
   }
   const float radius = std::max(box.diagonal().norm() / 2, 3 * scene.points.spacing);
   view.half_height = std::max(2 * view.half_height, 10 * scene.points.spacing);
@@ -257,8 +251,7 @@ std::size_t find_loop(const Scene& scene, std::string_view name) {
                      (ids.empty() ? "; there are no loops" : ", such as " + std::to_string(ids.front())));
   }
   const auto loop = static_cast<std::size_t>(found - ids.begin());
-  if (scene.loops.first[loop] == scene.loops.first[loop + 1])
-    throw Error("view '" + std::string(name) + "': " + kUndrawn);
+  if (scene.loops.vertices_of(loop).empty()) throw Error("view '" + std::string(name) + "': " + kUndrawn);
   return loop;
 }
 

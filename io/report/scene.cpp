@@ -11,12 +11,10 @@
 #include "io/stations/next_stations.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <string>
 
 namespace lacuna::io {
 namespace {
@@ -262,6 +260,16 @@ Scene read_scene(const fs::path& folder, const SceneLimits& limits) {
   read_points(folder / "sample.ply", limits.positions - scene.loops.vertices.size(), scene);
   scene.points.spacing = typical_spacing(scene);
   return scene;
+}
+
+void extend(Scene& scene, const Eigen::AlignedBox3d& places) {
+  Eigen::AlignedBox3d box(scene.origin, scene.origin + Eigen::Vector3d::Constant(scene.edge));
+  box.extend(places);
+  const Eigen::Vector3f moved = (scene.origin - box.min()).cast<float>();
+  for (Eigen::Vector3f& position : scene.points.positions) position += moved;
+  for (Eigen::Vector3f& vertex : scene.loops.vertices) vertex += moved;
+  scene.origin = box.min();
+  scene.edge = box.sizes().maxCoeff();
 }
 
 Json read_next_stations(const fs::path& folder) {

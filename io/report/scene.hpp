@@ -3,7 +3,6 @@
 // results.
 #pragma once
 
-#include "engine/model/loop.hpp"
 #include "io/loops/json.hpp"
 #include "io/stations/cause.hpp"
 
@@ -11,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -50,7 +50,14 @@ struct Scene {
     std::uint64_t all = 0;  // reported by the run
     // In a comparison, what has become of each loop, and its ids in the earlier result; else empty.
     std::vector<std::string> changes, earlier;
+
+    std::span<const Eigen::Vector3f> vertices_of(std::size_t loop) const {
+      return std::span(vertices).subspan(first[loop], first[loop + 1] - first[loop]);
+    }
   } loops;
+
+  // Returns a place in coordinates of the scan.
+  Eigen::Vector3d place(const Eigen::Vector3f& position) const { return origin + position.cast<double>(); }
 };
 
 struct SceneLimits {
@@ -63,6 +70,9 @@ struct SceneLimits {
 // the order of their ids. Throws `Error` where a file is missing or not as `lacuna detect` writes it. Memory:
 // up to 40 bytes for each position and 150 for each loop of the run.
 Scene read_scene(const std::filesystem::path& folder, const SceneLimits& limits = {});
+
+// Makes the cube of the scene hold these places, too.
+void extend(Scene& scene, const Eigen::AlignedBox3d& places);
 
 // Reads the next stations of next_stations.geojson in `folder`, as {rank, place, area, share} in its order;
 // null if the file is not there. It is apart from read_scene(), since `lacuna stations` replaces a damaged

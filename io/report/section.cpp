@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -32,10 +31,9 @@ void hide_loops_above(float height, Scene::Loops& loops) {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<std::size_t> first = {0};
   for (std::size_t loop = 0; loop < loops.ids.size(); ++loop) {
-    const auto begin = loops.vertices.begin() + static_cast<std::ptrdiff_t>(loops.first[loop]);
-    const auto end = loops.vertices.begin() + static_cast<std::ptrdiff_t>(loops.first[loop + 1]);
-    if (std::any_of(begin, end, [&](const Eigen::Vector3f& v) { return v.z() <= height; }))
-      std::copy(begin, end, std::back_inserter(vertices));
+    const std::span<const Eigen::Vector3f> all = loops.vertices_of(loop);
+    if (std::ranges::any_of(all, [&](const Eigen::Vector3f& v) { return v.z() <= height; }))
+      vertices.insert(vertices.end(), all.begin(), all.end());
     first.push_back(vertices.size());
   }
   loops.vertices = std::move(vertices);

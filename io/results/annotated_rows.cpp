@@ -2,7 +2,7 @@
 #include "io/results/annotated_rows.hpp"
 
 #include "engine/criteria/criteria.hpp"
-#include "io/rows/scalar.hpp"
+#include "io/rows/vectors.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -128,10 +128,7 @@ void JoinedRows::copy_columns(std::size_t stride, std::byte* out) const {
       fill_missing(column, rows_.count);
       continue;
     }
-    const ConstColumn source{.data = rows_.bytes.data() + sources_[i]->offset,
-                             .stride = reader_->layout().stride,
-                             .type = sources_[i]->type};
-    copy_column(source, summands_[i], column, rows_.count);
+    copy_column(column_of(rows_, reader_->layout().stride, *sources_[i]), summands_[i], column, rows_.count);
   }
 }
 

@@ -7,7 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+
+#include <spdlog/fmt/fmt.h>
 
 namespace lacuna::io {
 namespace {
@@ -23,12 +24,10 @@ CoverageGrid empty_grid(const Detection& detection, const FilesConfig& config) {
   const Eigen::Array2d size = high - low;
   const double most = static_cast<double>(Memory::share(config.run.memory_limit).limit / 4 / kBytesPerCell);
   if (!(size.prod() <= most)) {
-    std::ostringstream message;
-    message << "coverage: cells of " << grid.edge << " make " << size.x() << " x " << size.y()
-            << " of them, more than " << most
-            << " within the memory limit; allowed: " << grid.edge * std::sqrt(size.prod() / most) * 1.01
-            << " or more";
-    throw Error(message.str());
+    throw Error(fmt::format(
+        "coverage: cells of {:g} make {:g} x {:g} of them, more than {:g} within the memory limit; "
+        "allowed: {:g} or more",
+        grid.edge, size.x(), size.y(), most, grid.edge * std::sqrt(size.prod() / most) * 1.01));
   }
   grid.corner = {low.x() * grid.edge, high.y() * grid.edge};
   grid.columns = static_cast<std::size_t>(size.x());

@@ -26,7 +26,6 @@ std::vector<float> spacings(const CoverageGrid& grid) {
 }  // namespace
 
 extern "C" bool lacuna_write_coverage(const CoverageGrid& grid, const GisOutput& out) {
-  register_gdal_drivers();
   const GdalFailures failures;
   const auto require = [&](bool is_well) { failures.require(is_well, out.name); };
   const auto columns = static_cast<int>(grid.columns), rows = static_cast<int>(grid.rows);

@@ -13,8 +13,6 @@
 namespace lacuna::io {
 namespace {
 
-constexpr const char* kUser = "--gpkg, --geojson, --coverage and --area";
-
 GisOutput gis_output(const ScanFiles& scan, const OutputFile& out) {
   return {.crs = scan.common_crs(), .name = out.path(), .place = out.place()};
 }
@@ -38,13 +36,9 @@ void warn_of_degrees(const OutputFile& out, const char* reason) {
 
 }  // namespace
 
-void check_gis_library() {
-  check_gis_module(kUser);
-}
-
 void write_loops_gis(const ExplainedDetection& detection, const ScanFiles& scan, const OutputConfig& config,
                      GisFormat format, OutputFile& out) {
-  static auto* const write = reinterpret_cast<WriteLoopsGis*>(load_gis_function(kWriteLoopsGis, kUser));
+  static auto* const write = reinterpret_cast<WriteLoopsGis*>(load_gis_function(kWriteLoopsGis, kGisUser));
   const bool is_geojson = format == GisFormat::kGeoJson;
   GisTask task{.detection = detection,
                .format = format,
@@ -73,14 +67,14 @@ void write_loops_gis(const ExplainedDetection& detection, const ScanFiles& scan,
 
 void write_coverage(const Detection& detection, const ScanFiles& scan, const FilesConfig& config,
                     OutputFile& out) {
-  static auto* const write = reinterpret_cast<WriteCoverage*>(load_gis_function(kWriteCoverage, kUser));
+  static auto* const write = reinterpret_cast<WriteCoverage*>(load_gis_function(kWriteCoverage, kGisUser));
   const CoverageGrid grid = cover(detection, scan, config);
   if (grid.size() == 0) return;  // GDAL makes no raster without cells
   if (!write(grid, gis_output(scan, out))) warn_not_understood(scan);
 }
 
 void write_voids_gpkg(const AreaCheck& check, const ScanFiles& scan, OutputFile& out) {
-  static auto* const write = reinterpret_cast<WriteVoidsGis*>(load_gis_function(kWriteVoidsGis, kUser));
+  static auto* const write = reinterpret_cast<WriteVoidsGis*>(load_gis_function(kWriteVoidsGis, kGisUser));
   if (!write(check, gis_output(scan, out))) warn_not_understood(scan);
 }
 

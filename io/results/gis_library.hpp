@@ -11,8 +11,7 @@
 
 namespace lacuna::io {
 
-// Throws `Error` if lacuna_gis.so is missing (io/crs/gis_module.hpp). Cheap: loads nothing.
-void check_gis_library();
+inline constexpr const char* kGisUser = "--gpkg, --geojson, --coverage and --area";  // for errors
 
 // Loads the library on first use and writes the loops. The log has a warning if the scan has a coordinate
 // reference system and the file has none. Another warning comes if GIS will read metres as degrees. Throws

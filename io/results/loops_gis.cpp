@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include <cpl_string.h>
@@ -87,11 +86,8 @@ class LoopsWriter {
   }
 
   void create() {
-    const char* const format = task_.format == GisFormat::kGeoPackage ? "GPKG" : "GeoJSON";
-    GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName(format);
-    require(driver != nullptr);
-    const std::string place = task_.format == GisFormat::kGeoJson ? "/vsistdout/" : task_.out.place.string();
-    dataset_.reset(driver->Create(place.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+    dataset_ = task_.format == GisFormat::kGeoPackage ? create_dataset("GPKG", task_.out.place.string())
+                                                      : create_dataset("GeoJSON", "/vsistdout/");
     require(dataset_ != nullptr);
     // Without a crs the GeoPackage has the srs_id -1, and not 0, a geographic one.
     if (!has_crs_ && task_.format == GisFormat::kGeoPackage) crs_.SetLocalCS("Undefined Cartesian SRS");
@@ -137,12 +133,10 @@ class LoopsWriter {
     feature.SetField(field++, task_.unit.c_str());
     for (const LoopMeasure& measure : kLoopMeasures) {
       const double value = measure.of(explained);
-      if (!std::isfinite(value)) {
-        feature.SetFieldNull(field++);
-      } else if (measure.is_count) {
+      if (measure.is_count && std::isfinite(value)) {
         feature.SetField(field++, static_cast<GIntBig>(value));
       } else {
-        feature.SetField(field++, value);
+        set_field(feature, field++, value);
       }
     }
     auto line = line_of(loop.points);
@@ -194,9 +188,7 @@ class LoopsWriter {
 }  // namespace
 
 extern "C" GisCrs lacuna_write_loops_gis(const GisTask& task) {
-  register_gdal_drivers();
-  const GdalSetting time("OGR_CURRENT_DATE", kSameTime),
-      no_sync("OGR_SQLITE_SYNCHRONOUS", "OFF");  // synced in the end
+  const GeoPackageSettings settings;
   if (task.format != GisFormat::kGeoJson) return LoopsWriter(task).write();
   const GdalTextSink sink(task.take);
   LoopsWriter writer(task);

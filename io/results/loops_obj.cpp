@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/results/loops_obj.hpp"
-
 #include "io/files/number.hpp"
 #include "io/loops/loop_measures.hpp"
+#include "io/results/results.hpp"
 
 #include <cmath>
 #include <string>

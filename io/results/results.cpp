@@ -3,12 +3,12 @@
 
 #include "engine/run/error.hpp"
 #include "engine/run/parallel.hpp"
+#include "io/crs/gis_module.hpp"
 #include "io/report/report.hpp"
 #include "io/report/scene.hpp"
 #include "io/results/gis_library.hpp"
 #include "io/results/lids.hpp"
 #include "io/results/local_coordinates.hpp"
-#include "io/results/loops_obj.hpp"
 #include "io/results/points.hpp"
 #include "io/results/voids.hpp"
 #include "io/scan/plan_system.hpp"
@@ -17,7 +17,6 @@
 #include <functional>
 #include <limits>
 #include <string>
-#include <vector>
 
 namespace lacuna::io {
 namespace {
@@ -73,7 +72,7 @@ std::vector<ResultFile> results_of_results(const Detection& detection, const Sca
 
 void check_results(const ScanFiles& scan, const FilesConfig& config, const ResultFolder& folder) {
   check_points(scan, config);
-  if (needs_gis_library(config)) check_gis_library();
+  if (needs_gis_library(config)) check_gis_module(kGisUser);
   if (config.output.coverage > 0) require_plan(scan, "--coverage");
   check_not_input(folder, scan);
 }

@@ -50,6 +50,12 @@ void write_table(const ExplainedDetection& detection, OutputFile& out);
 void write_loops(const Detection& detection, const ScanFiles& scan, const OutputConfig& config,
                  OutputFile& out);
 
+// loops.obj, for CAD, Blender and Rhinoceros: for each loop, in order, its measures as comments, its object
+// "hole_0" or "outer_0" (the id), and its points. A line `l a b` for each edge follows. Blender 3.4 and
+// MeshLab 2020.09 read only the first edge of a longer line. Coordinates have all digits. Holds one loop in
+// memory.
+void write_loops_obj(const ExplainedDetection& detection, OutputFile& out);
+
 // Every point that is coherent or on a loop, in ascending id: x y z, scalar_probability, scalar_id,
 // scalar_loop (-1: none), quality (the probability).
 void write_boundary(const Detection& detection, const ScanFiles& scan, const OutputConfig& config,

@@ -4,7 +4,7 @@
 #include "io/area/voids_form.hpp"
 #include "io/crs/gdal_session.hpp"
 
-#include <cmath>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -26,9 +26,7 @@ class VoidsWriter {
     const bool is_understood = read_crs_of_file(out_.crs, crs_);
     // Without a crs the GeoPackage has the srs_id -1, and not 0, a geographic one.
     if (crs_.IsEmpty()) crs_.SetLocalCS("Undefined Cartesian SRS");
-    GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GPKG");
-    require(driver != nullptr);
-    dataset_.reset(driver->Create(out_.place.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+    dataset_ = create_dataset("GPKG", out_.place.string());
     require(dataset_ != nullptr);
     Fields columns = {{"id", OFTInteger64}, {"kind", OFTString},  {"counts", OFTInteger},
                       {"area", OFTReal},    {"circle", OFTReal},  {"x", OFTReal},
@@ -111,10 +109,6 @@ class VoidsWriter {
     }
   }
 
-  static void set(OGRFeature& feature, int field, double value) {
-    std::isfinite(value) ? feature.SetField(field, value) : feature.SetFieldNull(field);
-  }
-
   static std::unique_ptr<OGRPolygon> polygon_of(const PlanPolygon& outline) {
     auto polygon = std::make_unique<OGRPolygon>();
     for (const Ring2& corners : outline) {
@@ -129,56 +123,54 @@ class VoidsWriter {
     return polygon;
   }
 
-  void put(OGRLayer& layer, OGRFeature& feature, const PlanPolygon& outline) const {
-    feature.SetGeometryDirectly(polygon_of(outline).release());
-    require(layer.CreateFeature(&feature) == OGRERR_NONE);
+  // Writes a feature for each element of a list. `fill` sets its fields, and returns its outline.
+  template <class List, class Fill>
+  void write_features(OGRLayer& layer, const List& list, const Fill& fill) const {
+    require(layer.StartTransaction() == OGRERR_NONE);
+    for (const auto& element : list) {
+      OGRFeature feature(layer.GetLayerDefn());
+      feature.SetGeometryDirectly(polygon_of(fill(feature, element)).release());
+      require(layer.CreateFeature(&feature) == OGRERR_NONE);
+    }
+    require(layer.CommitTransaction() == OGRERR_NONE);
   }
 
   void write_voids(OGRLayer& layer) const {
-    require(layer.StartTransaction() == OGRERR_NONE);
-    for (std::size_t id = 0; id < check_.voids.size(); ++id) {
-      const Void& each = check_.voids[id];
-      OGRFeature feature(layer.GetLayerDefn());
-      feature.SetField(0, static_cast<GIntBig>(id));
+    GIntBig id = 0;
+    write_features(layer, check_.voids, [&](OGRFeature& feature, const Void& each) {
+      feature.SetField(0, id++);
       feature.SetField(1, std::string(name_of(each.kind)).c_str());
       feature.SetField(2, each.counts ? 1 : 0);
       int field = 3;
       for (const double value :
            {each.area, each.circle, each.middle.x(), each.middle.y(), each.spacing, each.excepted})
-        set(feature, field++, value);
-      for (const double share : each.shares) set(feature, field++, share);
-      put(layer, feature, each.outline);
-    }
-    require(layer.CommitTransaction() == OGRERR_NONE);
+        set_field(feature, field++, value);
+      for (const double share : each.shares) set_field(feature, field++, share);
+      return std::cref(each.outline);
+    });
   }
 
   void write_polygons(OGRLayer& layer) const {
-    require(layer.StartTransaction() == OGRERR_NONE);
-    for (const AreaPolygon& polygon : check_.polygons) {
-      OGRFeature feature(layer.GetLayerDefn());
+    write_features(layer, check_.polygons, [&](OGRFeature& feature, const AreaPolygon& polygon) {
       feature.SetField(0, std::string(name_of(check_.answer_of(polygon))).c_str());
-      set(feature, 1, polygon.area);
-      set(feature, 2, polygon.covered());
-      set(feature, 3, polygon.circle);
-      put(layer, feature, polygon.outline);
-    }
-    require(layer.CommitTransaction() == OGRERR_NONE);
+      set_field(feature, 1, polygon.area);
+      set_field(feature, 2, polygon.covered());
+      set_field(feature, 3, polygon.circle);
+      return std::cref(polygon.outline);
+    });
   }
 
   void write_tiles(OGRLayer& layer) const {
-    require(layer.StartTransaction() == OGRERR_NONE);
-    for (const AreaTile& tile : check_.tiles) {
-      OGRFeature feature(layer.GetLayerDefn());
-      set(feature, 0, tile.area);
-      set(feature, 1, tile.covered());
+    write_features(layer, check_.tiles, [&](OGRFeature& feature, const AreaTile& tile) {
+      set_field(feature, 0, tile.area);
+      set_field(feature, 1, tile.covered());
       feature.SetField(2, static_cast<GIntBig>(tile.voids));
       feature.SetField(3, static_cast<GIntBig>(tile.points));
-      set(feature, 4, tile.density());
-      set(feature, 5, tile.spacing());
+      set_field(feature, 4, tile.density());
+      set_field(feature, 5, tile.spacing());
       const double edge = check_.tile_edge, x = tile.corner.x(), y = tile.corner.y();
-      put(layer, feature, {{{x, y}, {x + edge, y}, {x + edge, y + edge}, {x, y + edge}}});
-    }
-    require(layer.CommitTransaction() == OGRERR_NONE);
+      return PlanPolygon{{{x, y}, {x + edge, y}, {x + edge, y + edge}, {x, y + edge}}};
+    });
   }
 
   const AreaCheck& check_;
@@ -191,9 +183,7 @@ class VoidsWriter {
 }  // namespace
 
 extern "C" bool lacuna_write_voids_gis(const AreaCheck& check, const GisOutput& out) {
-  register_gdal_drivers();
-  const GdalSetting time("OGR_CURRENT_DATE", kSameTime),
-      no_sync("OGR_SQLITE_SYNCHRONOUS", "OFF");  // synced in the end
+  const GeoPackageSettings settings;
   return VoidsWriter(check, out).write();
 }
 

@@ -33,10 +33,9 @@ class MovedReader : public ScanReader {
     batch.count = rows_.count;
     batch.bytes.resize(rows_.count * layout_.stride);
     for (std::size_t i = 0; i < layout_.properties.size(); ++i) {
-      const Property &from = reader_->layout().properties[i], &to = layout_.properties[i];
-      copy_column(
-          {.data = rows_.bytes.data() + from.offset, .stride = reader_->layout().stride, .type = from.type},
-          {.data = batch.bytes.data() + to.offset, .stride = layout_.stride, .type = to.type}, rows_.count);
+      const RowLayout& from = reader_->layout();
+      copy_column(column_of(std::as_const(rows_), from.stride, from.properties[i]),
+                  column_of(batch, layout_.stride, layout_.properties[i]), rows_.count);
     }
     move(batch);
     return true;

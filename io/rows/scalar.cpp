@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/rows/scalar.hpp"
 
+#include "io/files/little_endian.hpp"
 #include "io/files/property_name.hpp"
 
 #include <algorithm>
@@ -52,15 +53,14 @@ bool is_integer(Scalar type) {
 
 void copy_column(ConstColumn from, Column to, std::size_t count) {
   assert(from.type == to.type || to.type == Scalar::kFloat64);
-  with_type(from.type, [&](auto value) {
+  with_type(from.type, [&](auto zero) {
     const bool same = from.type == to.type;
-    for (std::size_t i = 0; i < count; ++i) {
-      std::memcpy(&value, from.data + i * from.stride, sizeof(value));
+    for (std::size_t i = 0; i < count; ++i, from.data += from.stride) {
+      const auto value = load<decltype(zero)>(from.data);
       if (same) {
-        std::memcpy(to.data + i * to.stride, &value, sizeof(value));
+        store(to.data + i * to.stride, value);
       } else {
-        const double wide = static_cast<double>(value);
-        std::memcpy(to.data + i * to.stride, &wide, sizeof(wide));
+        store(to.data + i * to.stride, static_cast<double>(value));
       }
     }
   });
@@ -76,19 +76,18 @@ float nearest_float(double value) {
 void put_floating(std::byte* to, Scalar type, double value) {
   assert(!is_integer(type));
   if (type == Scalar::kFloat32) {
-    const float narrow = nearest_float(value);
-    std::memcpy(to, &narrow, sizeof(narrow));
+    store(to, nearest_float(value));
   } else {
-    std::memcpy(to, &value, sizeof(value));
+    store(to, value);
   }
 }
 
 void copy_column(ConstColumn from, std::optional<double> summand, Column to, std::size_t count) {
   if (!summand) return copy_column(from, to, count);
-  with_type(from.type, [&](auto value) {
-    for (std::size_t i = 0; i < count; ++i) {
-      std::memcpy(&value, from.data + i * from.stride, sizeof(value));
-      put_floating(to.data + i * to.stride, to.type, static_cast<double>(value) + *summand);
+  with_type(from.type, [&](auto zero) {
+    for (std::size_t i = 0; i < count; ++i, from.data += from.stride) {
+      const auto value = static_cast<double>(load<decltype(zero)>(from.data));
+      put_floating(to.data + i * to.stride, to.type, value + *summand);
     }
   });
 }
@@ -97,7 +96,7 @@ void fill_missing(Column to, std::size_t count) {
   with_type(to.type, [&](auto value) {
     using T = decltype(value);
     if constexpr (std::is_floating_point_v<T>) value = std::numeric_limits<T>::quiet_NaN();
-    for (std::size_t i = 0; i < count; ++i) std::memcpy(to.data + i * to.stride, &value, sizeof(value));
+    for (std::size_t i = 0; i < count; ++i) store(to.data + i * to.stride, value);
   });
 }
 

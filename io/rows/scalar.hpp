@@ -44,7 +44,7 @@ decltype(auto) with_type(Scalar type, Visit&& visit) {
 // A column of rows: `count` values, the first at `data`, each `stride` bytes after the one before.
 struct ConstColumn {
   const std::byte* data;
-  std::size_t stride;
+  std::ptrdiff_t stride;
   Scalar type;
 };
 struct Column {

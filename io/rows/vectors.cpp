@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/rows/vectors.hpp"
 
-#include "io/rows/scalar.hpp"
-
 #include <algorithm>
 #include <string>
 #include <utility>
 
 namespace lacuna::io {
 
+ConstColumn column_of(const RowBatch& rows, std::size_t stride, const Property& property) {
+  return {rows.bytes.data() + property.offset, static_cast<std::ptrdiff_t>(stride), property.type};
+}
+
+Column column_of(RowBatch& rows, std::size_t stride, const Property& property) {
+  return {rows.bytes.data() + property.offset, stride, property.type};
+}
+
 void load_column(const RowBatch& rows, std::size_t stride, const Property& property,
                  std::vector<double>& values) {
   values.resize(rows.count);
-  copy_column({.data = rows.bytes.data() + property.offset, .stride = stride, .type = property.type},
+  copy_column(column_of(rows, stride, property),
               {.data = reinterpret_cast<std::byte*>(values.data()),
                .stride = sizeof(double),
                .type = Scalar::kFloat64},
@@ -38,9 +44,8 @@ void load_vectors(const RowBatch& rows, const RowLayout& layout, const VectorNam
   if (rows.count == 0) return;
   auto* to = reinterpret_cast<std::byte*>(vectors.data());
   for (std::size_t axis = 0; axis < names.size(); ++axis) {
-    const Property& property = *layout.find(names[axis]);
     copy_column(
-        {.data = rows.bytes.data() + property.offset, .stride = layout.stride, .type = property.type},
+        column_of(rows, layout.stride, *layout.find(names[axis])),
         {.data = to + axis * sizeof(double), .stride = sizeof(Eigen::Vector3d), .type = Scalar::kFloat64},
         rows.count);
   }
@@ -51,11 +56,9 @@ void store_vectors(std::span<const Eigen::Vector3d> vectors, const RowLayout& la
   if (vectors.empty()) return;
   const auto* from = reinterpret_cast<const std::byte*>(vectors.data());
   for (std::size_t axis = 0; axis < names.size(); ++axis) {
-    const Property& property = *layout.find(names[axis]);
     copy_column(
         {.data = from + axis * sizeof(double), .stride = sizeof(Eigen::Vector3d), .type = Scalar::kFloat64},
-        {.data = rows.bytes.data() + property.offset, .stride = layout.stride, .type = property.type},
-        vectors.size());
+        column_of(rows, layout.stride, *layout.find(names[axis])), vectors.size());
   }
 }
 

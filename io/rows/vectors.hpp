@@ -2,7 +2,7 @@
 // Columns of rows as numbers: one by one, and three together as positions or normals.
 #pragma once
 
-#include "io/rows/scan_reader.hpp"
+#include "io/rows/scalar.hpp"
 
 #include <array>
 #include <span>
@@ -11,6 +11,10 @@
 #include <Eigen/Core>
 
 namespace lacuna::io {
+
+// A property of all rows, which are `stride` bytes apart.
+ConstColumn column_of(const RowBatch& rows, std::size_t stride, const Property& property);
+Column column_of(RowBatch& rows, std::size_t stride, const Property& property);
 
 // A value of each row.
 void load_column(const RowBatch& rows, std::size_t stride, const Property& property,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/scan/row_filter.hpp"
 
+#include "io/files/number.hpp"
 #include "io/rows/vectors.hpp"
 
 #include <algorithm>
 #include <limits>
-#include <sstream>
-#include <string>
+#include <utility>
 
 namespace lacuna::io {
 namespace {
@@ -41,34 +41,22 @@ RowFilter::RowFilter(const InputConfig& config, const std::filesystem::path& fil
 }
 
 std::string describe_no_row_left(const InputConfig& config, const FilteredOut& filtered) {
-  std::ostringstream text;
-  text.precision(10);
-  text << "the filters leave none of the " << filtered.total() << " points";
+  std::string text = "the filters leave none of the " + std::to_string(filtered.total()) + " points";
   const char* separator = ": ";
-  const auto add = [&](const char* option, std::uint64_t count) -> std::ostream& {
-    text << separator << option << " leaves out " << count;
-    separator = "; ";
-    return text;
+  const auto add = [&](const std::string& part) { text += std::exchange(separator, "; ") + part; };
+  const auto add_option = [&](const std::string& option, std::uint64_t count) {
+    add(option + " leaves out " + std::to_string(count));
   };
-  if (config.drop_origin && filtered.origin > 0) add("--drop-origin", filtered.origin);
-  if (!config.bounds.empty()) {
-    add("--bounds", filtered.bounds);
-    if (!filtered.bounds_before.isEmpty()) {
-      const Eigen::Vector3d min = filtered.bounds_before.min(), max = filtered.bounds_before.max();
-      text << ", the scan lies from " << min.x() << " " << min.y() << " " << min.z() << " to " << max.x()
-           << " " << max.y() << " " << max.z();
-    }
-  }
-  if (!config.leave_out.empty()) add("--leave-out", filtered.boxes);
-  const auto add_kept = [&](std::uint64_t count, const char* what) {
-    if (count == 0) return;
-    text << separator << count << what;
-    separator = "; ";
-  };
-  add_kept(filtered.withheld, " are withheld, which --keep-withheld keeps");
-  add_kept(filtered.noise, " are noise, which --keep-noise keeps");
-  if (!config.where.empty()) add("--where", filtered.where);
-  return text.str();
+  if (config.drop_origin && filtered.origin > 0) add_option("--drop-origin", filtered.origin);
+  if (!config.bounds.empty()) add_option("--bounds", filtered.bounds);
+  if (const Eigen::AlignedBox3d& before = filtered.bounds_before; !config.bounds.empty() && !before.isEmpty())
+    text += ", the scan lies from " + print_point(before.min()) + " to " + print_point(before.max());
+  if (!config.leave_out.empty()) add_option("--leave-out", filtered.boxes);
+  if (filtered.withheld > 0)
+    add(std::to_string(filtered.withheld) + " are withheld, which --keep-withheld keeps");
+  if (filtered.noise > 0) add(std::to_string(filtered.noise) + " are noise, which --keep-noise keeps");
+  if (!config.where.empty()) add_option("--where", filtered.where);
+  return text;
 }
 
 void RowFilter::apply(const RowBatch& rows, std::span<Eigen::Vector3d> positions, FilteredOut& filtered) {

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/scan/scan_arrays.hpp"
 
+#include "io/rows/scalar.hpp"
+#include "io/rows/vectors.hpp"
+
 #include <algorithm>
-#include <cstring>
 
 namespace lacuna::io {
 namespace {
-
-template <std::size_t size>
-void copy_column(const std::byte* from, std::ptrdiff_t from_stride, std::byte* to, std::size_t to_stride,
-                 std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i, from += from_stride, to += to_stride) std::memcpy(to, from, size);
-}
 
 class ArrayReader final : public ScanReader {
  public:
@@ -29,28 +25,16 @@ class ArrayReader final : public ScanReader {
   bool next(RowBatch& batch, std::size_t max_rows) override {
     batch.count = std::min<std::uint64_t>(max_rows, arrays_.rows - next_);
     batch.bytes.resize(batch.count * layout_.stride);
-    for (std::size_t i = 0; i < arrays_.columns.size(); ++i) copy(i, batch);
+    for (std::size_t i = 0; i < arrays_.columns.size(); ++i) {
+      const auto& [name, type, first, stride] = arrays_.columns[i];
+      copy_column({first + static_cast<std::ptrdiff_t>(next_) * stride, stride, type},
+                  column_of(batch, layout_.stride, layout_.properties[i]), batch.count);
+    }
     next_ += batch.count;
     return batch.count > 0;
   }
 
  private:
-  void copy(std::size_t i, RowBatch& batch) const {
-    const auto& [name, type, first, stride] = arrays_.columns[i];
-    const std::byte* const from = first + static_cast<std::ptrdiff_t>(next_) * stride;
-    std::byte* const to = batch.bytes.data() + layout_.properties[i].offset;
-    switch (size_of(type)) {
-      case 1:
-        return copy_column<1>(from, stride, to, layout_.stride, batch.count);
-      case 2:
-        return copy_column<2>(from, stride, to, layout_.stride, batch.count);
-      case 4:
-        return copy_column<4>(from, stride, to, layout_.stride, batch.count);
-      default:
-        return copy_column<8>(from, stride, to, layout_.stride, batch.count);
-    }
-  }
-
   const ScanArrays& arrays_;
   RowLayout layout_;
   std::uint64_t next_ = 0;

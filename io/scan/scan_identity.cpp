@@ -7,6 +7,8 @@
 #include <set>
 #include <sstream>
 
+#include <spdlog/fmt/fmt.h>
+
 namespace lacuna::io {
 namespace {
 
@@ -27,23 +29,18 @@ std::vector<std::string> identity_of(const ScanFiles& scan) {
   if (std::ranges::any_of(scan.files(), [](const ScanFile& file) { return file.arrays != nullptr; }))
     return lines;
   for (const ScanFile& file : scan.files()) {
-    std::ostringstream line;
     const Digest sample = sample_digest(file.name, file.state);
-    line << full_name(file.name).string() << ", " << file.state.size << " bytes, written at "
-         << file.state.mtime << " ns, sample " << std::hex << sample[0] << sample[1];
-    if (file.pose) line << ", pose " << pose_text(file);
-    lines.push_back(line.str());
+    lines.push_back(fmt::format("{}, {} bytes, written at {} ns, sample {:x}{:x}{}",
+                                full_name(file.name).string(), file.state.size, file.state.mtime, sample[0],
+                                sample[1], file.pose ? ", pose " + pose_text(file) : ""));
   }
   FilesConfig config;
   config.input = scan.config();
   for (const Parameter& p : file_parameters(config)) {
     if (p.changes == Changes::kPoints) lines.push_back(std::string(p.key) + " = " + p.print());
   }
-  if (const std::string& crs = scan.stated_crs().crs; !crs.empty()) {  // a file counts by its content
-    std::ostringstream line;
-    line << "text of crs = " << std::hex << digest_of(crs)[0];
-    lines.push_back(line.str());
-  }
+  if (const std::string& crs = scan.stated_crs().crs; !crs.empty())  // a file counts by its content
+    lines.push_back(fmt::format("text of crs = {:x}", digest_of(crs)[0]));
   return lines;
 }
 

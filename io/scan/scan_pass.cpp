@@ -7,7 +7,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <sstream>
+
+#include <spdlog/fmt/fmt.h>
 
 namespace lacuna::io {
 namespace {
@@ -104,10 +105,8 @@ void ScanPass::refuse_too_far(const PointBatch& batch) const {
   if (found == batch.positions.end()) return;
   const std::uint64_t row =
       counts_.files[file_].rows + static_cast<std::uint64_t>(found - batch.positions.begin());
-  std::ostringstream message;
-  message << scan_.files()[file_].name.string() << ": point " << row << " lies at " << found->x() << " "
-          << found->y() << " " << found->z() << "; coordinates must be within 1e30";
-  throw Error(message.str());
+  throw Error(fmt::format("{}: point {} lies at {:g} {:g} {:g}; coordinates must be within 1e30",
+                          scan_.files()[file_].name.string(), row, found->x(), found->y(), found->z()));
 }
 
 // Makes points of the rows at hand.

@@ -63,7 +63,6 @@ class LACUNA_API ScanPass final : public PointSource {
   void set_pass_counts(std::span<const std::uint64_t> counts) override;
   void refuse_empty() const override;  // arrays without a point are no error
 
-  const ScanFiles& scan() const { return scan_; }
   const ScanCounts& counts() const { return counts_; }  // of the last pass
 
  private:

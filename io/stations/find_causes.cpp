@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/stations/find_causes.hpp"
 
-#include "io/stations/inside_places.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>

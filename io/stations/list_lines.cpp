@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
+
+#include <spdlog/fmt/fmt.h>
 
 namespace lacuna::io {
 namespace {
@@ -35,9 +36,7 @@ bool is_header(Fields fields) {
 std::string read_number(std::string_view field, double most, double& number) {
   if (!parse_cell(field, number) || !std::isfinite(number)) return in_quotes(field) + " is not a number";
   if (std::fabs(number) <= most) return "";
-  std::ostringstream reason;
-  reason << in_quotes(field) << " is not from -" << most << " to " << most;
-  return reason.str();
+  return fmt::format("{} is not from -{:g} to {:g}", in_quotes(field), most, most);
 }
 
 std::optional<Fields> ListLines::next() {
@@ -66,6 +65,18 @@ void ListLines::fail(std::string reason) const {
 
 void ListLines::fail_empty(const std::string& reason) const {
   in_.fail(reason + "; on each line, " + std::string(needed_));
+}
+
+std::vector<ListedPosition> read_places(const std::filesystem::path& list) {
+  ListLines lines(list, "x y z are needed, or a name and x y z");
+  std::vector<ListedPosition> places;
+  while (const auto fields = lines.next()) {
+    if (fields->size() != 3 && fields->size() != 4) lines.fail();
+    places.push_back({.name = fields->size() == 4 ? std::string(fields->front()) : "",
+                      .position = lines.parse_place(fields->last(3))});
+  }
+  if (places.empty()) lines.fail_empty("names no place");
+  return places;
 }
 
 }  // namespace lacuna::io

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lines of a list of stations or places. Blanks, commas or semicolons divide the
-// fields; commas between digits are decimal ones where blanks or semicolons divide. Lines that begin with #
-// are comments. A first line without numbers is a header.
+// The lines of a list of stations or places, and such places. Blanks, commas or semicolons divide the fields;
+// commas between digits are decimal ones where blanks or semicolons divide. Lines that begin with # are
+// comments. A first line without numbers is a header.
 #pragma once
 
 #include "io/files/input_file.hpp"
@@ -49,5 +49,14 @@ class ListLines {
   bool is_first_ = true;
   std::vector<std::string_view> fields_;
 };
+
+struct ListedPosition {
+  std::string name;  // empty without a name
+  Eigen::Vector3d position{0, 0, 0};
+};
+
+// Reads a place for a scanner from each line: x y z, or a name without blanks and x y z. Places are in the
+// order of the file. Throws `Error`, also if there is no place.
+std::vector<ListedPosition> read_places(const std::filesystem::path& list);
 
 }  // namespace lacuna::io

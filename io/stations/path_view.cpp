@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <utility>
 
+#include <spdlog/fmt/fmt.h>
 #include <sys/mman.h>
 
 namespace lacuna::io {
@@ -87,13 +87,11 @@ void PathView::add(double time, const Eigen::Vector3d& position, bool is_kept) {
 }
 
 void PathView::complete() {
-  if (placed_ == 0) {
-    std::ostringstream message;
-    message.precision(12);
-    message << "has no place at the times of the points, which are " << first_time_ << " to " << last_time_
-            << "; the trajectory has " << path_.first_time() << " to " << path_.last_time();
-    throw Error(stated_.string() + ": " + message.str());
-  }
+  if (placed_ == 0)
+    throw Error(
+        fmt::format("{}: has no place at the times of the points, which are {:.12g} to {:.12g}; the "
+                    "trajectory has {:.12g} to {:.12g}",
+                    stated_.string(), first_time_, last_time_, path_.first_time(), path_.last_time()));
   swept_.finish();
   const auto finest = std::max<std::uint64_t>(
       1, static_cast<std::uint64_t>(static_cast<double>(range_sum_ / placed_) / kSections));

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 
 namespace lacuna::io {
 

@@ -3,14 +3,13 @@
 
 #include "engine/run/parallel.hpp"
 #include "engine/run/utf8.hpp"
+#include "io/files/little_endian.hpp"
+#include "io/files/number.hpp"
 #include "io/files/property_name.hpp"
 #include "io/rows/scalar.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
-#include <cstring>
 #include <set>
 #include <string>
 #include <type_traits>
@@ -64,18 +63,13 @@ std::vector<std::string> header_names(const RowLayout& layout) {
 
 template <class T>
 void append(std::string& text, T value) {
-  std::array<char, 32> digits;
-  char* end = digits.data();
-  if constexpr (std::is_floating_point_v<T>) {
-    if (std::isnan(value)) {
-      text += "nan";  // whatever its sign
-      return;
-    }
-    end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  if constexpr (!std::is_floating_point_v<T>) {
+    text += std::to_string(value);
+  } else if (std::isnan(value)) {
+    text += "nan";  // whatever its sign
   } else {
-    end = std::to_chars(digits.data(), digits.data() + digits.size(), static_cast<std::int64_t>(value)).ptr;
+    append_shortest(text, value);
   }
-  text.append(digits.data(), end);
 }
 
 std::string lines_of(std::span<const std::byte> rows, const RowLayout& layout) {
@@ -84,10 +78,8 @@ std::string lines_of(std::span<const std::byte> rows, const RowLayout& layout) {
     char separator = '\0';
     for (const Property& property : layout.properties) {
       if (std::exchange(separator, ',') != '\0') text += ',';
-      with_type(property.type, [&](auto value) {
-        std::memcpy(&value, &rows[property.offset], sizeof value);
-        append(text, value);
-      });
+      with_type(property.type,
+                [&](auto zero) { append(text, load<decltype(zero)>(&rows[property.offset])); });
     }
     text += '\n';
   }

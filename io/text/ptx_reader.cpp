@@ -3,6 +3,7 @@
 
 #include "engine/run/error.hpp"
 #include "io/files/input_file.hpp"
+#include "io/files/little_endian.hpp"
 #include "io/files/number.hpp"
 #include "io/rows/pose.hpp"
 #include "io/rows/scalar.hpp"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
@@ -160,19 +160,15 @@ class PtxReader final : public ScanReader {
     if (is_return && own.allFinite()) block_.take(own);
     const Eigen::Vector3d place =
         is_return ? pose_ * own : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-    const auto put = [&](auto value) {
-      std::memcpy(to, &value, sizeof value);
-      to += sizeof value;
-    };
-    for (const double coordinate : place) put(coordinate);
-    put(static_cast<float>(line_[3]));
+    for (const double coordinate : place) store_next(to, coordinate);
+    store_next(to, static_cast<float>(line_[3]));
     // Scans with and without colours may follow each other: without is black.
     for (std::size_t i = 4; has_colours_ && i < 7; ++i) {
       if (std::isnan(line_[i]))
         in_.fail_at_line(in_.line(), "a colour is not a number; 0 to 255 are allowed");
-      put(static_cast<std::uint8_t>(std::clamp(line_[i], 0.0, 255.0)));
+      store_next(to, static_cast<std::uint8_t>(std::clamp(line_[i], 0.0, 255.0)));
     }
-    put(scan_ - 1);
+    store_next(to, scan_ - 1);
   }
 
   // What the returns of a block say of its pose.

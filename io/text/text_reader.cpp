@@ -2,13 +2,13 @@
 #include "io/text/text_reader.hpp"
 
 #include "io/files/input_file.hpp"
+#include "io/files/little_endian.hpp"
 #include "io/files/number.hpp"
 #include "io/rows/scalar.hpp"
 #include "io/text/text_cells.hpp"
 #include "io/text/text_columns.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -78,14 +78,10 @@ class TextReader final : public ScanReader {
     ++rows_;
     const std::string_view row = rest;
     std::string_view cell;
-    const auto put = [&](double value) {
-      std::memcpy(to, &value, sizeof(value));
-      to += sizeof(value);
-    };
     for (std::size_t i = 0; i < is_read_.size(); ++i) {
       double value;
       if (is_read_[i] && take_number(rest, columns_.separator, value)) {
-        put(value);
+        store_next(to, value);
         continue;
       }
       if (!next_cell(rest, columns_.separator, cell)) {
@@ -100,7 +96,7 @@ class TextReader final : public ScanReader {
         if (!is_missing(cell)) fail_number(cell, row);
         value = std::numeric_limits<double>::quiet_NaN();
       }
-      put(value);
+      store_next(to, value);
     }
     if (!columns_.has_more && next_cell(rest, columns_.separator, cell)) fail_number_of_values("more");
   }

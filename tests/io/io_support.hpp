@@ -61,7 +61,7 @@ inline Table read_table(const fs::path& file, std::size_t max_rows = 1000,
         double value = 0;
         io::copy_column(
             {.data = batch.bytes.data() + row * layout.stride + property.offset,
-             .stride = layout.stride,
+             .stride = 0,
              .type = property.type},
             {.data = reinterpret_cast<std::byte*>(&value), .stride = 8, .type = io::Scalar::kFloat64}, 1);
         values.push_back(value);

@@ -2,7 +2,6 @@
 #include "tools/console/progress.hpp"
 
 #include "tests/support/test.hpp"
-#include "tools/run/run_steps.hpp"
 
 namespace lacuna::tools {
 namespace {

@@ -10,20 +10,16 @@
 #include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
 #include "tools/console/visible_text.hpp"
-#include "tools/matching/compare_loops.hpp"
 #include "tools/run/scan_warnings.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <map>
 #include <memory>
-#include <string>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -134,9 +130,6 @@ std::string like_other_units(const ComparedResult& a, const ComparedResult& b) {
 ComparedResult read_result(const fs::path& folder) {
   constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max() / 8;
   const io::Scene scene = io::read_scene(folder, {.positions = kAll, .loops = kAll});
-  const auto place_of = [&](const Eigen::Vector3f& p) -> Eigen::Vector3d {
-    return scene.origin + p.cast<double>();
-  };
   const auto text_of = [&](const char* key) {
     const auto& text = scene.holes.at(key);
     return text.is_string() ? text.get<std::string>() : "";
@@ -148,12 +141,11 @@ ComparedResult read_result(const fs::path& folder) {
                         .unit = text_of("unit"),
                         .crs = text_of("crs")};
   if (!scene.bounds.isEmpty()) result.middle = scene.bounds.center();
-  for (const Eigen::Vector3f& p : scene.points.positions) result.scan.sample.push_back(place_of(p));
+  for (const Eigen::Vector3f& p : scene.points.positions) result.scan.sample.push_back(scene.place(p));
   for (std::size_t i = 0; i < scene.loops.measures.size(); ++i) {
     ComparedLoop& loop = result.scan.loops.emplace_back();
     loop.measures = scene.loops.measures[i];
-    for (std::size_t v = scene.loops.first[i]; v < scene.loops.first[i + 1]; ++v)
-      loop.points.push_back(place_of(scene.loops.vertices[v]));
+    for (const Eigen::Vector3f& p : scene.loops.vertices_of(i)) loop.points.push_back(scene.place(p));
   }
   return result;
 }
@@ -255,8 +247,7 @@ void Comparison::show_in(io::Scene& scene) const {
   };
   for (const std::uint64_t id : loops.ids) add(*change_of.at(id));
 
-  // Loops of the first result may lie beyond the second one: the cube of the scene grows.
-  Eigen::AlignedBox3d box(scene.origin, scene.origin + Eigen::Vector3d::Constant(scene.edge));
+  Eigen::AlignedBox3d box;  // of the loops of the first result, which may lie beyond the second one
   std::vector<const LoopChange*> lost;
   for (const LoopChange& change : changes) {
     if (!change.after.empty()) continue;
@@ -264,11 +255,7 @@ void Comparison::show_in(io::Scene& scene) const {
     for (const std::size_t loop : change.before)
       for (const Eigen::Vector3d& point : before.scan.loops[loop].points) box.extend(point);
   }
-  const Eigen::Vector3f moved = (scene.origin - box.min()).cast<float>();
-  for (Eigen::Vector3f& position : scene.points.positions) position += moved;
-  for (Eigen::Vector3f& vertex : loops.vertices) vertex += moved;
-  scene.origin = box.min();
-  scene.edge = box.sizes().maxCoeff();
+  io::extend(scene, box);
   for (const LoopChange* const change : lost) {
     for (const std::size_t loop : change->before) {
       const ComparedLoop& drawn = before.scan.loops[loop];

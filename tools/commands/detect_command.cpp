@@ -12,26 +12,19 @@
 #include "tools/commands/summary.hpp"
 #include "tools/commands/workspace_commands.hpp"
 #include "tools/console/area_text.hpp"
-#include "tools/console/command_line.hpp"
-#include "tools/console/progress.hpp"
 #include "tools/console/terminal.hpp"
 #include "tools/console/visible_text.hpp"
 #include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
-#include "tools/run/parameter_options.hpp"
-#include "tools/run/run_steps.hpp"
 #include "tools/run/scan_warnings.hpp"
 #include "tools/run/signals.hpp"
 
 #include <array>
 #include <chrono>
-#include <filesystem>
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <spdlog/spdlog.h>
 
@@ -76,7 +69,8 @@ std::unique_ptr<KeptFolder> use_workspace(const fs::path& folder) {
 
 // What a run holds until its results are written. Each member may use the ones before, and goes before them.
 struct RunResources {
-  RunResources(const std::vector<ScanInput>& inputs, const FilesConfig& config, const ResultArguments& arguments)
+  RunResources(const std::vector<ScanInput>& inputs, const FilesConfig& config,
+               const ResultArguments& arguments)
       : scan(open_inputs(inputs, config)), area(read_area(scan, config)), out(arguments.out, "holes.json") {
     check_results(scan, config, out.results());
     workspace = use_workspace(config.run.workspace);

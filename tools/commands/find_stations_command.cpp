@@ -15,12 +15,12 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iomanip>
 #include <iostream>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <vector>
+
+#include <spdlog/fmt/fmt.h>
 
 namespace lacuna::tools {
 using namespace io;
@@ -46,12 +46,6 @@ struct Listed {
   std::string line, subject;
   double share = 0, certainty = 0;
 };
-
-std::string with_decimals(double value, int decimals) {
-  std::ostringstream out;
-  out << std::fixed << std::setprecision(decimals) << value;
-  return out.str();
-}
 
 // These characters may not be in a field of a list: they end a field or a line, or begin a comment.
 bool divides(char c) {
@@ -84,7 +78,7 @@ Listed listed(const Sweep& sweep, const FoundStation& found, const ScanFiles& sc
                  .subject = subject_of(sweep, scan),
                  .share = found.share};
   for (const double coordinate : found.place)
-    station.line += " " + with_decimals(std::round(1e4 * coordinate) / 1e4 + 0.0, 4);
+    station.line += fmt::format(" {:.4f}", std::round(1e4 * coordinate) / 1e4 + 0.0);
   station.line += " " + name_in_list(sweep.file, scan) + (source.empty() ? "" : " " + source);
   return station;
 }
@@ -124,12 +118,12 @@ void run_find_stations(const FindArguments& arguments) {
   std::string lines;
   for (const Listed& station : stations) {
     const std::string points =
-        with_decimals(100 * station.certainty, 2) + " % of its points can have been seen from there";
+        fmt::format("{:.2f} % of its points can have been seen from there", 100 * station.certainty);
     if (station.certainty < StationView::kLeastCertain) {
       others.push_back(station.subject + ": only " + points);
     } else {
-      lines += "# " + with_decimals(100 * station.share, 0) + " % of the jumps agree; " + points + "\n" +
-               station.line + "\n";
+      lines +=
+          fmt::format("# {:.0f} % of the jumps agree; {}\n{}\n", 100 * station.share, points, station.line);
     }
   }
   if (lines.empty()) throw Error("no station was found: " + others.front());

@@ -3,7 +3,9 @@
 
 #include "engine/config/config.hpp"
 #include "engine/inspect.hpp"
+#include "engine/run/disk_space.hpp"
 #include "engine/run/parallel.hpp"
+#include "io/files/number.hpp"
 #include "io/formats.hpp"
 #include "io/loops/json.hpp"
 #include "io/scan/scan_files.hpp"
@@ -22,14 +24,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <iterator>
 #include <memory>
 #include <numbers>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include <spdlog/spdlog.h>
 
@@ -129,13 +128,6 @@ RunInfo inspect_run(const ScanFiles& scan, const FilesConfig& config) {
     run.stations_bytes = stations->disk_bytes();
   }
   return run;
-}
-
-std::string print_point(const Eigen::Vector3d& point) {
-  std::ostringstream out;
-  out.precision(10);
-  out << point.x() << " " << point.y() << " " << point.z();
-  return out.str();
 }
 
 std::string print_stations(const std::vector<StationSummary>& stations, std::string_view unit) {

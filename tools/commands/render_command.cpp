@@ -9,6 +9,7 @@
 #include "tools/console/visible_text.hpp"
 #include "tools/run/folders.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -48,10 +49,8 @@ std::pair<std::size_t, std::size_t> parse_size(const std::string& text) {
 std::optional<double> roof_before(std::optional<std::size_t> loop, const Scene& scene) {
   const std::optional<double> height = roof_height(scene);
   if (!height || !loop) return height;
-  const Scene::Loops& loops = scene.loops;
-  for (std::size_t i = loops.first[*loop]; i < loops.first[*loop + 1]; ++i)
-    if (scene.origin.z() + loops.vertices[i].z() > *height) return std::nullopt;
-  return height;
+  const auto is_above = [&](const Eigen::Vector3f& p) { return scene.origin.z() + p.z() > *height; };
+  return std::ranges::any_of(scene.loops.vertices_of(*loop), is_above) ? std::nullopt : height;
 }
 
 void run_render(const RenderArguments& arguments) {

@@ -7,8 +7,8 @@
 #include "io/files/result_folder.hpp"
 #include "io/report/scene.hpp"
 #include "io/rows/vectors.hpp"
+#include "io/stations/list_lines.hpp"
 #include "io/stations/next_stations.hpp"
-#include "io/stations/place_list.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/measures_text.hpp"
@@ -61,10 +61,7 @@ double share_to_see(const LoopCause& cause) {
 
 HiddenScan hidden_in(const Scene& scene) {
   HiddenScan found;
-  const auto place = [&](const Eigen::Vector3f& position) {
-    return Eigen::Vector3d(scene.origin + position.cast<double>());
-  };
-  for (const Eigen::Vector3f& position : scene.points.positions) found.points.push_back(place(position));
+  for (const Eigen::Vector3f& p : scene.points.positions) found.points.push_back(scene.place(p));
   found.normals = scene.points.normals;
   std::vector<Eigen::Vector3d> loop;
   for (std::size_t i = 0; i < scene.loops.ids.size(); ++i) {
@@ -73,8 +70,7 @@ HiddenScan hidden_in(const Scene& scene) {
     found.has_causes |= measures.cause.main().has_value();
     if (measures.kind != LoopKind::kHole || !(share > 0)) continue;
     loop.clear();
-    for (std::size_t v = scene.loops.first[i]; v < scene.loops.first[i + 1]; ++v)
-      loop.push_back(place(scene.loops.vertices[v]));
+    for (const Eigen::Vector3f& p : scene.loops.vertices_of(i)) loop.push_back(scene.place(p));
     for (InnerSample& inside : inside_places(loop)) {
       inside.area *= share;
       found.area += inside.area;

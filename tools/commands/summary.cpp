@@ -12,9 +12,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <optional>
 #include <utility>
+
+#include <spdlog/fmt/fmt.h>
 
 namespace lacuna::tools {
 using namespace io;
@@ -22,15 +23,7 @@ using namespace io;
 namespace {
 
 std::string print_number(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.3g", value);
-  return buffer;
-}
-
-std::string print_share(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.3f", value);
-  return buffer;
+  return fmt::format("{:.3g}", value);
 }
 
 constexpr std::size_t kMostRows = 10;
@@ -71,7 +64,7 @@ std::string print_largest(const std::vector<LoopMeasures>& loops, const std::vec
     rows.push_back({"loop " + std::to_string(holes[at]), print_area(loop.area, unit),
                     print_length(loop.perimeter, unit), print_length(loop.diameter, unit),
                     print_place(loop.centroid, extent), print_count(loop.points),
-                    print_share(loop.track.confidence)});
+                    fmt::format("{:.3f}", loop.track.confidence)});
   }
   std::string text = "\n" + print_table(rows);
   if (holes.size() > kMostRows) {

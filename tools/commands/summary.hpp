@@ -2,7 +2,6 @@
 // The summary that a person reads after a run.
 #pragma once
 
-#include "engine/run/disk_space.hpp"
 #include "io/scan/scan_files.hpp"
 #include "io/stations/cause.hpp"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/commands/workspace_commands.hpp"
 
-#include "engine/kept_state.hpp"
 #include "engine/parts/kept_files.hpp"
 #include "engine/parts/parts.hpp"
 #include "engine/run/disk_space.hpp"
@@ -14,13 +13,13 @@
 
 #include <ctime>
 #include <filesystem>
-#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <regex>
-#include <sstream>
 
+#include <spdlog/fmt/chrono.h>
+#include <spdlog/fmt/fmt.h>
 #include <unistd.h>
 
 namespace lacuna::tools {
@@ -42,11 +41,7 @@ std::string print_input(const std::string& line) {
   std::smatch parts;
   if (!std::regex_match(line, parts, file)) return "";
   const std::time_t seconds = std::stoll(parts[2]);
-  std::tm local{};
-  localtime_r(&seconds, &local);
-  std::ostringstream text;
-  text << "  " << visible(parts[1].str()) << ", written " << std::put_time(&local, "%Y-%m-%d %H:%M") << "\n";
-  return text.str();
+  return fmt::format("  {}, written {:%Y-%m-%d %H:%M}\n", visible(parts[1].str()), fmt::localtime(seconds));
 }
 
 void print_status(const fs::path& folder) {

@@ -212,11 +212,6 @@ const Option& Option::type(const std::string& name) const {
   return *this;
 }
 
-const Option& Option::help(const std::string& text) const {
-  option_->description(text);
-  return *this;
-}
-
 const Option& Option::section(const std::string& name) const {
   option_->group(name);
   return *this;

@@ -34,7 +34,6 @@ class Option {
 
   const Option& required() const;
   const Option& type(const std::string& name) const;     // "DIR": what it takes, for the help
-  const Option& help(const std::string& text) const;     // in place of the help given before
   const Option& section(const std::string& name) const;  // of --help-all
   const Option& show_default() const;                    // the variable's value at this moment
   // The default as the config file has it. An empty one is not shown.

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstdio>
+
+#include <spdlog/fmt/fmt.h>
 
 namespace lacuna::tools {
 namespace {
@@ -13,19 +13,14 @@ constexpr int kDigits = 3;
 constexpr double kLeastPlain = 1e-3, kMostPlain = 1e15;
 
 std::string print_number(double value) {
-  char buffer[64];
   const double size = std::fabs(value);
-  if (size != 0 && !(size >= kLeastPlain && size < kMostPlain)) {
-    std::snprintf(buffer, sizeof buffer, "%.*g", kDigits, value);
-    return buffer;
-  }
+  if (size != 0 && !(size >= kLeastPlain && size < kMostPlain)) return fmt::format("{:.{}g}", value, kDigits);
   if (size >= 999.5)
     return (value < 0 ? "-" : "") + print_count(static_cast<std::uint64_t>(std::llround(size)));
   // 9.996 has three digits as 10.0.
   int decimals = size > 0 ? kDigits - 1 - static_cast<int>(std::floor(std::log10(size))) : kDigits - 1;
   if (size * std::pow(10, decimals) >= std::pow(10, kDigits) - 0.5) --decimals;
-  std::snprintf(buffer, sizeof buffer, "%.*f", std::max(decimals, 0), value);
-  return buffer;
+  return fmt::format("{:.{}f}", value, std::max(decimals, 0));
 }
 
 std::string with_unit(double value, std::string_view unit, const char* power) {
@@ -61,9 +56,7 @@ std::string print_place(const Eigen::Vector3d& place, double extent) {
     // -0.004 is 0.00, not -0.00.
     const double step = std::pow(10, decimals);
     const double value = std::round(place[axis] * step) / step + 0.0;
-    char buffer[400];
-    std::snprintf(buffer, sizeof buffer, "%.*f", decimals, value);
-    text += (axis > 0 ? " " : "") + std::string(buffer);
+    text += (axis > 0 ? " " : "") + fmt::format("{:.{}f}", value, decimals);
   }
   return text;
 }

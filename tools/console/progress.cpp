@@ -2,17 +2,14 @@
 #include "tools/console/progress.hpp"
 
 #include "tools/console/terminal.hpp"
-#include "tools/console/visible_text.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <condition_variable>
-#include <cstdio>
 #include <cstdlib>
 #include <stop_token>
 #include <thread>
-#include <utility>
 
+#include <spdlog/fmt/fmt.h>
 #include <unistd.h>
 
 namespace lacuna::tools {
@@ -49,10 +46,7 @@ std::string run_time(const StepProgress& progress) {
 }
 
 std::string json_number(const std::optional<double>& value) {
-  if (!value) return "null";
-  char buffer[400];
-  std::snprintf(buffer, sizeof buffer, "%.3f", *value);
-  return buffer;
+  return value ? fmt::format("{:.3f}", *value) : "null";
 }
 
 std::optional<double> seconds_left_of(std::optional<double> share, double seconds) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/console/run_share.hpp"
 
+#include "engine/thin/thin.hpp"
+
 #include <algorithm>
 
 namespace lacuna::tools {
@@ -25,9 +27,16 @@ double weight_of(std::string_view step) {
 
 }  // namespace
 
-RunSteps all_steps() {
+RunSteps steps_of_run(const Config& config, bool has_area) {
   RunSteps steps;
   for (const StepWeight& weight : kWeights) steps.push_back(weight.step);
+  std::erase_if(steps, [&](std::string_view step) {
+    if (step == "thin") return first_edge(config.scale) == 0;
+    if (step == "levels" || step == "track") return !has_levels(config);
+    if (step == "orient") return !config.normals.orient;
+    if (step == "area" || step == "voids") return !has_area;
+    return false;
+  });
   return steps;
 }
 

@@ -2,6 +2,8 @@
 // How much of a run is done, from the step that it is at.
 #pragma once
 
+#include "engine/config/config.hpp"
+
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -11,8 +13,8 @@ namespace lacuna::tools {
 // The names of steps, in the order in which a run begins them.
 using RunSteps = std::vector<std::string_view>;
 
-// Returns all steps that a run may have.
-RunSteps all_steps();
+// Returns the steps of a run that finds holes, and then checks an area if it has one.
+RunSteps steps_of_run(const Config& config, bool has_area);
 // Returns the steps of a check of an area.
 RunSteps steps_of_check();
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include <poll.h>
+#include <spdlog/fmt/fmt.h>
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 #include <sys/ioctl.h>
@@ -92,13 +93,6 @@ class ConsoleSink final : public spdlog::sinks::base_sink<std::mutex> {
   void flush_() override {}
 };
 
-template <typename... Values>
-std::string formatted(const char* format, Values... values) {
-  char buffer[96];
-  std::snprintf(buffer, sizeof buffer, format, values...);
-  return buffer;
-}
-
 }  // namespace
 
 void start_log(const std::string& program) {
@@ -151,16 +145,16 @@ std::size_t terminal_width() {
 
 std::string print_rate(std::uint64_t points, double seconds) {
   const double millions = double(points) / std::max(seconds, 1e-9) / 1e6;
-  return formatted(millions < 10 ? "%.2f M points/s" : "%.0f M points/s", millions);
+  return fmt::format("{:.{}f} M points/s", millions, millions < 10 ? 2 : 0);
 }
 
 std::string print_duration(double seconds) {
   if (!(seconds < 1e9)) return "a long time";
-  if (seconds < 9.995) return formatted("%.2f s", seconds);
-  if (seconds < 59.95) return formatted("%.1f s", seconds);
+  if (seconds < 9.995) return fmt::format("{:.2f} s", seconds);
+  if (seconds < 59.95) return fmt::format("{:.1f} s", seconds);
   const auto whole = static_cast<long long>(std::llround(seconds));
-  if (whole < 3600) return formatted("%lld:%02lld min", whole / 60, whole % 60);
-  return formatted("%lld:%02lld:%02lld h", whole / 3600, whole / 60 % 60, whole % 60);
+  if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+  return fmt::format("{}:{:02}:{:02} h", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
 }  // namespace lacuna::tools

@@ -3,7 +3,6 @@
 
 #include "tools/matching/edge_tree.hpp"
 
-#include <algorithm>
 #include <map>
 #include <tuple>
 

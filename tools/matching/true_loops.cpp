@@ -12,12 +12,12 @@ std::array<double, 3> place_of(const Eigen::Vector3d& p) {
   return {p.x(), p.y(), p.z()};
 }
 
+}  // namespace
+
 void sort_once(std::vector<std::uint64_t>& ids) {
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
-
-}  // namespace
 
 std::vector<std::uint64_t> stand_ins(std::span<const Eigen::Vector3d> positions) {
   std::vector<std::uint64_t> stands_for(positions.size());

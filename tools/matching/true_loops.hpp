@@ -31,6 +31,9 @@ struct TrueLoop {
 // not finite gets its own id.
 std::vector<std::uint64_t> stand_ins(std::span<const Eigen::Vector3d> positions);
 
+// Sorts ids, and leaves out those that are repeated.
+void sort_once(std::vector<std::uint64_t>& ids);
+
 // Returns the closed polygons through `ids`, in their order.
 std::vector<TrueLoop> loops_through(std::span<const LoopIds> ids, std::span<const std::uint64_t> stand_ins);
 

@@ -4,8 +4,8 @@
 #include "io/rows/vectors.hpp"
 #include "tools/console/measures_text.hpp"
 
-#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string_view>
 #include <vector>
@@ -16,27 +16,27 @@ namespace {
 using namespace io;
 
 std::string_view name_of_class(int number) {
-  constexpr std::array<std::string_view, 19> kNames = {"never classified",
-                                                       "unclassified",
-                                                       "ground",
-                                                       "low vegetation",
-                                                       "medium vegetation",
-                                                       "high vegetation",
-                                                       "building",
-                                                       "low point",
-                                                       "",
-                                                       "water",
-                                                       "rail",
-                                                       "road",
-                                                       "",
-                                                       "wire guard",
-                                                       "wire conductor",
-                                                       "transmission tower",
-                                                       "wire connector",
-                                                       "bridge deck",
-                                                       "high noise"};
-  const bool is_known = number >= 0 && static_cast<std::size_t>(number) < kNames.size();
-  return is_known ? kNames[static_cast<std::size_t>(number)] : std::string_view();
+  constexpr std::string_view kNames[] = {"never classified",
+                                         "unclassified",
+                                         "ground",
+                                         "low vegetation",
+                                         "medium vegetation",
+                                         "high vegetation",
+                                         "building",
+                                         "low point",
+                                         "",
+                                         "water",
+                                         "rail",
+                                         "road",
+                                         "",
+                                         "wire guard",
+                                         "wire conductor",
+                                         "transmission tower",
+                                         "wire connector",
+                                         "bridge deck",
+                                         "high noise"};
+  const bool is_known = number >= 0 && number < std::ssize(kNames);
+  return is_known ? kNames[number] : std::string_view();
 }
 
 }  // namespace

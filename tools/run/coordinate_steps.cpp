@@ -6,9 +6,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <sstream>
 #include <utility>
 #include <vector>
+
+#include <spdlog/fmt/fmt.h>
 
 namespace lacuna::tools {
 namespace {
@@ -89,13 +90,14 @@ std::string steps_warning(const Detection& detection, bool is_single_precision) 
     widest = std::max(widest, step);
   }
   if (!is_wide) return "";
-  std::ostringstream warning;
-  warning << "coordinates are in steps of " << widest << ", and neighbours are " << distance << " apart";
-  if (shared > kDuplicates)
-    warning << "; " << std::lround(100 * shared) << " % of the points are at places of others";
-  warning << "; the scan needs finer steps, such as a smaller scale in LAS, double precision, or coordinates "
-             "near 0";
-  return warning.str();
+  return fmt::format(
+      "coordinates are in steps of {:g}, and neighbours are {:g} apart{}; the scan needs finer steps, such "
+      "as "
+      "a smaller scale in LAS, double precision, or coordinates near 0",
+      widest, distance,
+      shared > kDuplicates
+          ? fmt::format("; {} % of the points are at places of others", std::lround(100 * shared))
+          : "");
 }
 
 }  // namespace lacuna::tools

@@ -7,9 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <mutex>
-#include <string>
 #include <system_error>
-#include <vector>
 
 #include <unistd.h>
 

@@ -18,7 +18,6 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
-#include <string>
 
 #include <fcntl.h>
 #include <spdlog/spdlog.h>

@@ -6,6 +6,7 @@
 #include "engine/run/machine_memory.hpp"
 #include "io/crs/crs_text.hpp"
 #include "io/crs/stated_crs.hpp"
+#include "io/files/number.hpp"
 #include "io/scan/plan_system.hpp"
 #include "io/scan/scan_identity.hpp"
 #include "io/stations/own_frames.hpp"
@@ -17,29 +18,24 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
-#include <iomanip>
 #include <map>
 #include <numbers>
-#include <optional>
-#include <sstream>
 #include <utility>
+
+#include <spdlog/fmt/fmt.h>
 
 namespace lacuna::tools {
 using namespace io;
 
 namespace {
 
-const Eigen::IOFormat kOnePlace(10, Eigen::DontAlignCols);  // a row vector
 constexpr const char* kDegrees = " is in longitude and latitude, and holes need lengths";
 
 // Prints a coordinate in whole steps, a power of ten.
 std::string print_in_steps(double value, double step) {
   const int decimals = std::max(0, static_cast<int>(std::lround(-std::log10(step))));
-  std::array<char, 400> text;
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, value * step + 0.0);
-  return text.data();
+  return fmt::format("{:.{}f}", value * step + 0.0, decimals);
 }
 
 std::string file_name(const ScanFiles& scan, std::size_t i) {
@@ -100,13 +96,11 @@ void warn_of_own_axes(const ScanFiles& scan, const ScanCounts& counts, std::vect
     return has_place && file.scanner.value_or(Eigen::Vector3d::Zero()) != *first->scanner;
   };
   if (std::ranges::none_of(files, is_elsewhere)) return;
-  std::ostringstream text;
-  text.precision(10);
-  text << "points lie around 0 0 0, and not around the viewpoint "
-       << first->scanner->transpose().format(kOnePlace)
-       << "; if they are in the axes of their scanner, `FILE pose=viewpoint` in a list moves each PCD to its "
-          "place, and `pose=` with numbers any file";
-  warn_of_files(scan, warnings, is_moved, [&](const ScanFile&) { return text.str(); });
+  const std::string text =
+      "points lie around 0 0 0, and not around the viewpoint " + print_point(*first->scanner) +
+      "; if they are in the axes of their scanner, `FILE pose=viewpoint` in a list moves each PCD to its "
+      "place, and `pose=` with numbers any file";
+  warn_of_files(scan, warnings, is_moved, [&](const ScanFile&) { return text; });
 }
 
 void warn_of_other_systems(const ScanFiles& scan, std::vector<std::string>& warnings) {
@@ -200,36 +194,25 @@ void refuse_other_scale(const ScanFiles& scan, std::size_t file, const std::stri
   if (!scale) return;
   const double x = scale->scale_x, y = scale->scale_y;
   if (std::max(std::abs(x - 1), std::abs(y - 1)) <= kMost) return;
-  std::ostringstream text;
-  text.precision(3);
-  text << name << ": " << crs_name(crs) << " has lengths " << x;
-  if (std::abs(x / y - 1) > kMost)
-    text << " times (along y " << y << " times)";
-  else
-    text << " times";
-  text << " those on the ground at latitude " << scale->latitude
-       << "; `pdal translate IN OUT reprojection --filters.reprojection.out_srs="
-       << utm_zone(scale->longitude, scale->latitude)
-       << "` brings them to scale; if its coordinates are true lengths, --crs can state their system";
-  throw Error(text.str());
+  throw Error(fmt::format(
+      "{}: {} has lengths {:.3g} times{} those on the ground at latitude {:.3g}; `pdal translate IN OUT "
+      "reprojection --filters.reprojection.out_srs={}` brings them to scale; if its coordinates are true "
+      "lengths, --crs can state their system",
+      name, crs_name(crs), x, std::abs(x / y - 1) > kMost ? fmt::format(" (along y {:.3g} times)", y) : "",
+      scale->latitude, utm_zone(scale->longitude, scale->latitude)));
 }
 
 [[noreturn]] void refuse_longitudes(const ScanFiles& scan, std::size_t file) {
   const std::string name = scan.files()[file].crs.empty() ? "its system" : crs_name(scan.files()[file].crs);
-  std::ostringstream text;
-  text.precision(10);
-  text << file_name(scan, file) << ": " << name;
   const auto place = find_place(scan, file);
-  if (place && place->head<2>().cwiseAbs().maxCoeff() > 360) {
-    text << " is in longitude and latitude, but its coordinates are far beyond degrees, such as "
-         << place->x() << " " << place->y()
-         << "; --crs states the system that they are in, such as EPSG:25832";
-  } else {
-    text << kDegrees
-         << "; `pdal translate IN OUT reprojection --filters.reprojection.out_srs=EPSG:N` projects "
-         << "it; if its coordinates are lengths, --crs can state their system";
-  }
-  throw Error(text.str());
+  if (place && place->head<2>().cwiseAbs().maxCoeff() > 360)
+    throw Error(fmt::format(
+        "{}: {} is in longitude and latitude, but its coordinates are far beyond degrees, such as {:.10g} "
+        "{:.10g}; --crs states the system that they are in, such as EPSG:25832",
+        file_name(scan, file), name, place->x(), place->y()));
+  throw Error(file_name(scan, file) + ": " + name + kDegrees +
+              "; `pdal translate IN OUT reprojection --filters.reprojection.out_srs=EPSG:N` projects it; if "
+              "its coordinates are lengths, --crs can state their system");
 }
 
 }  // namespace
@@ -307,28 +290,24 @@ std::string print_bounds(const Eigen::AlignedBox3d& box, double margin) {
 std::string stray_warning(const Strays& strays, double resolution) {
   if (strays.points == 0) return "";
   const bool is_one = strays.points == 1;
-  std::ostringstream text;
-  text.precision(10);
-  text << print_count(strays.points) << (is_one ? " point lies" : " points lie") << " far from all others, "
-       << (is_one ? "at " : "such as at ") << strays.example.x() << " " << strays.example.y() << " "
-       << strays.example.z() << "; reports and pictures leave " << (is_one ? "it" : "them") << " out. ";
-  if (strays.has_origin) text << "--drop-origin drops points at 0 0 0";
-  if (strays.has_origin && !is_one) text << "; ";
+  std::string text = counted(strays.points, "point lies", "points lie") + " far from all others, " +
+                     (is_one ? "at " : "such as at ") + print_point(strays.example) +
+                     "; reports and pictures leave " + (is_one ? "it" : "them") + " out. ";
+  if (strays.has_origin) text += "--drop-origin drops points at 0 0 0";
+  if (strays.has_origin && !is_one) text += "; ";
   if (!strays.has_origin || !is_one)
-    text << "--bounds=" << print_bounds(strays.rest, resolution) << " keeps the others alone";
-  return text.str();
+    text += "--bounds=" + print_bounds(strays.rest, resolution) + " keeps the others alone";
+  return text;
 }
 
 std::string normals_warning(const Counts& counts, NormalsUse use) {
   constexpr std::uint64_t kFew = 100;
   if (counts.normals_off == 0 || kFew * counts.normals_off < counts.points) return "";
-  std::ostringstream text;
-  text << print_count(counts.normals_off)
-       << " normals of the scan are off by more than 45 degrees from the surface"
-       << (use == NormalsUse::kGiven
-               ? ", so that holes can be missed; --normals estimated leaves them out"
-               : "; these are estimated from the points instead; --normals given uses those of the scan");
-  return text.str();
+  return print_count(counts.normals_off) +
+         " normals of the scan are off by more than 45 degrees from the surface" +
+         (use == NormalsUse::kGiven
+              ? ", so that holes can be missed; --normals estimated leaves them out"
+              : "; these are estimated from the points instead; --normals given uses those of the scan");
 }
 
 std::vector<std::string> filter_warnings(const ScanFiles& scan, const ScanCounts& counts,
@@ -390,13 +369,10 @@ std::string nothing_warning(const Detection& detection, const SelectionConfig& s
   const bool is_left_out = summary.counts.raw_loops > 0 && !(selection == SelectionConfig());
   if (!detection.loops.empty() || points < kMany || is_left_out) return "";
   const std::string found = "neither a hole nor an outer curve among " + print_count(points) + " points; ";
-  if (summary.mean_neighbours < kLeastNeighbours) {
-    std::ostringstream few;
-    few.precision(2);
-    few << found << "they have " << summary.mean_neighbours
-        << " neighbours on average, which are too few to show a surface; --k states more";
-    return few.str();
-  }
+  if (summary.mean_neighbours < kLeastNeighbours)
+    return fmt::format(
+        "{}they have {:.2g} neighbours on average, which are too few to show a surface; --k states more",
+        found, summary.mean_neighbours);
   if (are_lines(summary.levels))
     return found + "they lie on lines, as of a wire or a single profile, and holes need a surface";
   // On a thin surface, all levels have the area that follows from the distances of the first one. Points that
@@ -420,12 +396,12 @@ std::vector<std::string> scan_warnings(const ScanFiles& scan, const ExplainedDet
                                        const FilesConfig& config) {
   const Summary& summary = detection.summary;
   std::vector<std::string> warnings = filter_warnings(scan, detection.counts, summary.strays.rest);
-  if (std::string nothing = nothing_warning(detection, with_min_hole(config).selection); !nothing.empty())
-    warnings.push_back(std::move(nothing));
-  if (std::string strays = stray_warning(summary.strays, summary.resolution); !strays.empty())
-    warnings.push_back(std::move(strays));
-  if (std::string normals = normals_warning(summary.counts, config.normals.use); !normals.empty())
-    warnings.push_back(std::move(normals));
+  const auto add = [&](std::string line) {
+    if (!line.empty()) warnings.push_back(std::move(line));
+  };
+  add(nothing_warning(detection, with_min_hole(config).selection));
+  add(stray_warning(summary.strays, summary.resolution));
+  add(normals_warning(summary.counts, config.normals.use));
   const Counts& counts = summary.counts;
   const std::uint64_t points = counts.points - counts.dropped - counts.thinned_out - counts.duplicates;
   if (points <= static_cast<std::uint64_t>(config.neighbourhood.k)) {
@@ -434,15 +410,12 @@ std::vector<std::string> scan_warnings(const ScanFiles& scan, const ExplainedDet
   }
   const bool thins = counts.thinned_out > counts.points / 100;
   if (config.scale.min_hole > 0 && summary.resolution > 0 && !thins && points > 0) {
-    std::ostringstream warning;
-    warning << "--min-hole " << config.scale.min_hole << " thins nothing: neighbours are "
-            << summary.median_distance << " apart"
-            << (scan.length_unit().empty() ? "" : " " + scan.length_unit())
-            << "; it is a length in the unit of the scan";
-    warnings.push_back(warning.str());
+    warnings.push_back(fmt::format(
+        "--min-hole {:g} thins nothing: neighbours are {:g} apart{}; it is a length in the unit of the scan",
+        config.scale.min_hole, summary.median_distance,
+        scan.length_unit().empty() ? "" : " " + scan.length_unit()));
   }
-  if (std::string steps = steps_warning(detection, has_single_precision(scan)); !steps.empty())
-    warnings.push_back(std::move(steps));
+  add(steps_warning(detection, has_single_precision(scan)));
   warn_of_own_frames(scan, detection, warnings);
   return warnings;
 }
@@ -459,23 +432,19 @@ void warn_of_path(const StationSummary& station, std::vector<std::string>& warni
   constexpr std::uint64_t kFewRays = 100;
   constexpr double kFarOff = 0.01;  // radians; no scanner has so narrow a view
   const std::uint64_t rows = station.left_out.rows;
-  if (rows > 0) {
-    std::ostringstream message;
-    message.precision(12);
-    message << "trajectory " << visible(station.name) << ": " << print_count(rows)
-            << (rows == 1 ? " row is" : " rows are") << " left out, at time " << station.left_out.time
-            << (rows == 1 ? "" : " and later") << ": a hundred times the speed of the others leads there";
-    warnings.push_back(message.str());
-  }
+  if (rows > 0)
+    warnings.push_back(
+        fmt::format("trajectory {}: {} left out, at time {:.12g}{}: a hundred times the speed "
+                    "of the others leads there",
+                    visible(station.name), counted(rows, "row is", "rows are"), station.left_out.time,
+                    rows == 1 ? "" : " and later"));
   const bool is_refused = station.certainty < StationView::kLeastCertain;
   if (station.path > 0 || station.points < kFewRays || is_refused || !(station.spread < kFarOff)) return;
-  std::ostringstream message;
-  message.precision(2);
-  message << "station " << visible(station.name) << ", at " << station.place.transpose().format(kOnePlace)
-          << ", has most of its points within " << degrees_of(station)
-          << " degrees of one direction, as from a place far off; causes of holes depend on it; points may "
-             "have been at their place before a pose moved them, or --stations states the true place";
-  warnings.push_back(message.str());
+  warnings.push_back(fmt::format(
+      "station {}, at {}, has most of its points within {:.2g} degrees of one direction, as from a place far "
+      "off; causes of holes depend on it; points may have been at their place before a pose moved them, or "
+      "--stations states the true place",
+      visible(station.name), print_point(station.place), degrees_of(station)));
 }
 
 }  // namespace
@@ -509,27 +478,29 @@ std::vector<std::string> station_warnings(const std::vector<StationSummary>& sta
                          visible(station.subject));
     if (station.points == 0 || !(station.certainty < StationView::kLeastCertain)) continue;
     const bool moved = station.path > 0;
-    std::ostringstream message;
-    message << (moved ? "trajectory " : "station ") << visible(station.name) << " does not count: ";
+    std::string line = (moved ? "trajectory " : "station ") + visible(station.name) + " does not count: ";
     const double timed =
         static_cast<double>(station.points) / static_cast<double>(station.points + station.untimed);
-    message.precision(3);
     if (station.certainty > 0 && timed < StationView::kLeastCertain) {
-      message
-          << 100 * (1 - timed)
-          << " % of the points have no time of the path; it must cover their times without gaps, in their "
-             "clock";
+      line += fmt::format(
+          "{:.3g} % of the points have no time of the path; it must cover their times without gaps, in their "
+          "clock",
+          100 * (1 - timed));
     } else {
       if (station.certainty > 0)
-        message << "at most " << 100 * station.certainty << " % of its points can have been seen from there"
-                << (moved ? " at their times" : "") << ", as rays end at the first surface";
+        line += fmt::format(
+            "at most {:.3g} % of its points can have been seen from there{}, as rays end at the "
+            "first surface",
+            100 * station.certainty, moved ? " at their times" : "");
       else
-        message << "most of its points lie within " << std::setprecision(2) << degrees_of(station)
-                << " degrees of one direction, as from a place far off the scan";
-      message << "; its coordinates must have the unit and the system of the scan"
-              << (moved ? ", and its times their clock" : "");
+        line += fmt::format(
+            "most of its points lie within {:.2g} degrees of one direction, as from a place "
+            "far off the scan",
+            degrees_of(station));
+      line += "; its coordinates must have the unit and the system of the scan";
+      if (moved) line += ", and its times their clock";
     }
-    warnings.push_back(message.str());
+    warnings.push_back(std::move(line));
   }
   if (of_none.points > 0)
     warnings.push_back(print_count(of_none.points) + (of_none.points == 1 ? " point has" : " points have") +

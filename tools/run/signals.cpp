@@ -3,6 +3,7 @@
 
 #include "engine/run/error.hpp"
 #include "engine/store/temporary_folder.hpp"
+#include "io/files/file_state.hpp"
 #include "tools/console/terminal.hpp"
 #include "tools/run/folders.hpp"
 
@@ -10,12 +11,10 @@
 #include <csignal>
 #include <mutex>
 #include <optional>
-#include <string>
 #include <system_error>
 #include <thread>
 
 #include <pthread.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 namespace lacuna::tools {
@@ -23,30 +22,9 @@ namespace {
 
 std::atomic<bool> interrupted = false;
 
-// Identifies the file that has a name at the moment; a file that replaces it is another.
-struct Identity {
-  bool exists = false;
-  dev_t device = 0;
-  ino_t number = 0;
-  timespec changed{};
-
-  explicit Identity(const std::filesystem::path& file) {
-    struct stat status {};
-    if (::stat(file.c_str(), &status) != 0) return;
-    exists = true;
-    device = status.st_dev;
-    number = status.st_ino;
-    changed = status.st_mtim;
-  }
-  bool operator==(const Identity& other) const {
-    return exists == other.exists && device == other.device && number == other.number &&
-           changed.tv_sec == other.changed.tv_sec && changed.tv_nsec == other.changed.tv_nsec;
-  }
-};
-
 struct WatchedResults {
   std::filesystem::path folder, report;
-  Identity before;
+  std::optional<io::FileIdentity> before;  // of the report; results of this run have another
   bool are_complete = false;
 };
 
@@ -62,7 +40,7 @@ std::string last_line() {
   const std::lock_guard lock(watched_mutex);
   std::string line = program_name() + ": interrupted";
   if (!watched) return line;
-  const bool is_complete = watched->are_complete || !(Identity(watched->report) == watched->before);
+  const bool is_complete = watched->are_complete || io::find_identity(watched->report) != watched->before;
   if (is_complete) return line + completeness(*watched);
   line += "; " + watched->folder.string() + " is as it was";
   if (watched_workspace.empty()) return line;
@@ -101,7 +79,7 @@ void handle_signals() {
 
 void watch_results(const std::filesystem::path& folder, const std::filesystem::path& report) {
   const std::lock_guard lock(watched_mutex);
-  watched = {.folder = folder, .report = report, .before = Identity(report)};
+  watched = {.folder = folder, .report = report, .before = io::find_identity(report)};
 }
 
 void watch_workspace(const std::filesystem::path& folder) {

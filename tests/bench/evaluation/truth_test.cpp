@@ -21,12 +21,15 @@ TEST_CASE("the lowest id stands for all points of a place, and one that is not f
 }
 
 TEST_CASE("the spacing is the median of the mean distance to four neighbours") {
-  CHECK(median_spacing(plane(20).positions) == Approx(1));
-  CHECK(median_spacing(plane(20).scaled(0.5).translated({1e6, 0, 0}).positions) == Approx(0.5));
-  CHECK(median_spacing(line(101).positions) == Approx(1.5));  // 1, 1, 2, 2
-  CHECK(median_spacing(line(3).positions) == Approx(1.5));    // the ends: 1, 2
-  CHECK(median_spacing(line(1).positions) == 0);
-  CHECK(median_spacing({}) == 0);
+  const auto spacing_of = [](const std::vector<Eigen::Vector3d>& points) {
+    return median_spacing(points, PointTree(points));
+  };
+  CHECK(spacing_of(plane(20).positions) == Approx(1));
+  CHECK(spacing_of(plane(20).scaled(0.5).translated({1e6, 0, 0}).positions) == Approx(0.5));
+  CHECK(spacing_of(line(101).positions) == Approx(1.5));  // 1, 1, 2, 2
+  CHECK(spacing_of(line(3).positions) == Approx(1.5));    // the ends: 1, 2
+  CHECK(spacing_of(line(1).positions) == 0);
+  CHECK(spacing_of({}) == 0);
 }
 
 TEST_CASE("the tree of edges finds what a look at each finds") {
