@@ -12,14 +12,6 @@ bool near(float value, double expected) {
   return std::abs(value - expected) <= 1e-6;
 }
 
-std::vector<std::vector<PointId>> in_report_order(std::vector<std::vector<PointId>> loops) {
-  std::sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) {
-    if (a[0] != b[0]) return a[0] < b[0];
-    return a.size() != b.size() ? a.size() < b.size() : a < b;
-  });
-  return loops;
-}
-
 // Points whose normal's side is decided by rounding alone. Symmetric clouds have edges of G whose weights 1 -
 // |n . n'| differ by rounding noise. Such edges may disagree about the side. A normal may be at right angles
 // to the next, or lie level where it should point up. Then any of the results is as good as another. All else
@@ -126,7 +118,7 @@ void check_equal(const Detected& engine, const reference::Detection& plain, std:
   CHECK(engine.summary.mean_edge_length == Approx(plain.mean_edge_length).epsilon(1e-12));
   CHECK(engine.summary.e == plain.e);
   CHECK(engine.summary.counts.boundary_edges == plain.boundary_edges);
-  CHECK(engine.loop_ids() == in_report_order(plain.loops));
+  CHECK(engine.loop_ids() == reference::in_report_order(plain.loops));
   REQUIRE(engine.loops.size() == plain.confidences.size());
   std::vector<double> confidences;
   for (const ReportedLoop& loop : engine.loops) confidences.push_back(loop.measures.track.confidence);

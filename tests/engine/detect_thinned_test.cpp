@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs at a resolution: the method on the representatives, with ids and results of the whole input.
-#include "engine/thin/lattice.hpp"
-#include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
+#include "tests/support/thinned.hpp"
 
 namespace lacuna {
 namespace {
@@ -23,13 +22,6 @@ Cloud sheet() {
       .translated({500'000, 5'400'000, 300});
 }
 
-using CellKey = std::array<double, 3>;
-
-CellKey cell_of(const Eigen::Vector3d& position, double resolution) {
-  const Eigen::Vector3d cell = Lattice(resolution).place_of(position).cell;
-  return {cell.x(), cell.y(), cell.z()};
-}
-
 bool same(const PointResult& a, const PointResult& b) {
   return a.probability == b.probability && a.criteria == b.criteria && a.boundary == b.boundary &&
          a.coherent == b.coherent && a.loop == b.loop && a.normal == b.normal;
@@ -47,21 +39,9 @@ TEST_CASE("a run at a resolution finds the loops of the representatives alone, b
   REQUIRE(thinned.loops.size() == 3);
 
   // The representatives again, found plainly, as a scan of their own.
-  std::map<CellKey, std::vector<std::size_t>> cells;
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-    if (cloud.positions[i].allFinite()) cells[cell_of(cloud.positions[i], resolution)].push_back(i);
-  CHECK(counts.thinned_out == cloud.size() - 50 - cells.size());
-  std::vector<std::size_t> chosen;
-  for (const auto& [key, members] : cells) {
-    chosen.push_back(*std::min_element(members.begin(), members.end(), [&](std::size_t a, std::size_t b) {
-      const Eigen::Vector3d &p = cloud.positions[a], &q = cloud.positions[b];
-      const double of_a = Lattice(resolution).place_of(p).squared_offset,
-                   of_b = Lattice(resolution).place_of(q).squared_offset;
-      return of_a != of_b ? of_a < of_b
-                          : std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
-    }));
-  }
-  std::sort(chosen.begin(), chosen.end());
+  const std::map<CellKey, std::size_t> representatives = plainly_chosen(cloud, resolution);
+  const std::vector<std::size_t> chosen = plainly_chosen_ids(cloud, resolution);
+  CHECK(counts.thinned_out == cloud.size() - 50 - chosen.size());
   Cloud alone;
   for (const std::size_t i : chosen) alone.positions.push_back(cloud.positions[i]);
   const Detected plain = run_engine(alone, at_resolution(resolution));  // each is alone in its cell
@@ -74,12 +54,15 @@ TEST_CASE("a run at a resolution finds the loops of the representatives alone, b
   // Each point has the results of its representative, a dropped one none.
   REQUIRE(thinned.points.size() == cloud.size());
   std::size_t wrong = 0;
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    for (const std::size_t member : cells[cell_of(cloud.positions[chosen[i]], resolution)])
-      wrong += !same(thinned.points[member], plain.points[i]);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (!cloud.positions[i].allFinite()) {
+      wrong += !std::isnan(thinned.points[i].probability);
+      continue;
+    }
+    const std::size_t id = representatives.at(cell_of(cloud.positions[i], resolution));
+    const auto at = std::ranges::lower_bound(chosen, id) - chosen.begin();
+    wrong += !same(thinned.points[i], plain.points[static_cast<std::size_t>(at)]);
   }
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-    wrong += !cloud.positions[i].allFinite() && !std::isnan(thinned.points[i].probability);
   CHECK(wrong == 0);
   for (const BoundaryPoint& b : thinned.boundary)
     CHECK(std::binary_search(chosen.begin(), chosen.end(), value(b.id)));
@@ -121,16 +104,8 @@ TEST_CASE("min_hole sets a fifth of it as the first edge, and leaves smaller loo
 TEST_CASE("a resolution as large as the scan is an error that names its size") {
   Config config;
   config.scale.min_hole = 1000;
-  const auto error = [&] {
-    try {
-      run_engine(sheet(), config);
-    } catch (const Error& refused) {
-      return std::string(refused.what());
-    }
-    return std::string();
-  };
-  const std::string message = error();
-  CHECK_THAT(message, StartsWith("a resolution of 200, for holes of 1000, leaves ") &&
+  const auto error = [&] { return test::error_of([&] { run_engine(sheet(), config); }); };
+  CHECK_THAT(error(), StartsWith("a resolution of 200, for holes of 1000, leaves ") &&
                           Contains("the scan's size is 1") && EndsWith("allowed: a smaller --min-hole"));
   config = at_resolution(300);
   CHECK_THAT(error(),

@@ -59,7 +59,7 @@ TEST_CASE("the engine gives the golden probabilities, coherence and loops, in ti
     CHECK(wrong == 0);
     CHECK(largest_error < 1e-6);
     CHECK(detected.summary.tiles > 1);
-    CHECK(in_golden_form(detected.loop_ids()) == read_golden_loops(*shared, setting));
+    CHECK(outcome_of(detected).loops == read_golden_loops(*shared, setting));
   }
 }
 

@@ -4,6 +4,7 @@
 #include "io/scan/scan_pass.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/golden.hpp"
+#include "tests/support/skip.hpp"
 
 namespace lacuna {
 using namespace io;
@@ -45,10 +46,7 @@ TEST_CASE("tiling never shows on real scans", "[.slow]") {
        {"vol_total.ply", &kSome, true},              // an aerial survey
        {"balm_23scans_1.7M.ply", &kSome, false}}));  // lidar, of strongly varying density
   const fs::path file = *shared / "data" / name;
-  if (!fs::exists(file)) {
-    WARN("skipped: no " << file);
-    return;
-  }
+  if (!fs::exists(file)) return test::skip("no " + file.string());
   const std::string expected = bytes_of(file, {kOneTile, 1, 0}, orient);
   CHECK(!expected.empty());
   for (const Setting& s : *settings) {

@@ -25,13 +25,6 @@ void check_layout(const RowLayout& layout) {
   require(layout.find("x") && layout.find("y") && layout.find("z"), "rows have x, y and z");
 }
 
-double value_of(const std::byte* row, const Property& property) {
-  double value = 0;
-  copy_column({.data = row + property.offset, .stride = 0, .type = property.type},
-              {.data = reinterpret_cast<std::byte*>(&value), .stride = 0, .type = Scalar::kFloat64}, 1);
-  return value;
-}
-
 // One line that names the file and gives a reason, without control characters.
 void check_message(const std::string& message, const fs::path& file) {
   constexpr std::size_t kLongestReason = 1000;

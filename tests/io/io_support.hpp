@@ -47,6 +47,14 @@ struct Table {
   }
 };
 
+inline double value_of(const std::byte* row, const io::Property& property) {
+  double value = 0;
+  io::copy_column({.data = row + property.offset, .stride = 0, .type = property.type},
+                  {.data = reinterpret_cast<std::byte*>(&value), .stride = 0, .type = io::Scalar::kFloat64},
+                  1);
+  return value;
+}
+
 inline Table read_table(const fs::path& file, std::size_t max_rows = 1000,
                         const io::ReadOptions& options = {}) {
   const auto reader = io::open_scan(file, options);
@@ -57,29 +65,23 @@ inline Table read_table(const fs::path& file, std::size_t max_rows = 1000,
   while (reader->next(batch, max_rows)) {
     for (std::size_t row = 0; row < batch.count; ++row) {
       std::vector<double>& values = table.rows.emplace_back();
-      for (const io::Property& property : layout.properties) {
-        double value = 0;
-        io::copy_column(
-            {.data = batch.bytes.data() + row * layout.stride + property.offset,
-             .stride = 0,
-             .type = property.type},
-            {.data = reinterpret_cast<std::byte*>(&value), .stride = 8, .type = io::Scalar::kFloat64}, 1);
-        values.push_back(value);
-      }
+      const std::byte* const bytes = batch.bytes.data() + row * layout.stride;
+      for (const io::Property& property : layout.properties) values.push_back(value_of(bytes, property));
     }
   }
   return table;
 }
 
-// What the job ends with; empty: it does not.
-template <class Job>
-std::string error_of(Job&& job) {
-  try {
-    job();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
+// NaN is NaN.
+inline bool same_numbers(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+// What is found while all rows of a file are read.
+inline auto findings_of(const fs::path& file) {
+  const auto reader = io::open_scan(file, {});
+  for (io::RowBatch batch; reader->next(batch, 1);) continue;
+  return reader->findings();
 }
 
 inline std::string read_error(const fs::path& file, const io::ReadOptions& options = {}) {

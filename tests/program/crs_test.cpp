@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The coordinate reference system and the unit of a scan, as its files name them and as the user states them.
-#include "tests/io/io_support.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/json.hpp"
 #include "tests/support/las_file.hpp"
@@ -30,11 +29,8 @@ std::string degrees_las() {
 
 // Keys of GeoTIFF in a LAS file: a projected system by its code, without one for the unit.
 std::string coded_las(std::uint16_t code) {
-  Bytes keys;
-  for (const int number : {1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, int{code}})
-    keys << static_cast<std::uint16_t>(number);
-  return LasFile{.points = {las_point(20, 0, 0, 0)},
-                 .records = {las_record("LASF_Projection", 34735, keys.str())}}
+  const std::string keys = las_geo_keys({{1024, 0, 1, 1}, {3072, 0, 1, code}});
+  return LasFile{.points = {las_point(20, 0, 0, 0)}, .records = {las_record("LASF_Projection", 34735, keys)}}
       .bytes();
 }
 
@@ -58,10 +54,7 @@ TEST_CASE("a system whose lengths are not those on the ground is refused, with t
 TEST_CASE("the unit of a system that a file names by its code alone is the unit of the code") {
   const ScratchFolder scratch;
   const auto unit_of = [&](std::uint16_t code) {
-    const std::string scan = scratch.write("a.las", coded_las(code));
-    const ProgramResult info = run_program({"info", scan, "--json"});
-    REQUIRE(info.exit_code == 0);
-    return json_of(info.out)["unit"];
+    return json_of(succeed({"info", scratch.write("a.las", coded_las(code)), "--json"}).out)["unit"];
   };
   CHECK(unit_of(25832) == "m");
   CHECK(unit_of(2992) == "ft");     // NAD83 / Oregon GIC Lambert (ft)
@@ -86,9 +79,7 @@ TEST_CASE("the option --crs states the system and the unit of any file, in every
   const std::string scan = scratch.write("sheet.xyz", sheet_text());
   const auto detect = [&](const Words& options) {
     const ProgramResult result =
-        run_program(with({"detect", scan, "--out", (scratch / "out").string()}, options));
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+        succeed(with({"detect", scan, "--out", (scratch / "out").string()}, options));
     return std::pair(result.out, read_json(scratch / "out" / "holes.json"));
   };
   const auto [plain, none] = detect({});
@@ -149,9 +140,7 @@ TEST_CASE("a code and well-known text of one system are the same for a scan of s
   const std::string code = scratch.write("code.las", coded_las(25832));
   const auto detect = [&](const Words& scans) {
     const ProgramResult result =
-        run_program(with({"detect", "--out", (scratch / "out").string(), "--quiet"}, scans));
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+        succeed(with({"detect", "--out", (scratch / "out").string(), "--quiet"}, scans));
     const auto holes = read_json(scratch / "out" / "holes.json");
     return std::pair(result.err, holes["crs"].is_null() ? "" : holes["crs"].get<std::string>());
   };

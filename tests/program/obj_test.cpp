@@ -3,6 +3,7 @@
 // run.
 #include "bench/evaluation/mesh_reader.hpp"
 #include "tests/io/io_support.hpp"
+#include "tests/support/clouds.hpp"
 #include "tests/support/json.hpp"
 #include "tests/support/run_program.hpp"
 
@@ -16,11 +17,9 @@ std::string write_earth_sheet(const ScratchFolder& scratch) {
   const std::string surface =
       synth("surface", scratch / "surface.ply",
             {"--points", "12000", "--holes", "4", "--hole-radius", "3", "6", "--order", "random"});
-  std::ostringstream text;
-  text.precision(17);
-  for (const auto& row : read_table(surface).rows)
-    text << row[0] + 500'000.1 << ' ' << row[1] + 5'400'000.1 << ' ' << row[2] << '\n';
-  return scratch.write("earth.txt", text.str());
+  Cloud cloud;
+  for (const auto& row : read_table(surface).rows) cloud.positions.emplace_back(row[0], row[1], row[2]);
+  return scratch.write("earth.txt", cloud.translated({500'000.1, 5'400'000.1, 0}).text());
 }
 
 // An object of OBJ, the comments before it, and what it has of the vertices of the file.

@@ -110,6 +110,8 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
          {"detect", "a.ply", "--out"},
          {"detect", "a.ply", "--out", "", "--out"},
          {"detect", "a.ply", "--out", "d", "--k", "0", "k = 0"},
+         {"detect", "a.ply", "--out", "d", "--workspace", "d", "; allowed: another one for --workspace"},
+         {"detect", "a.ply", "--out", "d", "--scratch", "d/in", "; allowed: another one for --scratch"},
          {"detect", "a.ply", "--out", "d", "--k", "3", "--k", "4", "--k"},
          {"detect", "a.ply", "--out", "d", "--progress", "2", "bar, plain, json, none"},
          {"detect", "a.ply", "--min-hol", "3", "(did you mean \"--min-hole\"?) (see lacuna detect --help)"},
@@ -222,18 +224,6 @@ TEST_CASE("results replace earlier results alone, and all of them") {
   CHECK(count_entries(out) == 7);
 }
 
-TEST_CASE("temporary and kept folders are not in the folder of the results") {
-  const ScratchFolder scratch;
-  const std::string scan = scratch.write("scan.txt", sheet(20));
-  for (const char* option : {"--workspace", "--scratch"}) {
-    for (const char* folder : {"out", "out/inside"})
-      check_failure(run_program({"detect", scan, "--out", (scratch / "out").string(), option,
-                                 (scratch / folder).string()}),
-                    2, "; allowed: another one for " + std::string(option));
-  }
-  CHECK_FALSE(fs::exists(scratch / "out"));
-}
-
 TEST_CASE("a signal while results replace older ones leaves the older ones or all new ones") {
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.txt", sheet(300));
@@ -271,21 +261,6 @@ TEST_CASE("a signal while a scan is made leaves nothing") {
   CHECK(result.exit_code == 128 + SIGINT);
   CHECK(result.err == "lacuna-bench: interrupted\n");
   CHECK(fs::is_empty(scratch.path()));
-}
-
-TEST_CASE("a signal ends the run and removes the workspace") {
-  for (const int signal : {SIGINT, SIGTERM}) {
-    const ScratchFolder scratch;
-    const std::string scan = scratch.write("scan.txt", sheet(600));
-    const fs::path out = scratch / "out";
-    const auto has_workspace = [&] { return !temporary_of(out).empty(); };
-    const ProgramResult result =
-        run_program_until({"detect", scan, "--out", out.string()}, signal, has_workspace);
-    CHECK(result.exit_code == 128 + signal);
-    CHECK_THAT(result.err,
-               !Contains("error") && EndsWith("lacuna: interrupted; " + out.string() + " is as it was\n"));
-    CHECK_FALSE(fs::exists(out));
-  }
 }
 
 TEST_CASE("info reads a LAS file whose columns leave no room for results") {

@@ -9,8 +9,6 @@
 #include "tests/support/json.hpp"
 #include "tests/support/run_program.hpp"
 
-#include <sys/stat.h>
-
 namespace lacuna::test {
 namespace {
 
@@ -26,7 +24,6 @@ class Made {
   }
 
   void detect(const std::vector<std::string>& options) { test::detect(scan_, out(), options); }
-  const std::string& scan() const { return scan_; }
   fs::path out() const { return scratch_ / "out"; }
   std::string page() const { return read_file(out() / "report.html"); }
   const ScratchFolder& scratch() const { return scratch_; }
@@ -236,32 +233,6 @@ TEST_CASE("a report has the places to stand next, until another run has other re
 
   made.detect({"--report"});
   CHECK_FALSE(fs::exists(file));
-}
-
-TEST_CASE("JSON that is a pipe, or nested without end, is refused by every command that reads it") {
-  const Made made(sheet());
-  const std::string out = made.out().string();
-  const std::string truth = made.scratch().write("truth.txt", "0 1 2\n");
-  const std::vector<std::vector<std::string>> commands = {{"report", out},
-                                                          {"render", out, "--out", out + ".png"},
-                                                          {"evaluate", out, truth, "--scan", made.scan()}};
-  const auto check_refused = [&](const std::string& reason) {
-    for (const auto& command : commands) {
-      const bool is_evaluate = command.front() == "evaluate";
-      const auto run = is_evaluate ? run_bench(command) : run_program(command);
-      INFO(command.front());
-      check_failure(run, 1, "holes.json: " + reason);
-    }
-  };
-  const std::string holes = read_file(made.out() / "holes.json");
-  for (const std::string key : {"crs", "loops", "counts", "schema"}) {
-    const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
-    std::ofstream(made.out() / "holes.json") << "{\"" + key + "\": " + deep + "," + holes.substr(1);
-    check_refused("is nested deeper than 32 levels");
-  }
-  fs::remove(made.out() / "holes.json");
-  REQUIRE(mkfifo((made.out() / "holes.json").c_str(), 0600) == 0);
-  check_refused("is not a regular file; a result of lacuna detect is needed");
 }
 
 TEST_CASE("a stray point spoils neither the report, the picture nor the printed digits, and is named") {

@@ -26,10 +26,7 @@ struct Clouds {
     folder.write("results/" + name + ".txt", loops);
   }
   std::string score(const Words& options = {}) const {
-    const ProgramResult result = run_bench(with({"score", clouds, results}, options));
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
-    return result.out;
+    return succeed(with({"score", clouds, results}, options), Program::kBench).out;
   }
 };
 

@@ -24,10 +24,8 @@ struct Shared {
 
 TEST_CASE("plan, work and finish give the files of detect") {
   const Shared run;
-  const ProgramResult planned =
-      run.plan({"--tsv", "--points", "--points-normals", "--k", "14", "--bounds", "0,0,290,290"});
-  REQUIRE(planned.exit_code == 0);
-  std::istringstream lines(planned.out);
+  const Words options = {"--points", "--points-normals", "--k", "14", "--bounds", "0,0,290,290"};
+  std::istringstream lines(run.plan(with({"--tsv"}, options)).out);
   std::vector<std::string> steps;
   std::string step;
   for (std::size_t tasks, mib, minutes; lines >> step >> tasks >> mib >> minutes;) {
@@ -36,20 +34,14 @@ TEST_CASE("plan, work and finish give the files of detect") {
     CHECK(minutes > 0);
     if (step == "finish") continue;
     for (std::size_t task = 0; task < tasks; ++task) {
-      const ProgramResult worked = run_program(
-          {"work", run.workspace, "--step", step, "--task", std::to_string(task), "--threads", "1"});
-      INFO(worked.err);
-      CHECK(worked.exit_code == 0);
+      const ProgramResult worked =
+          succeed({"work", run.workspace, "--step", step, "--task", std::to_string(task), "--threads", "1"});
       CHECK_THAT(worked.out, Contains(step + ", task " + std::to_string(task) + ": done"));
     }
   }
   CHECK(steps == std::vector<std::string>{"survey", "tiles", "bucket", "level-0", "evaluate-0", "finish"});
-  const ProgramResult finished =
-      run_program({"finish", run.workspace, "--out", (run.folder / "out").string(), "--quiet"});
-  INFO(finished.err);
-  REQUIRE(finished.exit_code == 0);
-  const fs::path alone = detect(run.list(), run.folder / "alone",
-                                {"--points", "--points-normals", "--k", "14", "--bounds", "0,0,290,290"});
+  succeed({"finish", run.workspace, "--out", (run.folder / "out").string(), "--quiet"});
+  const fs::path alone = detect(run.list(), run.folder / "alone", options);
   CHECK(fs::exists(alone / "points" / "a.csv"));
   check_same_results(run.folder / "out", alone);
 }

@@ -30,7 +30,7 @@ struct Run {
   // Requires that a run without a workspace has the same results.
   void check_results() const {
     const fs::path without = folder / "without";
-    if (!fs::exists(without)) REQUIRE(run_program(arguments(without, {})).exit_code == 0);
+    if (!fs::exists(without)) succeed(arguments(without, {}));
     check_same_results(folder / "out", without);
   }
 };
@@ -45,14 +45,12 @@ TEST_CASE("a run that is killed at any moment goes on to the same results") {
     const ProgramResult stopped = run_program_until(run.kept(), SIGKILL, has_entries);
     killed += stopped.exit_code == 128 + SIGKILL;
     if (entries % 3 != 0) continue;  // others are killed once more before they end
-    const ProgramResult done = run_program(run.kept());
-    INFO(done.err);
-    REQUIRE(done.exit_code == 0);
+    succeed(run.kept());
     run.check_results();
     fs::remove_all(run.workspace);
   }
   CHECK(killed > 5);
-  REQUIRE(run_program(run.kept()).exit_code == 0);
+  succeed(run.kept());
   run.check_results();
 }
 
@@ -74,10 +72,7 @@ TEST_CASE("a workspace on a full disk is an error, and its parts are used elsewh
   std::size_t failed = 0;
   for (const int bytes_a_point : {1, 12, 35, 70, 105, 140, 175, 233, 291, 350}) {
     const SmallDisk disk(run.folder / "disk", std::to_string(bytes_a_point * run.points));
-    if (!disk.mounted()) {
-      skip("cannot mount a small disk");
-      return;
-    }
+    if (!disk.mounted()) return skip("cannot mount a small disk");
     INFO(bytes_a_point << " bytes a point");
     const fs::path small = disk.path() / "workspace";
     const ProgramResult result = run_program(run.arguments(
@@ -89,7 +84,7 @@ TEST_CASE("a workspace on a full disk is an error, and its parts are used elsewh
                                (Contains("No space left on device") || Contains("the run needs at least")));
     if (!fs::exists(small)) continue;
     fs::copy(small, run.workspace);
-    REQUIRE(run_program(run.kept()).exit_code == 0);
+    succeed(run.kept());
     run.check_results();
     fs::remove_all(run.workspace);
   }
@@ -98,13 +93,13 @@ TEST_CASE("a workspace on a full disk is an error, and its parts are used elsewh
 
 TEST_CASE("another run at the same time is refused, and with another input, what differs is made again") {
   const Run run{.side = 60};
-  REQUIRE(run_program(run.kept()).exit_code == 0);
+  succeed(run.kept());
   const int other = ::open(run.workspace.c_str(), O_RDONLY | O_DIRECTORY);
   REQUIRE(::flock(other, LOCK_EX) == 0);
   check_failure(run_program(run.kept()), 1, "workspace: another run is at work there");
   ::close(other);
   run.folder.write("scan.txt", sheet(run.side - 1));
-  REQUIRE(run_program(run.kept()).exit_code == 0);
+  succeed(run.kept());
   run.check_results();
   Words told = run.kept();
   std::erase(told, "--quiet");
@@ -116,7 +111,7 @@ TEST_CASE("another run at the same time is refused, and with another input, what
 
 TEST_CASE("clean removes a workspace, but no file of others") {
   const Run run{.side = 40};
-  REQUIRE(run_program(run.kept()).exit_code == 0);
+  succeed(run.kept());
   run.folder.write("workspace/notes.txt", "x");
   const ProgramResult cleaned = run_program({"clean", run.workspace.string()});
   CHECK(cleaned.exit_code == 0);
@@ -125,12 +120,12 @@ TEST_CASE("clean removes a workspace, but no file of others") {
   check_failure(run_program({"clean", run.workspace.string()}), 1, "not the workspace of a run");
   check_failure(run_program({"status", run.workspace.string()}), 1, "not the workspace of a run");
   fs::remove(run.workspace / "notes.txt");
-  REQUIRE(run_program(run.kept()).exit_code == 0);
+  succeed(run.kept());
   fs::create_directory_symlink(run.workspace, run.folder / "link");
   CHECK(run_program({"clean", (run.folder / "link").string()}).exit_code == 0);
   CHECK(fs::is_empty(run.workspace));
   CHECK(fs::is_symlink(run.folder / "link"));
-  REQUIRE(run_program(run.kept()).exit_code == 0);
+  succeed(run.kept());
   CHECK(run_program({"clean", run.workspace.string()}).exit_code == 0);
   CHECK_FALSE(fs::exists(run.workspace));
 }

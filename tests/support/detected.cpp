@@ -2,6 +2,7 @@
 #include "tests/support/detected.hpp"
 
 #include "engine/criteria/criteria.hpp"
+#include "engine/results/collect.hpp"
 #include "tests/support/memory_scan.hpp"
 
 #include <utility>
@@ -97,7 +98,9 @@ Detected run_engine(PointSource& scan, Config config, Progress& progress) {
   const ScratchFolder temporary;
   const std::unique_ptr<Detection> detection = detect(scan, config, temporary.path(), progress);
   Detected detected{.summary = detection->summary};
-  detection->for_each_result_block([&](PointId, std::span<const PointResult> block) {
+  detection->for_each_result_block([&](PointId first, std::span<const PointResult> block) {
+    REQUIRE(value(first) == detected.points.size());
+    REQUIRE(block.size() <= kResultBlock);
     detected.points.insert(detected.points.end(), block.begin(), block.end());
   });
   detection->for_each_boundary_point([&](const BoundaryPoint& p) { detected.boundary.push_back(p); });

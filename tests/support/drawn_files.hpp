@@ -23,17 +23,28 @@ inline std::string ply_header(const std::string& elements, const std::string& fo
   return "ply\nformat " + format + " 1.0\n" + elements + "end_header\n";
 }
 
+inline std::string ply_format(std::endian order) {
+  return order == std::endian::little ? "binary_little_endian" : "binary_big_endian";
+}
+
 // A PLY of vertices alone, one in each line of `rows`.
 inline std::string ascii_ply(const std::string& rows, const std::string& properties = kXyz) {
   const auto count = static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n'));
   return ply_header(vertices(count, properties)) + rows;
 }
 
+// The header of a PCD, whose `fields` are its four lines of them.
+inline std::string pcd_header(const std::string& fields, std::size_t points, const std::string& data,
+                              const std::string& viewpoint = "0 0 0") {
+  const std::string count = std::to_string(points);
+  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + fields + "WIDTH " + count +
+         "\nHEIGHT 1\nVIEWPOINT " + viewpoint + " 1 0 0 0\nPOINTS " + count + "\nDATA " + data + "\n";
+}
+
 // A PCD of a point in each line of `rows`, with the place of the scanner.
 inline std::string ascii_pcd(const std::string& rows, const std::string& viewpoint = "0 0 0") {
-  const std::string count = std::to_string(std::count(rows.begin(), rows.end(), '\n'));
-  return "VERSION .7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + count +
-         "\nHEIGHT 1\nVIEWPOINT " + viewpoint + " 1 0 0 0\nPOINTS " + count + "\nDATA ascii\n" + rows;
+  const auto count = static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n'));
+  return pcd_header("FIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\n", count, "ascii", viewpoint) + rows;
 }
 
 }  // namespace lacuna::test

@@ -117,6 +117,11 @@ E57Values e57_doubles(const std::string& name, const std::vector<double>& values
   return {name, "type=\"Float\"", raw_all(values), values.size()};
 }
 
+std::vector<E57Values> e57_position(const std::vector<double>& x, const std::vector<double>& y,
+                                    const std::vector<double>& z) {
+  return {e57_doubles("cartesianX", x), e57_doubles("cartesianY", y), e57_doubles("cartesianZ", z)};
+}
+
 E57Values e57_integers(const std::string& name, std::int64_t minimum, std::int64_t maximum,
                        const std::vector<std::int64_t>& values) {
   return {name, "type=\"Integer\"" + limits(minimum, maximum), packed(minimum, maximum, values),

@@ -17,6 +17,8 @@ struct E57Values {
 
 E57Values e57_floats(const std::string& name, const std::vector<float>& values);
 E57Values e57_doubles(const std::string& name, const std::vector<double>& values);
+std::vector<E57Values> e57_position(const std::vector<double>& x, const std::vector<double>& y,
+                                    const std::vector<double>& z);
 // Packed into as many bits as the limits need.
 E57Values e57_integers(const std::string& name, std::int64_t minimum, std::int64_t maximum,
                        const std::vector<std::int64_t>& values);

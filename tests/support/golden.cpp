@@ -2,6 +2,7 @@
 #include "tests/support/golden.hpp"
 
 #include "io/scan/scan_pass.hpp"
+#include "tests/support/memory_scan.hpp"
 #include "tests/support/skip.hpp"
 
 namespace lacuna {
@@ -60,30 +61,15 @@ GoldenLoops read_golden_loops(const fs::path& shared, const GoldenSetting& setti
     if (line.empty() || line[0] == '#') continue;
     std::istringstream ids(line);
     loops.emplace_back();
-    for (std::int64_t id; ids >> id;) loops.back().push_back(id);
+    for (std::uint64_t id; ids >> id;) loops.back().push_back(PointId{id});
   }
   return loops;
-}
-
-GoldenLoops in_golden_form(const std::vector<std::vector<PointId>>& loops) {
-  GoldenLoops golden;
-  for (const std::vector<PointId>& loop : loops) {
-    golden.emplace_back();
-    for (const PointId p : loop) golden.back().push_back(static_cast<std::int64_t>(value(p)));
-  }
-  std::sort(golden.begin(), golden.end());
-  return golden;
 }
 
 Cloud read_cloud(const fs::path& file) {
   const ScanFiles scan({file}, {});
   ScanPass pass(scan);
-  Cloud cloud;
-  for (PointBatch batch; pass.next(batch);) {
-    cloud.positions.insert(cloud.positions.end(), batch.positions.begin(), batch.positions.end());
-    cloud.normals.insert(cloud.normals.end(), batch.normals.begin(), batch.normals.end());
-  }
-  return cloud;
+  return read_points(pass);
 }
 
 }  // namespace lacuna

@@ -19,7 +19,7 @@ struct GoldenPoint {
   bool coherent = false;
 };
 
-using GoldenLoops = std::vector<std::vector<std::int64_t>>;
+using GoldenLoops = std::vector<std::vector<PointId>>;  // sorted
 
 struct GoldenSetting {
   std::string name;   // of its files in shared/golden
@@ -32,8 +32,6 @@ std::vector<GoldenSetting> golden_settings();
 
 std::vector<GoldenPoint> read_golden_points(const fs::path& shared, const GoldenSetting& setting);
 GoldenLoops read_golden_loops(const fs::path& shared, const GoldenSetting& setting);
-
-GoldenLoops in_golden_form(const std::vector<std::vector<PointId>>& loops);
 
 // A scan in any format of io/, with its normals if it has them.
 Cloud read_cloud(const fs::path& file);

@@ -11,6 +11,31 @@ std::string las_record(const std::string& user, std::uint16_t number, const std:
   return bytes + data;
 }
 
+std::string las_extended_record(const std::string& user, std::uint16_t number, const std::string& data) {
+  std::string bytes(60, '\0');
+  std::memcpy(&bytes[2], user.data(), user.size());
+  put<std::uint16_t>(bytes, 18, number);
+  put<std::uint64_t>(bytes, 20, data.size());
+  std::memcpy(&bytes[28], "what it is", 10);
+  return bytes + data;
+}
+
+std::string with_extended(std::string bytes, const std::vector<std::string>& records) {
+  put<std::uint64_t>(bytes, 235, bytes.size());
+  put(bytes, 243, static_cast<std::uint32_t>(records.size()));
+  for (const std::string& record : records) bytes += record;
+  return bytes;
+}
+
+std::string las_geo_keys(const std::vector<std::array<std::uint16_t, 4>>& keys) {
+  std::string data;
+  const auto add = [&](std::size_t number) { put(data, data.size(), static_cast<std::uint16_t>(number)); };
+  for (const std::size_t head : {std::size_t{1}, std::size_t{1}, std::size_t{0}, keys.size()}) add(head);
+  for (const auto& key : keys)
+    for (const std::uint16_t number : key) add(number);
+  return data;
+}
+
 std::string las_extra_descriptor(const std::string& name, std::uint8_t type, std::uint8_t options,
                                  double scale, double offset) {
   std::string bytes(192, '\0');
@@ -28,6 +53,26 @@ std::string las_point(std::size_t bytes, std::int32_t x, std::int32_t y, std::in
   put(point, 4, y);
   put(point, 8, z);
   return point;
+}
+
+std::vector<std::string> las_points_alike(std::size_t bytes, std::size_t count) {
+  std::mt19937 random(static_cast<std::mt19937::result_type>(bytes));
+  std::vector<std::string> points;
+  while (points.size() < count) {
+    points.push_back(points.empty() ? las_point(bytes, 1000, -2000, 300) : points.back());
+    for (int change = 0; change < 5 && points.size() > 1; ++change)
+      points.back()[random() % bytes] = static_cast<char>(random());
+  }
+  return points;
+}
+
+std::string las_of_classes(const std::vector<int>& classes) {
+  LasFile las;
+  for (const int number : classes) {
+    las.points.push_back(las_point(20, static_cast<std::int32_t>(las.points.size()), 2, 3));
+    put(las.points.back(), 15, static_cast<std::uint8_t>(number));
+  }
+  return las.bytes();
 }
 
 std::string LasFile::bytes() const {

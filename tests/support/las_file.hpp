@@ -13,8 +13,25 @@ void put(std::string& bytes, std::size_t offset, T value) {
   std::memcpy(&bytes[offset], &value, sizeof value);
 }
 
+template <class T>
+T at(const std::string& bytes, std::size_t offset) {
+  T value;
+  if (offset + sizeof value > bytes.size()) throw std::out_of_range("a value behind the end");
+  std::memcpy(&value, &bytes[offset], sizeof value);
+  return value;
+}
+
 // A variable length record.
 std::string las_record(const std::string& user, std::uint16_t number, const std::string& data);
+
+// An extended one.
+std::string las_extended_record(const std::string& user, std::uint16_t number, const std::string& data);
+
+// Appends extended records to a file of LAS 1.4 that has none.
+std::string with_extended(std::string bytes, const std::vector<std::string>& records);
+
+// The data of the record of GeoTIFF keys: of each its number, its place, its count and its value.
+std::string las_geo_keys(const std::vector<std::array<std::uint16_t, 4>>& keys);
 
 // The descriptor of a value in the record "Extra Bytes".
 std::string las_extra_descriptor(const std::string& name, std::uint8_t type, std::uint8_t options = 0,
@@ -22,6 +39,9 @@ std::string las_extra_descriptor(const std::string& name, std::uint8_t type, std
 
 // All zero, but for the coordinates.
 std::string las_point(std::size_t bytes, std::int32_t x, std::int32_t y, std::int32_t z);
+
+// Points alike, as in a scan: a few bytes of each differ from the one before.
+std::vector<std::string> las_points_alike(std::size_t bytes, std::size_t count);
 
 struct LasFile {
   int minor = 2;
@@ -32,5 +52,8 @@ struct LasFile {
 
   std::string bytes() const;
 };
+
+// A file of format 0 with a point of each of these classes.
+std::string las_of_classes(const std::vector<int>& classes);
 
 }  // namespace lacuna::test

@@ -35,4 +35,17 @@ void MemoryScan::rewind_to(const IndexRange& parts, PointId first) {
   id_ = first;
 }
 
+Cloud read_points(PointSource& source) {
+  Cloud all;
+  PointBatch batch;
+  while (source.next(batch)) {
+    REQUIRE((batch.ids.empty() && value(batch.first) == all.size()));
+    all.positions.insert(all.positions.end(), batch.positions.begin(), batch.positions.end());
+    all.normals.insert(all.normals.end(), batch.normals.begin(), batch.normals.end());
+  }
+  CHECK(batch.size() == 0);
+  CHECK(value(batch.first) == all.size());
+  return all;
+}
+
 }  // namespace lacuna

@@ -30,4 +30,7 @@ class MemoryScan : public PointSource {
   PointId id_{};
 };
 
+// All points that a source has left, whose ids count from 0.
+Cloud read_points(PointSource& source);
+
 }  // namespace lacuna

@@ -101,4 +101,15 @@ void PointTree::within(LocalIndex query, double squared_radius, std::vector<Neig
   std::sort(found.begin(), found.end());
 }
 
+std::vector<Neighbour> nearest_plainly(std::span<const Eigen::Vector3d> positions,
+                                       std::span<const PointId> ids, LocalIndex query, std::size_t k) {
+  std::vector<Neighbour> all;
+  for (LocalIndex i = 0; i < positions.size(); ++i)
+    if (i != query) all.push_back({squared_distance(positions[i], positions[query]), ids[i], i});
+  const std::size_t kept = std::min(k, all.size());
+  std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(kept), all.end());
+  all.resize(kept);
+  return all;
+}
+
 }  // namespace lacuna

@@ -30,4 +30,8 @@ class PointTree {
   std::unique_ptr<Index> index_;
 };
 
+// The first k points in neighbour order around point `query`, by a look at each.
+std::vector<Neighbour> nearest_plainly(std::span<const Eigen::Vector3d> positions,
+                                       std::span<const PointId> ids, LocalIndex query, std::size_t k);
+
 }  // namespace lacuna

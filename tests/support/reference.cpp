@@ -635,16 +635,20 @@ class Stars {
     return at->second;
   }
 
+  // The circumradii of a star that do not lie in a hole.
+  std::vector<double> balls_of(PointId p) {
+    std::vector<double> balls;
+    for (const Corner& corner : found(p).corners)
+      if (corner.ball <= config_.hole_radius * found(p).distance) balls.push_back(corner.ball);
+    return balls;
+  }
+
   void measure(PointId p, Star& star) {
     std::vector<PointId> around = result_.points[value(p)].neighbours;
     around.push_back(p);
     std::vector<double> circles, scatters;
     for (const PointId q : around) {
-      const Star& other = found(q);
-      std::vector<double> balls;
-      for (const Corner& corner : other.corners) {
-        if (corner.ball <= config_.hole_radius * other.distance) balls.push_back(corner.ball);
-      }
+      const std::vector<double> balls = balls_of(q);
       if (balls.empty()) continue;
       circles.push_back(median(balls));
       scatters.push_back(circles.back() - *std::min_element(balls.begin(), balls.end()));
@@ -661,11 +665,7 @@ class Stars {
   double sampling(const std::vector<PointId>& around, double most) {
     std::vector<double> balls;
     for (const PointId q : around) {
-      const Star& other = found(q);
-      std::vector<double> own;
-      for (const Corner& corner : other.corners) {
-        if (corner.ball <= config_.hole_radius * other.distance) own.push_back(corner.ball);
-      }
+      std::vector<double> own = balls_of(q);
       std::sort(own.begin(), own.end());
       if (own.size() > 8) own.resize(8);
       balls.insert(balls.end(), own.begin(), own.end());
@@ -932,14 +932,19 @@ double power_above(double length) {
   return half > length ? half : 2 * octave;
 }
 
-// The share of points that a lattice leaves, by their distances to their neighbours, of 64 steps an octave.
+// Rounded down, in 64 steps an octave.
+double in_steps(double length) {
+  const int octave = std::ilogb(length);
+  return std::ldexp(std::floor(std::ldexp(length, 6 - octave)), octave - 6);
+}
+
+// The share of points that a lattice leaves, by their distances to their neighbours.
 double share_left(const Detection& result, double edge) {
   double left = 0, all = 0;
   for (const PointId p : result.distinct) {
     const double r = result.points[value(p)].mean_distance;
     if (!(r > 0)) continue;
-    const int octave = std::ilogb(r);
-    const double spacing = std::ldexp(std::floor(std::ldexp(r, 6 - octave)), octave - 6) / 1.7;
+    const double spacing = in_steps(r) / 1.7;
     left += 1 / (1 + edge / spacing * (edge / spacing) / 1.3 / 2);
     ++all;
   }
@@ -954,9 +959,7 @@ std::optional<Level> level_above(const Level& below, const Detection& result) {
     if (r > 0) shortest = std::min(shortest, r);
   }
   if (!std::isfinite(shortest)) return std::nullopt;
-  const int octave = std::ilogb(shortest);
-  shortest = std::ldexp(std::floor(std::ldexp(shortest, 6 - octave)), octave - 6);
-  double edge = power_above(std::max(below.edge * 1.0001, shortest / 4));
+  double edge = power_above(std::max(below.edge * 1.0001, in_steps(shortest) / 4));
   while (share_left(result, edge) > 0.6) edge = power_above(edge * 1.0001);
   for (;; edge = power_above(edge * 1.0001)) {
     Level level = thinned(below, result, edge);
@@ -1282,6 +1285,15 @@ Detection detect(const std::vector<Vector3d>& positions, const std::vector<Vecto
     if (!point.dropped) point = Point(result.points[value(point.representative)]);
   }
   return result;
+}
+
+std::vector<std::vector<PointId>> in_report_order(std::vector<std::vector<PointId>> loops) {
+  std::sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) {
+    return std::pair(a[0], a.size()) != std::pair(b[0], b.size())
+               ? std::pair(a[0], a.size()) < std::pair(b[0], b.size())
+               : a < b;
+  });
+  return loops;
 }
 
 }  // namespace lacuna::reference

@@ -77,4 +77,7 @@ struct Detection {
 Detection detect(const std::vector<Eigen::Vector3d>& positions, const std::vector<Eigen::Vector3d>& normals,
                  const Config& config);
 
+// By first id, then short ones first, then by all ids.
+std::vector<std::vector<PointId>> in_report_order(std::vector<std::vector<PointId>> loops);
+
 }  // namespace lacuna::reference

@@ -69,10 +69,15 @@ ProgramResult run_bench(const Words& arguments) {
   return run_program(arguments, Program::kBench);
 }
 
-fs::path detect(const std::string& scan, const fs::path& out, const Words& options) {
-  const ProgramResult result = run_program(with({"detect", scan, "--out", out.string(), "--quiet"}, options));
+ProgramResult succeed(const Words& arguments, Program program) {
+  const ProgramResult result = run_program(arguments, program);
   INFO(result.err);
   REQUIRE(result.exit_code == 0);
+  return result;
+}
+
+fs::path detect(const std::string& scan, const fs::path& out, const Words& options) {
+  succeed(with({"detect", scan, "--out", out.string(), "--quiet"}, options));
   return out;
 }
 
@@ -94,9 +99,7 @@ ProgramResult run_program_beside(const Words& arguments, const std::function<voi
 }
 
 std::string synth(const std::string& kind, const fs::path& file, const Words& options) {
-  const ProgramResult result = run_bench(with({"synth", kind, file.string()}, options));
-  INFO(result.err);
-  REQUIRE(result.exit_code == 0);
+  succeed(with({"synth", kind, file.string()}, options), Program::kBench);
   return file.string();
 }
 

@@ -25,6 +25,9 @@ Words with(Words words, const Words& more);
 ProgramResult run_program(const Words& arguments, Program program = Program::kLacuna);
 ProgramResult run_bench(const Words& arguments);  // lacuna-bench
 
+// Requires that the program succeeds.
+ProgramResult succeed(const Words& arguments, Program program = Program::kLacuna);
+
 // Runs `lacuna detect SCAN --out OUT --quiet` with more options, and requires that it succeeds. Returns
 // `out`.
 fs::path detect(const std::string& scan, const fs::path& out, const Words& options = {});

@@ -63,6 +63,17 @@ using namespace io;
 using Names = std::vector<std::string>;
 using Rows = std::vector<std::vector<double>>;
 
+// What the job ends with; empty: it does not.
+template <class Expected = Error, class Job>
+std::string error_of(Job&& job) {
+  try {
+    job();
+  } catch (const Expected& error) {
+    return error.what();
+  }
+  return {};
+}
+
 }  // namespace test
 
 }  // namespace lacuna

@@ -2,6 +2,7 @@
 #include "tests/support/tile.hpp"
 
 #include "engine/bucket/z_curve.hpp"
+#include "tests/support/point_tree.hpp"
 
 #include <cassert>
 
@@ -51,14 +52,8 @@ TilePoints part_tile(const Cloud& cloud, const std::vector<bool>& owns, std::siz
   }
   std::vector<std::vector<LocalIndex>> linked(points.owned);
   for (LocalIndex q = points.owned; q < points.size(); ++q) {
-    std::vector<Neighbour> nearest;
-    for (LocalIndex p = 0; p < points.size(); ++p) {
-      if (p != q)
-        nearest.push_back({squared_distance(points.positions[p], points.positions[q]), points.ids[p], p});
-    }
-    std::sort(nearest.begin(), nearest.end());
-    for (std::size_t i = 0; i < std::min(k, nearest.size()); ++i)
-      if (points.is_owned(nearest[i].index)) linked[nearest[i].index].push_back(q);
+    for (const Neighbour& p : nearest_plainly(points.positions, points.ids, q, k))
+      if (points.is_owned(p.index)) linked[p.index].push_back(q);
   }
   for (const std::vector<LocalIndex>& row : linked) {
     points.linked.indices.insert(points.linked.indices.end(), row.begin(), row.end());

@@ -2,35 +2,16 @@
 #include "tools/run/folders.hpp"
 
 #include "tests/support/processes.hpp"
+#include "tests/support/resource_limit.hpp"
 #include "tools/run/folder_lock.hpp"
-
-#include <sys/resource.h>
 
 namespace lacuna::test {
 using namespace tools;
 
-namespace {
-
-// As long as it lives, this process can open no more files.
-class NoMoreFiles {
- public:
-  NoMoreFiles() {
-    getrlimit(RLIMIT_NOFILE, &before_);
-    const rlimit none{.rlim_cur = 0, .rlim_max = before_.rlim_max};
-    setrlimit(RLIMIT_NOFILE, &none);
-  }
-  ~NoMoreFiles() { setrlimit(RLIMIT_NOFILE, &before_); }
-
- private:
-  rlimit before_{};
-};
-
-}  // namespace
-
 TEST_CASE("a lock that cannot be had is an error that names the folder") {
   const ScratchFolder folder;
   const auto lock = [&](const fs::path& of) {
-    const NoMoreFiles limit;
+    const ResourceLimit no_more_files(RLIMIT_NOFILE, 0);
     FolderLock lock(of);
   };
   CHECK_THROWS_WITH(lock(folder.path()), folder.path().string() + ": cannot be opened: Too many open files");

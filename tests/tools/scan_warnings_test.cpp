@@ -7,6 +7,7 @@
 #include "tests/support/drawn_files.hpp"
 #include "tests/support/e57_encoder.hpp"
 #include "tests/support/las_file.hpp"
+#include "tests/support/memory_scan.hpp"
 #include "tools/run/coordinate_steps.hpp"
 
 namespace lacuna::test {
@@ -15,6 +16,11 @@ using namespace tools;
 namespace {
 
 using Strings = std::vector<std::string>;
+
+std::string only(const Strings& warnings) {
+  REQUIRE(warnings.size() == 1);
+  return warnings[0];
+}
 
 const std::string kUtm = "PROJCS[\"UTM 32N\",GEOGCS[\"ETRS89\",UNIT[\"degree\",0.01745]],UNIT[\"metre\",1]]";
 const std::string kFeet =
@@ -25,12 +31,9 @@ std::string las(const std::string& crs) {
 }
 
 std::string e57(const std::string& crs) {
-  E57TestScan scan;
-  for (const char* axis : {"cartesianX", "cartesianY", "cartesianZ"})
-    scan.fields.push_back(e57_doubles(axis, {1}));
   const std::string root =
       crs.empty() ? "" : "<coordinateMetadata type=\"String\"><![CDATA[" + crs + "]]></coordinateMetadata>";
-  return encode_e57({scan}, {.root = root});
+  return encode_e57({{.fields = e57_position({1}, {1}, {1})}}, {.root = root});
 }
 
 TEST_CASE("a file with another coordinate reference system than the first is a warning that names both") {
@@ -39,10 +42,9 @@ TEST_CASE("a file with another coordinate reference system than the first is a w
              b = folder.write("b.las", las("EPSG:4258")), none = folder.write("c.xyz", "1 2 3\n");
   for (const auto& inputs : {std::vector<ScanInput>{a, b, none}, {none, a, b}}) {
     const ScanFiles scan(inputs, {});
-    const std::vector<std::string> warnings = input_warnings(scan);
-    REQUIRE(warnings.size() == 1);
-    CHECK_THAT(warnings[0], Contains("b.las: its coordinate reference system differs from the first file: "
-                                     "EPSG:4258, not UTM 32N; results name none"));
+    CHECK_THAT(only(input_warnings(scan)),
+               Contains("b.las: its coordinate reference system differs from the first file: "
+                        "EPSG:4258, not UTM 32N; results name none"));
     CHECK(scan.common_crs().empty());
   }
   CHECK(ScanFiles({b}, {}).common_crs() == "EPSG:4258");
@@ -119,9 +121,8 @@ TEST_CASE("z in another unit is brought into the unit of x and y, but for the an
 TEST_CASE("a unit that contradicts the system of its file is a warning, unless the user states it") {
   const ScratchFolder folder;
   const auto scan = folder.write("a.e57", e57(kFeet));  // E57 is in metres
-  const Strings warned = input_warnings(ScanFiles({scan}, {}));
-  REQUIRE(warned.size() == 1);
-  CHECK_THAT(warned[0], Contains(scan + ": Oregon: ") && Contains("m holds, and --unit ft states the other"));
+  CHECK_THAT(only(input_warnings(ScanFiles({scan}, {}))),
+             Contains(scan + ": Oregon: ") && Contains("m holds, and --unit ft states the other"));
   InputConfig stated;
   stated.unit = LengthUnit::kM;
   CHECK(input_warnings(ScanFiles({scan}, stated)).empty());
@@ -188,9 +189,8 @@ TEST_CASE("stations and paths that do not count are warnings that say why and wh
              Contains("station one, at 0 0 0, has most of its points within 0.34 degrees of one direction"));
   station.points = 0;
   CHECK(warning() == "station one does not count: the scan has no points of number 6");
-  const Strings warned = station_warnings({}, {.points = 1234, .subject = "number 0 of a.ply"});
-  REQUIRE(warned.size() == 1);
-  CHECK_THAT(warned[0], Contains("1,234 points have no station, such as those of number 0 of a.ply"));
+  CHECK_THAT(only(station_warnings({}, {.points = 1234, .subject = "number 0 of a.ply"})),
+             Contains("1,234 points have no station, such as those of number 0 of a.ply"));
 }
 
 TEST_CASE("what seems to be up, where it is not z, is a warning with the pose that turns the scan") {
@@ -284,16 +284,6 @@ TEST_CASE("files that lie in the axes of their own scanners are a warning, and r
   CHECK_FALSE(own_frames(ExplainedDetection(own), std::vector<std::uint64_t>{80'000}));
 }
 
-// LAS of format 0, with a point of each of these classes.
-std::string las_of_classes(const std::vector<int>& classes) {
-  LasFile las;
-  for (const int number : classes) {
-    las.points.push_back(las_point(20, static_cast<int>(las.points.size()), 2, 3));
-    put(las.points.back(), 15, static_cast<std::uint8_t>(number));
-  }
-  return las.bytes();
-}
-
 // Two points, 1.7 apart.
 std::string pcd(double corner, const std::string& viewpoint) {
   const std::string low = std::to_string(corner), high = std::to_string(corner + 1);
@@ -304,10 +294,8 @@ Strings warnings_of_filters(const std::string& file, const InputConfig& config) 
   const ScanFiles scan({file}, config);
   Eigen::AlignedBox3d bounds;
   ScanPass pass(scan);
-  for (PointBatch batch; pass.next(batch);) {
-    for (const Eigen::Vector3d& position : batch.positions)
-      if (position.allFinite()) bounds.extend(position);
-  }
+  for (const Eigen::Vector3d& position : read_points(pass).positions)
+    if (position.allFinite()) bounds.extend(position);
   return filter_warnings(scan, pass.counts(), bounds);
 }
 
@@ -324,8 +312,7 @@ TEST_CASE("files around 0 0 0 whose viewpoints are elsewhere are a warning") {
   const auto warnings = [](const std::vector<ScanInput>& files) {
     const ScanFiles scan(files, {});
     ScanPass pass(scan), kept(scan);
-    for (PointBatch batch; pass.next(batch);) {
-    }
+    read_points(pass);
     kept.set_pass_counts(pass.pass_counts());  // as of a run that goes on
     CHECK(filter_warnings(scan, kept.counts(), {}) == filter_warnings(scan, pass.counts(), {}));
     return filter_warnings(scan, pass.counts(), {});
@@ -333,10 +320,8 @@ TEST_CASE("files around 0 0 0 whose viewpoints are elsewhere are a warning") {
   const auto first = file("first.pcd", 0, "0 0 0"), own = file("own.pcd", 0, "3 0 1.5"),
              other = file("other.pcd", 0, "0 -9 0"), world = file("world.pcd", 3, "3 0 1.5"),
              text = folder.write("a.xyz", "1 2 3\n");
-  const Strings two = warnings({own, other});
-  REQUIRE(two.size() == 1);
   CHECK_THAT(
-      two[0],
+      only(warnings({own, other})),
       Contains("own.pcd, and 1 more file: points lie around 0 0 0, and not around the viewpoint 3 0 1.5; ") &&
           Contains("`FILE pose=viewpoint`"));
   CHECK(warnings({first, own}).size() == 1);
@@ -351,10 +336,8 @@ TEST_CASE("files around 0 0 0 whose viewpoints are elsewhere are a warning") {
 
 TEST_CASE("records of a LAS file that name two systems are a warning with both, unless the user states one") {
   const ScratchFolder folder;
-  Bytes keys;
-  for (const std::uint16_t number : {1, 1, 0, 1, 3072, 0, 1, 25832}) keys << number;
   LasFile file{
-      .records = {las_record("LASF_Projection", 34735, keys.str()),
+      .records = {las_record("LASF_Projection", 34735, las_geo_keys({{3072, 0, 1, 25832}})),
                   las_record("LASF_Projection", 2112,
                              "PROJCS[\"UTM 33N\",UNIT[\"metre\",1],AUTHORITY[\"EPSG\",\"25833\"]]")}};
   for (const int format : {0, 6}) {
@@ -365,10 +348,9 @@ TEST_CASE("records of a LAS file that name two systems are a warning with both, 
       std::string bytes = file.bytes();
       put(bytes, 6, static_cast<std::uint16_t>(bits));
       const auto las = folder.write("a.las", bytes);
-      const Strings warned = input_warnings(ScanFiles({las}, {}));
-      REQUIRE(warned.size() == 1);
-      CHECK_THAT(warned[0], Contains("EPSG:25832") && Contains("UTM 33N") &&
-                                Contains(std::string("; ") + holds + " holds"));
+      CHECK_THAT(
+          only(input_warnings(ScanFiles({las}, {}))),
+          Contains("EPSG:25832") && Contains("UTM 33N") && Contains(std::string("; ") + holds + " holds"));
     }
   }
 }
@@ -388,15 +370,13 @@ TEST_CASE("faces of a mesh are a warning with their number, in every format that
         {"b.ply", ply("tristrips 1", "3 0 1 2\n"), "1 triangle strip"},
         {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "1 face"}}) {
     files.emplace_back(folder.write(name, content));
-    const Strings found = warnings({files.back()});
-    REQUIRE(found.size() == 1);
-    CHECK_THAT(found[0], Contains(std::string(name) + ": " + faces + "; only their vertices are read"));
+    CHECK_THAT(only(warnings({files.back()})),
+               Contains(std::string(name) + ": " + faces + "; only their vertices are read"));
   }
   const auto points = folder.write("c.ply", ply("face 0", ""));
   CHECK(warnings({points}).empty());
-  const Strings all = warnings({points, {files[0].name, parse_pose("1 2 3 0 0 0 1")}, files[2]});
-  REQUIRE(all.size() == 1);
-  CHECK_THAT(all[0], Contains("a.ply, and 1 more file: 3 faces; only their vertices are read"));
+  CHECK_THAT(only(warnings({points, {files[0].name, parse_pose("1 2 3 0 0 0 1")}, files[2]})),
+             Contains("a.ply, and 1 more file: 3 faces; only their vertices are read"));
 }
 
 TEST_CASE("points of LAS that are left out as noise are a warning where they are many") {
@@ -407,9 +387,8 @@ TEST_CASE("points of LAS that are left out as noise are a warning where they are
   CHECK(warnings_of_filters(few, {}).empty());
   classes.push_back(7);
   const auto many = folder.write("many.las", las_of_classes(classes));
-  const Strings warned = warnings_of_filters(many, {});
-  REQUIRE(warned.size() == 1);
-  CHECK_THAT(warned[0], Contains("4 points, 4 %, are left out as noise, of the classes 7 and 18"));
+  CHECK_THAT(only(warnings_of_filters(many, {})),
+             Contains("4 points, 4 %, are left out as noise, of the classes 7 and 18"));
   CHECK(warnings_of_filters(many, {.keep_noise = true}).empty());
 }
 
@@ -428,9 +407,8 @@ TEST_CASE(
     const std::string header = ply_header(kCamera + vertices(2, kWideXyz));
     return warnings_of_filters(folder.write("a.ply", header + camera + "\n" + rows), {.drop_origin = true});
   };
-  const Strings warned = ply("0 0 0", "1000 2000 3\n1010 2010 3\n");
-  REQUIRE(warned.size() == 1);
-  CHECK_THAT(warned[0], Contains("a.ply: the place of the scanner is 0 0 0, far from the points"));
+  CHECK_THAT(only(ply("0 0 0", "1000 2000 3\n1010 2010 3\n")),
+             Contains("a.ply: the place of the scanner is 0 0 0, far from the points"));
   CHECK(ply("1005 2005 4", "1000 2000 3\n1010 2010 3\n").empty());
   CHECK(ply("0 0 0", "10 -10 3\n-10 10 3\n").empty());
   CHECK(ply("0 0 0", "1000 2000 3\n0 0 0\n").empty());  // it drops a point

@@ -2,20 +2,16 @@
 #include "bench/evaluation/hole_width.hpp"
 
 #include "tests/support/clouds.hpp"
-#include "tests/support/test.hpp"
+#include "tests/support/grid_places.hpp"
 
 namespace lacuna::evaluation {
 namespace {
 
-// The points of a grid, a unit apart, around a square: from its lower left corner, counterclockwise.
-LoopIds around(const std::vector<Eigen::Vector3d>& grid, double low, double edge) {
+// The points of a grid, a unit apart, around a square.
+LoopIds around(const std::vector<Eigen::Vector3d>& grid, int low, int edge) {
   LoopIds ids;
-  Eigen::Vector3d at(low, low, 0);
-  for (const Eigen::Vector3d& step : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0),
-                                      Eigen::Vector3d(-1, 0, 0), Eigen::Vector3d(0, -1, 0)}) {
-    for (int i = 0; i < edge; ++i, at += step)
-      ids.push_back(static_cast<std::uint64_t>(std::find(grid.begin(), grid.end(), at) - grid.begin()));
-  }
+  for (const auto& [x, y] : test::places_around(low, low, edge, edge))
+    ids.push_back(std::uint64_t(std::ranges::find(grid, Eigen::Vector3d(x, y, 0)) - grid.begin()));
   return ids;
 }
 

@@ -12,10 +12,6 @@ using Triangles = std::vector<Triangle>;
 
 const std::string kFour = vertices(4) + "property uchar red\n";
 
-std::string format_of(std::endian order) {
-  return order == std::endian::little ? "binary_little_endian" : "binary_big_endian";
-}
-
 std::string four_rows() {
   return "0 0 0 1\n1 0 0 1\n1 1 0 1\n0 1 0 1\n";
 }
@@ -42,7 +38,7 @@ std::string crowded_binary(std::endian order) {
   bytes << 0.5f << U8{0} << U8{2} << 3 << 2 << U8{9};
   bytes << 0.5f << U8{0} << U8{0} << U8{9};
   bytes << std::int16_t{1} << 1e300;
-  return ply_header(kCrowded, format_of(order)) + bytes.str();
+  return ply_header(kCrowded, ply_format(order)) + bytes.str();
 }
 
 const std::string kCrowdedAscii = ply_header(kCrowded) + four_rows() +

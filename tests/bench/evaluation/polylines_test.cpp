@@ -3,6 +3,7 @@
 
 #include "bench/evaluation/evaluation.hpp"
 #include "tests/io/io_support.hpp"
+#include "tests/support/grid_places.hpp"
 
 namespace lacuna::evaluation {
 namespace {
@@ -51,11 +52,7 @@ TEST_CASE("a polyline near a true loop finds it, and one elsewhere is false, tho
     for (int x = 0; x < 30; ++x) rows += std::to_string(x) + " " + std::to_string(y) + " 0\n";
   const auto scan = folder.write("scan.xyz", rows);
   std::string truth_row, vertices, edges;
-  std::vector<std::array<int, 2>> square;
-  for (int i = 0; i < 4; ++i) square.push_back({i, 0});
-  for (int i = 0; i < 4; ++i) square.push_back({4, i});
-  for (int i = 4; i > 0; --i) square.push_back({i, 4});
-  for (int i = 4; i > 0; --i) square.push_back({0, i});
+  const auto square = test::places_around(0, 0, 4, 4);
   for (const auto& [x, y] : square) truth_row += std::to_string((10 + y) * 30 + 10 + x) + " ";
   for (int loop = 0; loop < 2; ++loop) {
     for (int i = 0; i < 16; ++i) {

@@ -12,9 +12,7 @@ void run(const std::string& command, const std::string& out, const std::string& 
   std::vector<std::string> words = {"synth", command, out, "--truth", out + ".txt"};
   std::istringstream in(arguments);
   for (std::string word; in >> word;) words.push_back(word);
-  const test::ProgramResult result = test::run_bench(words);
-  INFO(result.err);
-  REQUIRE(result.exit_code == 0);
+  test::succeed(words, test::Program::kBench);
 }
 
 }  // namespace

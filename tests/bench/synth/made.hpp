@@ -4,12 +4,13 @@
 
 #include "bench/synth/scan.hpp"
 #include "bench/synth/surface.hpp"
-#include "tests/support/test.hpp"
+#include "tests/support/las_file.hpp"
 
 namespace lacuna::synth {
 
 using Position = std::array<float, 3>;
 
+using test::at;
 using test::read_file;
 
 inline std::uint64_t fnv1a(const std::string& bytes) {
@@ -23,12 +24,7 @@ template <typename Options, typename Summary, typename Change>
 void check_refused(const ScratchFolder& folder, Options options, Summary (*write)(const Options&),
                    const Change& change) {
   change(options);
-  std::string reason;
-  try {
-    write(options);
-  } catch (const Error& error) {
-    reason = error.what();
-  }
+  const std::string reason = test::error_of([&] { write(options); });
   CHECK(!reason.empty());
   CHECK(reason.find('\n') == std::string::npos);
   CHECK(folder.names().empty());
@@ -47,17 +43,10 @@ inline std::vector<std::string> rows_of(const fs::path& file, std::size_t stride
   return rows;
 }
 
-template <typename T>
-T scalar(const std::string& row, std::size_t offset) {
-  T value;
-  std::memcpy(&value, row.data() + offset, sizeof value);
-  return value;
-}
-
 inline std::vector<Position> positions_of(const fs::path& file, std::size_t stride = 12) {
   std::vector<Position> positions;
   for (const std::string& row : rows_of(file, stride))
-    positions.push_back({scalar<float>(row, 0), scalar<float>(row, 4), scalar<float>(row, 8)});
+    positions.push_back({at<float>(row, 0), at<float>(row, 4), at<float>(row, 8)});
   return positions;
 }
 
@@ -72,13 +61,26 @@ inline std::vector<std::vector<std::uint64_t>> loops_of(const fs::path& file) {
   return loops;
 }
 
-// The lines of true loops, without marked rows.
-inline std::string without_steps(const std::string& truth) {
-  std::istringstream in(truth);
+// Without the lines that begin with one of these.
+inline std::string lines_without(const std::vector<std::string>& begins, const std::string& text) {
+  std::istringstream in(text);
   std::string kept;
   for (std::string line; std::getline(in, line);)
-    if (!line.starts_with("#step ") && !line.starts_with("#narrow ")) kept += line + "\n";
+    if (std::ranges::none_of(begins, [&](const auto& begin) { return line.starts_with(begin); }))
+      kept += line + "\n";
   return kept;
+}
+
+// The points of each loop, whatever the order of the points in the file.
+inline std::multiset<std::set<Position>> places_of(const std::vector<std::vector<std::uint64_t>>& loops,
+                                                   const std::vector<Position>& points) {
+  std::multiset<std::set<Position>> all;
+  for (const auto& loop : loops) {
+    std::set<Position> places;
+    for (const std::uint64_t id : loop) places.insert(points[id]);
+    all.insert(places);
+  }
+  return all;
 }
 
 // What the comment before each loop says.

@@ -16,15 +16,6 @@ long status_kilobytes(const std::string& field) {
 
 }  // namespace
 
-// A truth file as it was before its loops had names.
-static std::string without_names(const std::string& truth) {
-  std::istringstream lines(truth);
-  std::string kept;
-  for (std::string line; std::getline(lines, line);)
-    if (line != "# hole" && line != "# outer edge") kept += line + "\n";
-  return kept;
-}
-
 TEST_CASE("a surface has the bytes that it had on the machine where this test was written") {
   const ScratchFolder folder;
   const auto hash = [&](SurfaceKind kind, Order order, PositionKind positions = PositionKind::kJittered) {
@@ -34,7 +25,9 @@ TEST_CASE("a surface has the bytes that it had on the machine where this test wa
     options.noise = 0.2;
     options.density_factor = 3;
     write_surface(options);
-    return fnv1a(read_file(options.out) + without_names(read_file(options.truth)));
+    // As the truth was before its loops had names.
+    return fnv1a(read_file(options.out) +
+                 lines_without({"# hole", "# outer edge"}, read_file(options.truth)));
   };
   CHECK(hash(SurfaceKind::kPlane, Order::kScanline) == 0x04c4665fbb35768eu);
   CHECK(hash(SurfaceKind::kWaves, Order::kRandom) == 0x7af4096c3f95e1f9u);

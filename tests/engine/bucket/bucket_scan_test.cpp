@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/bucket/bucket_scan.hpp"
 
+#include "tests/support/hostile.hpp"
 #include "tests/support/memory_scan.hpp"
 #include "tests/support/tile.hpp"
 #include "tests/support/tiled_scan.hpp"
@@ -118,19 +119,10 @@ void check_division(const Cloud& cloud, std::int64_t tile_points) {
 
 TEST_CASE("cells with more points than a tile may hold divide, however dense the points are") {
   const Cloud surface = plane(100);
-  Cloud cluster = surface;
   Random random(1);
-  for (int i = 0; i < 50'000; ++i)
-    cluster.positions.push_back(
-        {50 + random.uniform(0, 1e-6), 50 + random.uniform(0, 1e-6), random.uniform(0, 1e-6)});
-  check_division(cluster, 2'000);
-  check_division(cluster.shuffled(1), 2'000);
-  Cloud decades;
-  for (int i = 0; i < 50'000; ++i) {
-    const double r = std::pow(10, random.uniform(-6, 0)), turn = random.uniform(0, 7);
-    decades.positions.push_back({r * std::cos(turn), r * std::sin(turn), 0});
-  }
-  check_division(decades, 2'000);
+  check_division(volume_cluster(60'000, 1), 2'000);
+  check_division(volume_cluster(60'000, 1).shuffled(1), 2'000);
+  check_division(log_uniform(50'000, 1), 2'000);
   check_division(scattered(1'000, 1).scaled(1e6).joined(surface), 2'000);
   Cloud outliers = surface;
   for (int i = 0; i < 3'000; ++i)

@@ -127,7 +127,6 @@ TEST_CASE("a point has the same values wherever it is in a batch, and whatever t
 
 TEST_CASE("directions sorted side by side have the gap of the exact fallback") {
   Random random(13);
-  std::size_t compared = 0;
   for (int round = 0; round < 500; ++round) {
     const std::vector<Neighbourhood> points = drawn_neighbourhoods(random);
     const FilledBatch filled = batch_of(points, true);
@@ -136,12 +135,10 @@ TEST_CASE("directions sorted side by side have the gap of the exact fallback") {
     const double up[3] = {0, 0, 1};
     for (std::size_t i = 0; i < kBatchSize; ++i) {
       const LargestGap expected = find_largest_gap_exactly(filled.batch, i, up, kParameters.cos_cone);
-      ++compared;
       CHECK(found.gap_near.at[i] == expected.near);
       CHECK(found.gap_far.at[i] == expected.far);
     }
   }
-  CHECK(compared == 500 * kBatchSize);
 }
 
 // What is ambiguous in single precision: gaps of nearly one size, directions side by side, neighbours at the
@@ -149,7 +146,7 @@ TEST_CASE("directions sorted side by side have the gap of the exact fallback") {
 TEST_CASE("gaps that differ by nearly nothing are those of the exact fallback") {
   Random random(14);
   const double kTurn = 2 * std::numbers::pi, up[3] = {0, 0, 1};
-  std::size_t different = 0, compared = 0;
+  std::size_t different = 0;
   for (int round = 0; round < 4000; ++round) {
     std::vector<Neighbourhood> points(kBatchSize);
     for (Neighbourhood& offsets : points) {
@@ -176,12 +173,10 @@ TEST_CASE("gaps that differ by nearly nothing are those of the exact fallback") 
       const double even = kTurn / expected.used;
       const double angle =
           expected.used < 3 ? 1 : std::clamp((expected.size - even) / (kTurn / 2 - even), 0.0, 1.0);
-      ++compared;
       different += found.gap_near.at[i] != expected.near || found.gap_far.at[i] != expected.far ||
                    std::abs(found.criteria[0].at[i] - angle) > 1e-11;
     }
   }
-  CHECK(compared == 4000 * kBatchSize);
   CHECK(different == 0);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/halo/halo.hpp"
 
+#include "tests/support/point_tree.hpp"
 #include "tests/support/tile.hpp"
 #include "tests/support/tiled_scan.hpp"
 
@@ -10,29 +11,20 @@ namespace {
 // One link, and whose inbox it is in: tile, owned point, foreign row and id, incoming.
 using Letter = std::tuple<TileIndex, LocalIndex, Row, PointId, std::uint32_t>;
 
-std::vector<PointId> nearest_plainly(const Cloud& cloud, const std::vector<PointId>& ids, PointId p,
-                                     std::size_t k) {
-  std::vector<std::pair<double, PointId>> others;
-  for (const PointId q : ids) {
-    if (q != p)
-      others.emplace_back(squared_distance(cloud.positions[value(p)], cloud.positions[value(q)]), q);
-  }
-  const std::size_t kept = std::min(k, others.size());
-  std::partial_sort(others.begin(), others.begin() + std::ptrdiff_t(kept), others.end());
-  std::vector<PointId> nearest;
-  for (std::size_t i = 0; i < kept; ++i) nearest.push_back(others[i].second);
-  return nearest;
-}
-
 // Every edge from a point of `from` to one of its k nearest in another tile, sent to both.
 std::vector<Letter> letters_plainly(const TiledScan& scan, const Cloud& cloud,
                                     const std::set<PointId>& from) {
   const std::map<PointId, Row> rows = scan.rows();
   const std::vector<PointId> ids = distinct_ids(cloud);
+  std::vector<Eigen::Vector3d> positions;
+  for (const PointId id : ids) positions.push_back(cloud.positions[value(id)]);
   std::vector<Letter> outbox;
   for (const PointId p : from) {
     const Row p_row = rows.at(p);
-    for (const PointId q : nearest_plainly(cloud, ids, p, std::size_t(scan.config.neighbourhood.k))) {
+    const auto at = static_cast<LocalIndex>(std::ranges::lower_bound(ids, p) - ids.begin());
+    for (const Neighbour& near :
+         nearest_plainly(positions, ids, at, std::size_t(scan.config.neighbourhood.k))) {
+      const PointId q = near.id;
       const Row q_row = rows.at(q);
       if (scan.tile_of(p_row) == scan.tile_of(q_row)) continue;
       outbox.emplace_back(scan.tile_of(p_row), scan.local(p_row), q_row, q, 0);

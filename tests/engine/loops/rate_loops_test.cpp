@@ -80,10 +80,7 @@ TEST_CASE(
     "a turn and a move of the scan change a prominence by less than half an octave, as pixels are half a "
     "spacing") {
   const double before = hole_of(punched_plane()).track.evidence.prominence;
-  const Eigen::Matrix3d turn =
-      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
-  Cloud moved = punched_plane();
-  for (Eigen::Vector3d& p : moved.positions) p = turn * p + Eigen::Vector3d(456'000, 5'432'000, 100);
+  const Cloud moved = punched_plane().rotated({1, 2, 3}, 40).translated({456'000, 5'432'000, 100});
   CHECK(hole_of(moved).track.evidence.prominence == Approx(before).epsilon(0.4));
 }
 

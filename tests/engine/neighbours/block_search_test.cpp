@@ -31,19 +31,6 @@ Points points_of(const Cloud& cloud, bool sorted) {
   return points;
 }
 
-std::vector<LocalIndex> nearest_plainly(const Points& points, LocalIndex query, std::size_t k) {
-  std::vector<Neighbour> all;
-  for (LocalIndex i = 0; i < points.positions.size(); ++i) {
-    if (i == query) continue;
-    all.push_back({squared_distance(points.positions[i], points.positions[query]), points.ids[i], i});
-  }
-  std::sort(all.begin(), all.end());
-  all.resize(std::min(k, all.size()));
-  std::vector<LocalIndex> indices;
-  for (const Neighbour& n : all) indices.push_back(n.index);
-  return indices;
-}
-
 bool same(std::span<const LocalIndex> found, const std::vector<Neighbour>& expected) {
   return std::equal(found.begin(), found.end(), expected.begin(), expected.end(),
                     [](LocalIndex a, const Neighbour& b) { return a == b.index; });
@@ -56,9 +43,20 @@ void check_all(const Points& points, std::size_t k, LocalIndex first = 0) {
   LocalIndex expected_query = first;
   search.nearest(first, last, k, [&](LocalIndex query, std::span<const LocalIndex> found) {
     CHECK(query == expected_query++);
-    wrong += std::vector(found.begin(), found.end()) != nearest_plainly(points, query, k);
+    wrong += !same(found, nearest_plainly(points.positions, points.ids, query, k));
   });
   CHECK(expected_query == last);
+  CHECK(wrong == 0);
+}
+
+void check_balls(BlockSearch& search, const PointTree& tree, LocalIndex first, LocalIndex last,
+                 double radius) {
+  std::vector<Neighbour> expected;
+  std::size_t wrong = 0;
+  search.within(first, last, radius, [&](LocalIndex query, std::span<const LocalIndex> found) {
+    tree.within(query, radius * radius, expected);
+    wrong += !same(found, expected);
+  });
   CHECK(wrong == 0);
 }
 
@@ -110,9 +108,7 @@ TEST_CASE("neighbours that end where the search does") {
       const LocalIndex last =
           std::min<LocalIndex>(first + 32, static_cast<LocalIndex>(points.positions.size()));
       search.nearest(first, last, k, [&](LocalIndex query, std::span<const LocalIndex> found) {
-        if (query > first) return;
-        const std::vector<LocalIndex> expected = nearest_plainly(points, query, k);
-        wrong += !std::equal(found.begin(), found.end(), expected.begin(), expected.end());
+        if (query == first) wrong += !same(found, nearest_plainly(points.positions, points.ids, query, k));
       });
     }
   }
@@ -124,16 +120,10 @@ TEST_CASE("balls that end at a point hold it") {
   const auto last = static_cast<LocalIndex>(points.positions.size());
   const PointTree tree(points.positions, points.ids);
   BlockSearch search(points.positions, points.ids);
-  std::vector<Neighbour> expected;
-  std::size_t wrong = 0;
   for (const LocalIndex end : {1, 2, 30, 55, 77, 200}) {
     const double radius = std::sqrt(squared_distance(points.positions[0], points.positions[end]));
-    search.within(0, last, radius, [&](LocalIndex query, std::span<const LocalIndex> found) {
-      tree.within(query, radius * radius, expected);
-      wrong += !same(found, expected);
-    });
+    check_balls(search, tree, 0, last, radius);
   }
-  CHECK(wrong == 0);
 }
 
 TEST_CASE("queries may start anywhere, and fewer points than k are all neighbours") {
@@ -160,12 +150,7 @@ TEST_CASE("the search in blocks agrees with a kd-tree on many points, within a r
     wrong += !same(found, expected);
   };
   search.nearest(0, last, 15, check_nearest);
-  for (const double radius : {0.004, 0.03, 0.2}) {
-    search.within(1000, 3000, radius, [&](LocalIndex query, std::span<const LocalIndex> found) {
-      tree.within(query, radius * radius, expected);
-      wrong += !same(found, expected);
-    });
-  }
+  for (const double radius : {0.004, 0.03, 0.2}) check_balls(search, tree, 1000, 3000, radius);
   search.nearest(5, 9, 15, check_nearest);  // once more, after balls
   CHECK(wrong == 0);
 }

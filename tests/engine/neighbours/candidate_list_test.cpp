@@ -22,6 +22,12 @@ CandidateList list_of(const std::vector<float>& squared_distances, float limit, 
   return list;
 }
 
+std::vector<std::pair<std::uint32_t, float>> listed(const CandidateList& list) {
+  std::vector<std::pair<std::uint32_t, float>> found;
+  for (std::size_t i = 0; i < list.count; ++i) found.emplace_back(list.points[i], list.squared_distances[i]);
+  return found;
+}
+
 }  // namespace
 
 TEST_CASE("all points within a limit are listed, by every instruction set") {
@@ -70,10 +76,7 @@ TEST_CASE("all points within a limit are listed, by every instruction set") {
         CHECK(list.count == kMostCandidates + 1);
         return;
       }
-      std::vector<std::pair<std::uint32_t, float>> found;
-      for (std::size_t i = 0; i < list.count; ++i)
-        found.emplace_back(list.points[i], list.squared_distances[i]);
-      CHECK(found == expected);
+      CHECK(listed(list) == expected);
       CHECK(list.limit == limit);
       CHECK(list.margin == 1e-5F);
     });
@@ -87,7 +90,7 @@ TEST_CASE("a narrowed list holds what is within the smaller limit, or all it hel
     std::vector<float> all(static_cast<std::size_t>(random.whole(0, kMostCandidates)));
     for (float& squared : all) squared = static_cast<float>(random.whole(0, 100)) / 100;
     const float limit = 0.4F;
-    std::vector<std::pair<std::uint32_t, float>> within, found;
+    std::vector<std::pair<std::uint32_t, float>> within;
     const CandidateList before = list_of(all, 1, 0);
     for (std::size_t i = 0; i < all.size(); ++i)
       if (all[i] <= limit) within.emplace_back(before.points[i], all[i]);
@@ -95,13 +98,10 @@ TEST_CASE("a narrowed list holds what is within the smaller limit, or all it hel
       by_each_instruction_set([&] {
         CandidateList list = before;
         narrow_list(limit, least, list);
-        found.clear();
-        for (std::size_t i = 0; i < list.count; ++i)
-          found.emplace_back(list.points[i], list.squared_distances[i]);
         const bool is_narrow = least <= within.size();
         CHECK(list.limit == (is_narrow ? limit : 1));
         CHECK(list.count == (is_narrow ? within.size() : all.size()));
-        if (is_narrow) CHECK(found == within);
+        if (is_narrow) CHECK(listed(list) == within);
         narrowed += is_narrow && within.size() < all.size();
       });
     }

@@ -88,23 +88,9 @@ TEST_CASE("results come in blocks of consecutive points, each point once, the bo
   const Cloud half = plane(280).punched({100, 100}, 10).jittered(0.2, 1);
   const Cloud cloud = half.joined(half.with_unusable(1000, 1));  // most have a duplicate in another block
   REQUIRE(cloud.size() > kResultBlock);
-  Config config;
-  config.results.points = true;
   MemoryScan scan(cloud, 5000);
-  const ScratchFolder workspace;
-  NoProgress quiet;
-  const std::unique_ptr<Detection> detection = detect(scan, config, workspace.path(), quiet);
-  Detected detected{.summary = detection->summary};
-  std::size_t blocks = 0;
-  detection->for_each_result_block([&](PointId first, std::span<const PointResult> block) {
-    CHECK(value(first) == detected.points.size());
-    CHECK(block.size() <= kResultBlock);
-    ++blocks;
-    detected.points.insert(detected.points.end(), block.begin(), block.end());
-  });
-  detection->for_each_boundary_point([&](const BoundaryPoint& p) { detected.boundary.push_back(p); });
-  for (std::size_t i = 0; i < detection->loops.size(); ++i) detected.loops.push_back(detection->read_loop(i));
-  CHECK(blocks == 2);
+  const Detected detected =
+      run_engine(scan, {});  // requires that the blocks follow each other, none too large
   CHECK(detected.loops.size() == 2);
   check_published(detected, cloud);
 

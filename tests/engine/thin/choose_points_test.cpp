@@ -1,41 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/thin/choose_points.hpp"
 
-#include "engine/thin/lattice.hpp"
-#include "tests/support/clouds.hpp"
+#include "tests/support/thinned.hpp"
 #include "tests/support/tiled_scan.hpp"
 
 namespace lacuna {
 namespace {
-
-using CellKey = std::array<double, 3>;
-
-CellKey cell_of(const Eigen::Vector3d& position, double edge) {
-  const Eigen::Vector3d cell = Lattice(edge).place_of(position).cell;
-  return {cell.x(), cell.y(), cell.z()};
-}
-
-// Each occupied cell with the point that represents it, found plainly.
-std::map<CellKey, std::size_t> plainly_chosen(const Cloud& cloud, double edge) {
-  const auto rank = [&](std::size_t i) {
-    const Eigen::Vector3d& p = cloud.positions[i];
-    return std::tuple(Lattice(edge).place_of(p).squared_offset, p.x(), p.y(), p.z(), i);
-  };
-  std::map<CellKey, std::size_t> chosen;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (!cloud.positions[i].allFinite()) continue;
-    std::size_t& best = chosen.try_emplace(cell_of(cloud.positions[i], edge), i).first->second;
-    if (rank(i) < rank(best)) best = i;
-  }
-  return chosen;
-}
-
-std::vector<std::size_t> plain_ids(const Cloud& cloud, double edge) {
-  std::vector<std::size_t> ids;
-  for (const auto& [cell, id] : plainly_chosen(cloud, edge)) ids.push_back(id);
-  std::sort(ids.begin(), ids.end());
-  return ids;
-}
 
 ChosenPoints choose_all(TiledScan& scan, double edge, std::uint64_t represented_ids = 0) {
   return choose_points(scan.store, scan.store.tiling().tiles_in({}), edge, represented_ids, scan.job.spill,
@@ -86,7 +56,7 @@ TEST_CASE("whatever the tiles, the threads and the order, the same points repres
             .with_unusable(20, seed);
     const Cloud shuffled = cloud.shuffled(seed);
     for (const double edge : {0.01, 0.05, 0.13, 0.9, 1e6}) {
-      const std::vector<std::size_t> expected = plain_ids(cloud, edge);
+      const std::vector<std::size_t> expected = plainly_chosen_ids(cloud, edge);
       for (const std::int64_t tile_points : {10, 100, 700, 1'000'000}) {
         INFO("seed " << seed << ", edge " << edge << ", tiles of " << tile_points);
         for (const std::int64_t threads : {1, 4}) {
@@ -95,7 +65,7 @@ TEST_CASE("whatever the tiles, the threads and the order, the same points repres
           CHECK(chosen_ids(scan, edge, 3) == expected);
         }
         TiledScan scan(shuffled, tiled({}, tile_points));
-        CHECK(chosen_ids(scan, edge) == plain_ids(shuffled, edge));
+        CHECK(chosen_ids(scan, edge) == plainly_chosen_ids(shuffled, edge));
       }
     }
   }

@@ -17,12 +17,7 @@ StatedCrs stated(const std::string& crs, LengthUnit unit = LengthUnit::kInput) {
 }
 
 std::string refusal(const std::string& crs, LengthUnit unit = LengthUnit::kInput) {
-  try {
-    stated(crs, unit);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return error_of([&] { stated(crs, unit); });
 }
 
 }  // namespace

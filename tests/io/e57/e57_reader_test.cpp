@@ -229,8 +229,7 @@ TEST_CASE("spherical points of E57 are where the same Cartesian ones are", "[e57
   const std::vector<E57Values> spherical = {e57_doubles("sphericalRange", r),
                                             e57_doubles("sphericalAzimuth", a),
                                             e57_doubles("sphericalElevation", e)};
-  const std::vector<E57Values> cartesian = {e57_doubles("cartesianX", x), e57_doubles("cartesianY", y),
-                                            e57_doubles("cartesianZ", z)};
+  const std::vector<E57Values> cartesian = e57_position(x, y, z);
   const Table one = folder.read({{.fields = spherical}}), other = folder.read({{.fields = cartesian}});
   CHECK(one.names == Names{"x", "y", "z", "scan"});
   double farthest = 0;
@@ -273,22 +272,19 @@ TEST_CASE("rays of E57 without a return have no position, and keep their row", "
 
 TEST_CASE("E57: angles beyond a full turn are counted, but for invalid rays", "[e57]") {
   const E57Folder folder;
-  const auto findings = [&](const E57TestScan& scan) {
-    const auto reader = open_scan(folder.write(encode_e57({scan})), {});
-    for (RowBatch batch; reader->next(batch, 1);) {
-    }
-    return reader->findings();
-  };
   const auto rays = [](double azimuth, double elevation, std::int64_t state) {
     return E57TestScan{.fields = {e57_doubles("sphericalRange", {5, 5}),
                                   e57_doubles("sphericalAzimuth", {azimuth, 0}),
                                   e57_doubles("sphericalElevation", {elevation, 0}),
                                   e57_integers("sphericalInvalidState", 0, 2, {state, 0})}};
   };
-  CHECK(findings(rays(6.283, 1.5, 0)).wide_angles == 0);
-  CHECK(findings(rays(90, 0, 0)).wide_angles == 1);
-  CHECK(findings(rays(0, -45, 0)).wide_angles == 1);
-  CHECK(findings(rays(90, 0, 2)).wide_angles == 0);
+  const auto wide_angles = [&](const E57TestScan& scan) {
+    return findings_of(folder.write(encode_e57({scan}))).wide_angles;
+  };
+  CHECK(wide_angles(rays(6.283, 1.5, 0)) == 0);
+  CHECK(wide_angles(rays(90, 0, 0)) == 1);
+  CHECK(wide_angles(rays(0, -45, 0)) == 1);
+  CHECK(wide_angles(rays(90, 0, 2)) == 0);
 }
 
 TEST_CASE("a scan of E57 without a position is left out alone, where damaged ones are skipped", "[e57]") {

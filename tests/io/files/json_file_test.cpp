@@ -24,6 +24,10 @@ std::string repeated(const std::string& text, std::size_t times) {
 TEST_CASE("JSON that could take any memory is an error of one line", "[io]") {
   CHECK_THAT(error_of("[1, 2"), Contains("a.json: byte 6: is not JSON; a result is needed"));
   CHECK_THAT(error_of(std::string(100'000, '[')), Contains("is nested deeper than 32 levels"));
+  const auto drop_a = [](int, Event event, const Json& parsed) {
+    return event != Event::key || parsed != "a";
+  };
+  CHECK_THAT(error_of("{\"a\": " + std::string(100'000, '['), drop_a), Contains("is nested deeper than 32"));
   CHECK_THAT(error_of("{\"a\": \"" + std::string(3 << 20, 'x') + "\"}"),
              Contains("a value of more than 1 MiB"));
   CHECK_THAT(error_of("[" + std::string(3 << 20, '7') + "]"), Contains("a value of more than 1 MiB"));

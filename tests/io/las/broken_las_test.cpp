@@ -11,23 +11,11 @@
 namespace lacuna::test {
 namespace {
 
-// Points alike, as in a scan: a few bytes of each differ from the one before.
-std::vector<std::string> some_points(std::size_t bytes, std::size_t count) {
-  std::mt19937 random(static_cast<std::mt19937::result_type>(bytes));
-  std::vector<std::string> points = {las_point(bytes, 1000, -2000, 300)};
-  while (points.size() < count) {
-    std::string next = points.back();
-    for (int changes = 0; changes < 5; ++changes) next[random() % bytes] = static_cast<char>(random());
-    points.push_back(next);
-  }
-  return points;
-}
-
 // With two extra bytes, and a record that describes them.
 LasFile las_file(int minor, int format, std::size_t points) {
   return {.minor = minor,
           .format = format,
-          .points = some_points(las_point_bytes(format) + 2, points),
+          .points = las_points_alike(las_point_bytes(format) + 2, points),
           .records = {las_record("LASF_Spec", 4, las_extra_descriptor("width", 3, 8 + 16, 0.5, 100))}};
 }
 
@@ -119,11 +107,6 @@ TEST_CASE("LAZ with two broken chunks: the error names the first, however many t
   }
 }
 
-// Drawn bytes are NaN, too.
-bool same_row(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
-}
-
 TEST_CASE("LAZ gives the same points, whether its chunks fit into the memory or not", "[io]") {
   const ScratchFolder folder;
   for (const WholeFile& file : {compressed(2, 3, 2, {60'000, 60'000}), compressed(4, 7, 3, {60'000, 5}),
@@ -134,7 +117,8 @@ TEST_CASE("LAZ gives the same points, whether its chunks fit into the memory or 
     const Table blocks = read_table(path, 999, {.columns = "", .memory = 3 << 20});
     const Table whole = read_table(path, 999, {.columns = "", .memory = 64 << 20});
     CHECK(blocks.rows.size() == whole.rows.size());
-    CHECK(std::equal(blocks.rows.begin(), blocks.rows.end(), whole.rows.begin(), whole.rows.end(), same_row));
+    CHECK(std::equal(blocks.rows.begin(), blocks.rows.end(), whole.rows.begin(), whole.rows.end(),
+                     same_numbers));
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/las/las_crs.hpp"
 
-#include "tests/io/io_support.hpp"
+#include "tests/support/las_file.hpp"
 
 namespace lacuna::test {
 namespace {
@@ -12,17 +12,9 @@ void take(LasCrs& crs, std::uint16_t record, const std::string& data) {
   crs.take(record, std::as_bytes(std::span(data)));
 }
 
-std::string geo_keys(const std::vector<Key>& keys) {
-  Bytes bytes;
-  for (const std::uint16_t head : {1, 1, 0, static_cast<int>(keys.size())}) bytes << head;
-  for (const Key& key : keys)
-    for (const std::uint16_t number : key) bytes << number;
-  return bytes.str();
-}
-
 std::string crs_of_keys(const std::vector<Key>& keys) {
   LasCrs crs;
-  take(crs, 34735, geo_keys(keys));
+  take(crs, 34735, las_geo_keys(keys));
   return crs.text();
 }
 
@@ -48,7 +40,7 @@ TEST_CASE("GeoTIFF keys give codes of EPSG, the projected before the geographic,
 TEST_CASE("GeoTIFF keys and well-known text say whether positions are longitude and latitude") {
   const auto is_geographic = [](const std::vector<Key>& keys, const std::string& text = "") {
     LasCrs crs;
-    take(crs, 34735, geo_keys(keys));
+    take(crs, 34735, las_geo_keys(keys));
     if (!text.empty()) take(crs, 2112, text);
     return crs.is_geographic();
   };
@@ -66,7 +58,7 @@ TEST_CASE("GeoTIFF keys and well-known text say whether positions are longitude 
 
 TEST_CASE("a geocentric system is in metres, and is not the geographic one that names its datum") {
   LasCrs crs;
-  take(crs, 34735, geo_keys({{1024, 0, 1, 3}, {2048, 0, 1, 4326}}));
+  take(crs, 34735, las_geo_keys({{1024, 0, 1, 3}, {2048, 0, 1, 4326}}));
   CHECK(crs.text() == "EPSG:4978");
   CHECK(crs.length_unit() == "m");
   CHECK_FALSE(crs.is_geographic());
@@ -74,7 +66,7 @@ TEST_CASE("a geocentric system is in metres, and is not the geographic one that 
 
 TEST_CASE("keys and well-known text state the unit of z") {
   LasCrs keys, text;
-  take(keys, 34735, geo_keys({{3072, 0, 1, 26913}, {3076, 0, 1, 9001}, {4099, 0, 1, 9003}}));
+  take(keys, 34735, las_geo_keys({{3072, 0, 1, 26913}, {3076, 0, 1, 9001}, {4099, 0, 1, 9003}}));
   CHECK(keys.length_unit() == "m");
   CHECK(keys.vertical_unit() == "us-ft");
   take(text, 2112, "COMPD_CS[\"a\",PROJCS[\"b\",UNIT[\"metre\",1]],VERT_CS[\"c\",UNIT[\"foot\",0.3048]]]");
@@ -85,7 +77,7 @@ TEST_CASE("keys and well-known text state the unit of z") {
 TEST_CASE("the size of a unit without a code is among the doubles of the keys, in any order") {
   const double sizes[] = {6378137, 1200. / 3937};
   const std::string doubles(reinterpret_cast<const char*>(sizes), sizeof sizes);
-  const std::string keys = geo_keys({{3072, 0, 1, 32767}, {3076, 0, 1, 32767}, {3077, 34736, 1, 1}});
+  const std::string keys = las_geo_keys({{3072, 0, 1, 32767}, {3076, 0, 1, 32767}, {3077, 34736, 1, 1}});
   LasCrs first, last;
   take(first, 34736, doubles);
   take(first, 34735, keys);
@@ -100,7 +92,7 @@ TEST_CASE("the size of a unit without a code is among the doubles of the keys, i
 
 TEST_CASE("a unit of the keys that well-known text contradicts is the other unit") {
   LasCrs crs;
-  take(crs, 34735, geo_keys({{3072, 0, 1, 25832}, {3076, 0, 1, 9003}}));
+  take(crs, 34735, las_geo_keys({{3072, 0, 1, 25832}, {3076, 0, 1, 9003}}));
   CHECK(crs.other_unit().empty());
   take(crs, 2112, "PROJCS[\"b\",UNIT[\"metre\",1]]");
   CHECK(crs.length_unit() == "m");
@@ -110,14 +102,14 @@ TEST_CASE("a unit of the keys that well-known text contradicts is the other unit
 TEST_CASE("well-known text counts over keys, up to its first zero") {
   LasCrs crs;
   take(crs, 2112, std::string("PROJCS[\"A\"]\0\0", 13));
-  take(crs, 34735, geo_keys({{3072, 0, 1, 25832}}));
+  take(crs, 34735, las_geo_keys({{3072, 0, 1, 25832}}));
   CHECK(crs.text() == "PROJCS[\"A\"]");
 }
 
 TEST_CASE("the header's bit decides between keys and well-known text of two systems") {
   const auto crs_of = [](std::uint16_t code, const std::string& text, bool has_text_bit) {
     LasCrs crs;
-    take(crs, 34735, geo_keys({{3072, 0, 1, code}, {3076, 0, 1, 9003}}));
+    take(crs, 34735, las_geo_keys({{3072, 0, 1, code}, {3076, 0, 1, 9003}}));
     if (!text.empty()) take(crs, 2112, text);
     crs.choose(has_text_bit);
     return crs;
@@ -143,7 +135,7 @@ TEST_CASE("the header's bit decides between keys and well-known text of two syst
 }
 
 TEST_CASE("keys that are cut are passed over") {
-  const std::string keys = geo_keys({{3072, 0, 1, 25832}, {4096, 0, 1, 7837}});
+  const std::string keys = las_geo_keys({{3072, 0, 1, 25832}, {4096, 0, 1, 7837}});
   for (std::size_t length = 0; length < keys.size(); ++length) {
     LasCrs crs;
     take(crs, 34735, keys.substr(0, length));

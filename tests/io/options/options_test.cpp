@@ -17,13 +17,9 @@ const Parameter& find(const std::vector<Parameter>& all, const std::string& key)
 std::string error_of_set(const std::string& key, const std::string& text) {
   FilesConfig config;
   const std::vector<Parameter> all = parameters(config);
-  try {
-    find(all, key).set(text);
-  } catch (const Error& error) {
-    REQUIRE(print_config(config) == print_config(FilesConfig{}));
-    return error.what();
-  }
-  return "";
+  const std::string error = test::error_of([&] { find(all, key).set(text); });
+  if (!error.empty()) REQUIRE(print_config(config) == print_config(FilesConfig{}));
+  return error;
 }
 
 // What is wrong with a file of this content; nothing of it may have been taken over.
@@ -31,15 +27,11 @@ std::string error_of_file(const std::string& content) {
   const ScratchFolder scratch;
   const std::string file = scratch.write("c.toml", content);
   FilesConfig config;
-  try {
-    read_config(file, config);
-  } catch (const Error& error) {
-    REQUIRE(print_config(config) == print_config(FilesConfig{}));
-    const std::string text = error.what();
-    REQUIRE(text.starts_with(file + ":"));
-    return text.substr(file.size());
-  }
-  return "";
+  const std::string error = test::error_of([&] { read_config(file, config); });
+  if (error.empty()) return error;
+  REQUIRE(print_config(config) == print_config(FilesConfig{}));
+  REQUIRE(error.starts_with(file + ":"));
+  return error.substr(file.size());
 }
 
 FilesConfig read(const std::string& content) {
@@ -230,13 +222,7 @@ TEST_CASE("a whole number is a number, and a size may be one") {
 
 TEST_CASE("every prefix of the default config is read or refused, never more") {
   const std::string whole = print_config(FilesConfig{});
-  for (std::size_t length = 0; length < whole.size(); length += 23) {
-    try {
-      read(whole.substr(0, length));
-    } catch (const Error& error) {
-      CHECK_THAT(error.what(), Contains("c.toml:"));
-    }
-  }
+  for (std::size_t length = 0; length < whole.size(); length += 23) error_of_file(whole.substr(0, length));
 }
 
 TEST_CASE("a config file that cannot be read is named") {

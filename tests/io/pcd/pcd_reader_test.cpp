@@ -8,12 +8,6 @@
 namespace lacuna::test {
 namespace {
 
-std::string header(const std::string& fields, std::size_t points, const std::string& data) {
-  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + fields + "WIDTH " +
-         std::to_string(points) + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + std::to_string(points) +
-         "\nDATA " + data + "\n";
-}
-
 const std::string kFields = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n";
 
 // Greedy: the last place with the same three bytes.
@@ -113,16 +107,16 @@ float packed_colour(std::uint32_t colour) {
 std::string crowded_ascii() {
   std::ostringstream text;
   text.precision(9);
-  text << header(kCrowded, 2, "ascii") << "0 0 0 1.5 -2 1e300 " << packed_colour(0x010203)
+  text << pcd_header(kCrowded, 2, "ascii") << "0 0 0 1.5 -2 1e300 " << packed_colour(0x010203)
        << " -128 0 0 1 2 65535 0 0.5 1 -5000000000000000000 18000000000000000000\n"
        << "_ _ _ 4 5 6 " << packed_colour(0x7ffefd) << " 127 0 0 3 4 5 1 0 0 7 8\n";
   return text.str();
 }
 
 std::vector<std::string> crowded_files() {
-  return {crowded_ascii(), header(kCrowded, 2, "binary") + crowded_rows(),
-          header(kCrowded, 2, "binary_compressed") + block(crowded_columns(false)),
-          header(kCrowded, 2, "binary_compressed") + block(crowded_columns(true))};
+  return {crowded_ascii(), pcd_header(kCrowded, 2, "binary") + crowded_rows(),
+          pcd_header(kCrowded, 2, "binary_compressed") + block(crowded_columns(false)),
+          pcd_header(kCrowded, 2, "binary_compressed") + block(crowded_columns(true))};
 }
 
 std::vector<WholeFile> whole_files() {
@@ -159,7 +153,7 @@ TEST_CASE("PCD: rgba has alpha, packed as an integer too, and single floats keep
   const ScratchFolder folder;
   const std::string fields = "FIELDS x y z rgba\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\n";
   const auto file =
-      folder.write("a.pcd", header(fields, 2, "ascii") + "nan nan nan 4278321666\n1 2 3 4278321666\n");
+      folder.write("a.pcd", pcd_header(fields, 2, "ascii") + "nan nan nan 4278321666\n1 2 3 4278321666\n");
   const Table table = read_table(file);
   CHECK(table.names == Names{"x", "y", "z", "red", "green", "blue", "alpha"});
   REQUIRE(table.rows.size() == 2);  // a point that is NaN is a row
@@ -184,7 +178,7 @@ TEST_CASE("PCD: headers of old versions are understood", "[io]") {
     CHECK(table.rows == Rows{{1, 2, 3}});
   }
   for (const std::string data : {"ascii", "binary", "binary_compressed"})
-    CHECK(read_table(folder.write("a.pcd", header(kFields, 0, data))).rows.empty());
+    CHECK(read_table(folder.write("a.pcd", pcd_header(kFields, 0, data))).rows.empty());
 }
 
 TEST_CASE("PCD: a header that says something impossible is an error that names its line", "[io]") {
@@ -225,7 +219,7 @@ TEST_CASE("PCD: a wrong row is an error that names its line", "[io]") {
                  {"1 2 3 4\n1 2 3 4\n1 2 3 4\n", "more data after the last row"},
                  {"1 2 3 4444\n\n\n\n\n\n\n\n", "line 12: '4444'"},
                  {"1 2 3 4\n\n\n\n\n\n\n\n", "fewer rows than the 2"}},
-                header(fields, 2, "ascii"));
+                pcd_header(fields, 2, "ascii"));
 }
 
 TEST_CASE("PCD: counts and sizes that the file cannot hold are errors at once", "[io]") {
@@ -239,7 +233,7 @@ TEST_CASE("PCD: counts and sizes that the file cannot hold are errors at once", 
   const auto compressed = [](std::uint32_t small, std::uint32_t large, std::size_t bytes) {
     return (Bytes() << small << large).str() + std::string(bytes, '\0');
   };
-  const std::string head = header(kFields, 100, "binary_compressed");
+  const std::string head = pcd_header(kFields, 100, "binary_compressed");
   check_refused("a.pcd",
                 {{compressed(20, 1201, 20), "1201 uncompressed bytes are not 100 points of 12 bytes"},
                  {compressed(13, 1200, 13), "cannot come to the 1200"},
@@ -288,7 +282,7 @@ TEST_CASE("PCD: columns of a compressed file are joined to rows across buffers a
     z << -1.f;
   }
   const auto file = folder.write(
-      "a.pcd", header(fields, kRows, "binary_compressed") + block(x.str() + a.str() + y.str() + z.str()));
+      "a.pcd", pcd_header(fields, kRows, "binary_compressed") + block(x.str() + a.str() + y.str() + z.str()));
   check_rows(file, kRows, [](double i) {
     return std::vector<double>{i, 5, std::fmod(i, 65536), 0.5 * i, -1};
   });
@@ -298,17 +292,14 @@ TEST_CASE("PCD: too many fields of a compressed file are refused", "[io]") {
   std::string names = "FIELDS x y z";
   for (int i = 0; i < 254; ++i) names += " p" + std::to_string(i);
   const std::string columns(4 * 257, '\0');
-  check_refused("a.pcd", {{header(names + "\n", 1, "binary_compressed") + block(columns), "257 fields"}});
+  check_refused("a.pcd", {{pcd_header(names + "\n", 1, "binary_compressed") + block(columns), "257 fields"}});
 }
 
 TEST_CASE("PCD: a compressed frame of a depth camera is read as PCL wrote it", "[io]") {
   const auto shared = shared_folder();
   if (!shared) return;
   const auto file = *shared / "data/pcd/milk_cartoon_all_small_clorox.pcd";
-  if (!fs::exists(file)) {
-    skip("no " + file.string());
-    return;
-  }
+  if (!fs::exists(file)) return skip("no " + file.string());
   // The expected values: the block unpacked by a script of its own.
   const Table table = read_table(file, 65536);
   CHECK(table.names == Names{"x", "y", "z", "red", "green", "blue", "alpha"});

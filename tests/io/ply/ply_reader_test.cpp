@@ -4,10 +4,6 @@
 namespace lacuna::test {
 namespace {
 
-std::string format_of(std::endian order) {
-  return order == std::endian::little ? "binary_little_endian" : "binary_big_endian";
-}
-
 // A vertex with everything around it: an element before and after, each with a list, and a list inside.
 const std::string kCrowded =
     "comment made by hand\nobj_info nothing\n"
@@ -26,7 +22,7 @@ std::string crowded_binary(std::endian order) {
   bytes << I16{301} << std::int8_t{0} << -0.25f << 2.0;
   bytes << U8{3} << 0 << 1 << 0 << U8{1} << U8{0} << U8{2} << U8{1} << 5 << U8{9};
   bytes << 0 << 1;
-  return ply_header(kCrowded, format_of(order)) + bytes.str();
+  return ply_header(kCrowded, ply_format(order)) + bytes.str();
 }
 
 const std::string kCrowdedAscii = ply_header(kCrowded) +
@@ -93,7 +89,7 @@ TEST_CASE("a camera before or after the vertices, in every encoding, is the scan
       ply_header(kPoints + kFace + kMixedCamera) + "1 2 3\n4 5 6\n3 0 1 0\n1 2.5 -3 0.5\n"};
   for (const std::endian order : {std::endian::little, std::endian::big}) {
     const std::string points = points_bytes(order), face = face_bytes(order), camera = camera_bytes(order);
-    const std::string format = format_of(order);
+    const std::string format = ply_format(order);
     contents.push_back(ply_header(kMixedCamera + kPoints, format) + camera + points);
     contents.push_back(ply_header(kPoints + kMixedCamera, format) + points + camera);
     contents.push_back(ply_header(kPoints + kFace + kMixedCamera, format) + points + face + camera);
@@ -167,7 +163,7 @@ TEST_CASE("every scalar type keeps its extreme values in every encoding", "[io]"
         for (const std::endian order : {std::endian::little, std::endian::big}) {
           Bytes bytes(order);
           bytes << 1.f << 2.f << 3.f << low << 4.f << 5.f << 6.f << high;
-          const std::string content = ply_header(body, format_of(order)) + bytes.str();
+          const std::string content = ply_header(body, ply_format(order)) + bytes.str();
           CHECK(read_table(folder.write("a.ply", content)).rows == expected);
         }
       }

@@ -9,18 +9,23 @@
 namespace lacuna::io {
 namespace {
 
-// A sheet of 21 x 21 points at z = 0 with a square hole around (15, 5), and its loop, of id 7.
-Scene sheet() {
-  Scene scene;
-  scene.edge = 20;
+// 21 x 21 points at a height. With a square hole around (15, 5), those from y = 10 on are probable boundary.
+Scene with_sheet_at(float z, Scene scene, bool has_hole = false) {
   for (int y = 0; y <= 20; ++y) {
     for (int x = 0; x <= 20; ++x) {
-      if (std::abs(x - 15) < 3 && std::abs(y - 5) < 3) continue;
-      scene.points.positions.push_back({float(x), float(y), 0});
+      if (has_hole && std::abs(x - 15) < 3 && std::abs(y - 5) < 3) continue;
+      scene.points.positions.push_back({float(x), float(y), z});
       scene.points.normals.push_back({0, 0, 1});
-      scene.points.probabilities.push_back(y < 10 ? 0.0f : 1.0f);
+      scene.points.probabilities.push_back(has_hole && y >= 10 ? 1.0f : 0.0f);
     }
   }
+  return scene;
+}
+
+// A sheet with the hole at z = 0, and its loop, of id 7.
+Scene sheet() {
+  Scene scene = with_sheet_at(0, {}, true);
+  scene.edge = 20;
   scene.points.spacing = 1;
   scene.loops.ids = {7};
   scene.loops.all = 1;
@@ -83,17 +88,6 @@ TEST_CASE("a loop is seen along its normal, with as much around it") {
   CHECK((view.middle - Eigen::Vector3f(15, 5, 0)).norm() < 1e-4f);
   CHECK(view.half_height > 6);
   CHECK(view.half_height < 12);
-}
-
-Scene with_sheet_at(float z, Scene scene) {
-  for (int y = 0; y <= 20; ++y) {
-    for (int x = 0; x <= 20; ++x) {
-      scene.points.positions.push_back({float(x), float(y), z});
-      scene.points.normals.push_back({0, 0, 1});
-      scene.points.probabilities.push_back(0);
-    }
-  }
-  return scene;
 }
 
 TEST_CASE("what lies before a loop at some distance does not hide it") {

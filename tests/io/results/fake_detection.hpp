@@ -2,6 +2,7 @@
 // A finished run without the engine, for tests of what is written.
 #pragma once
 
+#include "io/results/results.hpp"
 #include "io/stations/cause.hpp"
 #include "tests/support/loop_points.hpp"
 
@@ -76,5 +77,15 @@ struct FakeDetection {
 
   std::vector<SampledPoint> sample;
 };
+
+// The annotated scan is wanted.
+inline io::FilesConfig with_points(io::PointsFormat format = io::PointsFormat::kInput,
+                                   bool has_normals = false) {
+  io::FilesConfig config;
+  config.results.points = true;
+  config.output.points_format = format;
+  config.output.points_normals = has_normals;
+  return config;
+}
 
 }  // namespace lacuna::test

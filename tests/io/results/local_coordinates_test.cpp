@@ -8,6 +8,7 @@
 #include "tests/io/results/fake_detection.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/json.hpp"
+#include "tests/support/las_file.hpp"
 
 namespace lacuna::test {
 namespace {
@@ -39,24 +40,13 @@ FakeDetection detection_of(const Points& points) {
   return detection;
 }
 
-FilesConfig local_config(PointsFormat format) {
-  FilesConfig config;
-  config.results.points = true;
-  config.output.points_format = format;
-  config.output.local_coordinates = true;
-  return config;
-}
-
 // The first three floats of each row behind a header, as other programs read them.
 Points raw_floats(const std::string& file, const std::string& end_of_header, std::size_t rows,
                   std::size_t row_bytes) {
   const std::size_t begin = file.find(end_of_header) + end_of_header.size();
   Points points;
-  for (std::size_t row = 0; row < rows; ++row) {
-    std::array<float, 3> values;
-    std::memcpy(values.data(), &file.at(begin + row * row_bytes), sizeof values);
-    points.push_back({values[0], values[1], values[2]});
-  }
+  for (std::size_t row = begin; points.size() < rows; row += row_bytes)
+    points.push_back({at<float>(file, row), at<float>(file, row + 4), at<float>(file, row + 8)});
   return points;
 }
 
@@ -86,7 +76,9 @@ TEST_CASE("with local coordinates, floats and the offset of a header are the coo
   Points local = points;
   for (Point& point : local) point -= offset;
   const ScanFiles scan({folder.write("a.txt", Cloud{points, {}}.text())}, {});
-  write_results(detection, scan, local_config(PointsFormat::kPly), folder / "ply");
+  FilesConfig config = with_points(PointsFormat::kPly);
+  config.output.local_coordinates = true;
+  write_results(detection, scan, config, folder / "ply");
 
   // Their rows are those of floats: 12 bytes for x y z.
   const std::vector<std::pair<std::string, std::size_t>> files = {{"loops.ply", 12 + 8 + 1 + 4 + 3},

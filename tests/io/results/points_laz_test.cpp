@@ -25,7 +25,7 @@ std::string records_of(const fs::path& file) {
 // The annotated file of one file, with five points.
 fs::path write_points(const ScratchFolder& folder, const fs::path& file) {
   const ScanFiles scan({file}, {});
-  write_results(FakeDetection().with_results(5), scan, las_config(), folder / "out");
+  write_results(FakeDetection().with_results(5), scan, with_points(), folder / "out");
   const auto points = folder / "out" / "points";
   return fs::directory_iterator(points)->path();
 }
@@ -51,23 +51,10 @@ fs::path compress(const ScratchFolder& folder, int format, const laz::Layout& la
   return file;
 }
 
-// Points of which a few bytes differ from one to the next.
 std::string alike_points(std::size_t count, std::size_t bytes) {
-  std::mt19937 random(3);
-  std::string points = las_point(bytes, 1000, 2000, 300);
-  points.reserve(count * bytes);
-  for (std::size_t i = 1; i < count; ++i) {
-    points += points.substr(points.size() - bytes);
-    points[points.size() - 1 - random() % bytes] = static_cast<char>(random());
-  }
-  return points.substr(0, count * bytes);
-}
-
-// Appends an extended record to a file without any.
-std::string with_extended(std::string bytes, const std::string& record) {
-  put<std::uint64_t>(bytes, 235, bytes.size());
-  put<std::uint32_t>(bytes, 243, 1);
-  return bytes + record;
+  std::string all;
+  for (const std::string& point : las_points_alike(bytes, count)) all += point;
+  return all;
 }
 
 std::string laz_bytes(const LasFile& las) {
@@ -88,9 +75,9 @@ TEST_CASE("the annotated LAZ file has the records of a LAS file, and its header 
         las_record("LASF_Spec", 4, las_extra_descriptor("height", 3) + las_extra_descriptor("pulse", 8))};
     std::string plain_bytes = las.bytes(), packed = laz_bytes(las);
     if (format >= 6) {
-      const std::string record = extended_record("somebody", 78, std::string(100'000, 'x'));
-      plain_bytes = with_extended(plain_bytes, record);
-      packed = with_extended(packed, record);
+      const std::string record = las_extended_record("somebody", 78, std::string(100'000, 'x'));
+      plain_bytes = with_extended(plain_bytes, {record});
+      packed = with_extended(packed, {record});
     }
     const ScratchFolder other;
     const auto plain_file = write_points(folder, folder.write("a.las", plain_bytes));
@@ -167,7 +154,7 @@ TEST_CASE("annotated LAZ refuses points too long for the memory limit before the
   const ScratchFolder folder;
   const auto refusal = [&](const LasFile& las, std::uint64_t memory) {
     const ScanFiles scan({folder.write("b.laz", laz_bytes(las))}, {}, memory);
-    return error_of([&] { check_points(scan, las_config()); });
+    return error_of([&] { check_points(scan, with_points()); });
   };
   constexpr std::uint64_t kMuch = std::uint64_t{1} << 30, kLittle = std::uint64_t{6} << 20;
   const LasFile wide = file_of(1, 4, 3'000);

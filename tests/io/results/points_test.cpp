@@ -9,13 +9,6 @@
 namespace lacuna::test {
 namespace {
 
-FilesConfig with_points(PointsFormat format = PointsFormat::kInput) {
-  FilesConfig config;
-  config.results.points = true;
-  config.output.points_format = format;
-  return config;
-}
-
 std::string written(const ScratchFolder& folder, const std::vector<ScanInput>& inputs, std::size_t rows,
                     const std::string& name, const FilesConfig& config = with_points()) {
   const ScanFiles scan(inputs, {});
@@ -88,26 +81,6 @@ TEST_CASE("a LAS file with a pose becomes PLY, at its place in the scan", "[io][
                             after = read_table(folder / "out" / "points" / "a.ply").rows.at(0);
   for (std::size_t axis = 0; axis < 3; ++axis)
     CHECK(after[axis] == before[axis] + static_cast<double>(axis + 1));
-}
-
-TEST_CASE("the annotated scan of an earlier run goes, whatever its files were", "[io][results]") {
-  const ScratchFolder folder;
-  const ScanFiles many(
-      {folder.write("a.ply", kPly), folder.write("b.xyz", kText), folder.write("c.las", las_bytes())}, {});
-  const ScanFiles one({folder.write("d.ply", kPly)}, {});
-  const auto of_many = FakeDetection().with_results(4), of_one = FakeDetection().with_results(1);
-  const auto out = folder / "out", points = out / "points";
-  for (const PointsFormat format : {PointsFormat::kInput, PointsFormat::kPly, PointsFormat::kCsv}) {
-    write_results(of_many, many, with_points(format), out);
-    CHECK(fs::exists(points) == (format == PointsFormat::kInput));
-    write_results(of_one, one, with_points(), out);
-    CHECK(names_of(points) == Names{"d.ply"});
-    for (const char* name : {"points.ply", "points.csv"}) CHECK_FALSE(fs::exists(out / name));
-  }
-  folder.write("out/points/mine.ply", kPly);
-  CHECK_THAT(error_of([&] { write_results(of_one, one, FilesConfig{}, out); }),
-             Contains("out/points/mine.ply: is no result of an earlier run"));
-  CHECK(names_of(points) == Names{"d.ply", "mine.ply"});
 }
 
 TEST_CASE("points.csv has every number as the shortest text that reads back as it", "[io][results]") {

@@ -7,23 +7,6 @@
 #include "tests/support/json.hpp"
 
 namespace lacuna::test {
-namespace {
-
-nlohmann::json report(const fs::path& folder) {
-  return json_of(read_file(folder / "holes.json"));
-}
-nlohmann::json run_of(const fs::path& folder) {
-  return json_of(read_file(folder / "run.json"));
-}
-
-FilesConfig with_points_ply(bool has_normals = false) {
-  FilesConfig config;
-  config.results.points = true;
-  config.output = {.points_format = PointsFormat::kPly, .points_normals = has_normals};
-  return config;
-}
-
-}  // namespace
 
 TEST_CASE("a run without holes leaves an empty loops.ply and a report without loops", "[io]") {
   const ScratchFolder folder;
@@ -33,12 +16,12 @@ TEST_CASE("a run without holes leaves an empty loops.ply and a report without lo
   CHECK(read_table(out / "loops.ply").rows.empty());
   CHECK(read_table(out / "boundary.ply").rows.empty());
   CHECK_FALSE(fs::exists(out / "points.ply"));
-  const auto json = report(out);
+  const auto json = read_json(out / "holes.json"), run = read_json(out / "run.json");
   CHECK(json.at("loops").empty());
   CHECK(json.at("bounds").is_null());
   CHECK(read_file(out / "holes.csv").ends_with("nx,ny,nz,cause,hidden_by_x,hidden_by_y,hidden_by_z\n"));
-  CHECK(run_of(out).at("points_per_second").is_null());
-  CHECK(run_of(out).at("peak_memory_bytes") > 0);
+  CHECK(run.at("points_per_second").is_null());
+  CHECK(run.at("peak_memory_bytes") > 0);
   CHECK(json.at("inputs")[0].at("points") == 1);
   CHECK(json.at("inputs")[0].at("properties").at("z") == "float");
 }
@@ -53,7 +36,7 @@ TEST_CASE("openings are apart from missing surface, where the cause of a hole is
   ExplainedDetection detection = found;
   const auto areas = [&] {
     write_results(detection, scan, FilesConfig{}, folder / "out");
-    const auto json = report(folder / "out");
+    const auto json = read_json(folder / "out/holes.json");
     CHECK(json.at("hole_area") == 111);
     return json.at("opening_area");
   };
@@ -81,11 +64,11 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
   config.selection.holes_only = true;
   write_results(detection, scan, config, folder / "out");
 
-  const auto json = report(folder / "out");
+  const auto json = read_json(folder / "out/holes.json");
   CHECK(json.at("lacuna") == "0.1.0");
   CHECK(json.at("schema") == "holes 3");
+  const auto run = read_json(folder / "out/run.json");
   for (const Parameter& parameter : parameters(config)) {
-    const auto run = run_of(folder / "out");
     const auto& place = parameter.section == "run" ? run : json;
     CHECK(place.at("parameters").at(std::string(parameter.section)).contains(std::string(parameter.key)));
   }
@@ -98,9 +81,8 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
   CHECK(json.at("counts").at("holes") == 1);
   CHECK(json.at("counts").at("outer") == 1);
   CHECK(json.at("bounds").at("max") == nlohmann::json{3, 4, 5});
-  CHECK(run_of(folder / "out").at("phases")[0].at("points_per_second") == 5);
-  CHECK(run_of(folder / "out").at("total_seconds") == 5);
-  CHECK(json.at("loops")[0].at("ids") == nlohmann::json{1, 5, 3});
+  CHECK(run.at("phases")[0].at("points_per_second") == 5);
+  CHECK(run.at("total_seconds") == 5);
   CHECK(json.at("loops")[1].at("kind") == "outer");
   CHECK(json.at("loops")[1].at("area").is_null());
   const nlohmann::json hole = json_of(R"({
@@ -119,7 +101,7 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
                ",1,2,3,0,0,1,,,,\n"));
   config.output.no_coordinates = true;
   write_results(detection, scan, config, folder / "out");
-  CHECK_FALSE(report(folder / "out").at("loops")[0].contains("coordinates"));
+  CHECK_FALSE(read_json(folder / "out/holes.json").at("loops")[0].contains("coordinates"));
 }
 
 TEST_CASE("loops.ply has the points of every loop and closes each with edges", "[io]") {
@@ -160,7 +142,7 @@ TEST_CASE("points.ply keeps every property of the input and adds the results", "
       folder.write("a.ply", ascii_ply("9 0.1 nan 3 77\n8 4 5 6 77\n7 7 8 9 77\n",
                                       "property uchar red\n" + kXyz + "property int scalar_loop\n"));
   const ScanFiles scan({file}, {});
-  write_results(FakeDetection().with_results(3), scan, with_points_ply(true), folder / "out");
+  write_results(FakeDetection().with_results(3), scan, with_points(PointsFormat::kPly, true), folder / "out");
   const Table table = read_table(folder / "out/points.ply");
   CHECK(table.names == Names{"red", "x", "y", "z", "scalar_probability", "scalar_angle", "scalar_halfdisc",
                              "scalar_shape", "scalar_boundary", "scalar_coherent", "scalar_loop", "quality",
@@ -175,7 +157,7 @@ TEST_CASE("points.ply keeps every property of the input and adds the results", "
   CHECK(reader->layout().find("scalar_coherent")->type == Scalar::kUint8);
 }
 
-TEST_CASE("points.ply joins files by property name, whatever the blocks of results", "[io]") {
+TEST_CASE("points.ply joins files by property name", "[io]") {
   const ScratchFolder folder;
   const auto a = folder.write("a.ply", ascii_ply("1 2 3 9 0.5\n4 5 6 8 0.5\n7 8 9 7 0.5\n",
                                                  kXyz + "property uchar red\nproperty float depth\n"));
@@ -183,23 +165,19 @@ TEST_CASE("points.ply joins files by property name, whatever the blocks of resul
   const auto c =
       folder.write("c.ply", ascii_ply("-5 0.1 2 3 300\n-6 0 0 0 301\n",
                                       "property short tag\n" + kWideXyz + "property ushort red\n"));
-  for (const std::size_t block : {1u, 2u, 4u, 100u}) {
-    const ScanFiles scan({a, b, c}, {});
-    FakeDetection detection;
-    detection.with_results(5).block = block;
-    write_results(detection, scan, with_points_ply(), folder / "out");
-    const Table table = read_table(folder / "out" / "points.ply");
-    REQUIRE(table.rows.size() == 5);
-    CHECK(Names(table.names.begin(), table.names.begin() + 7) ==
-          Names{"x", "y", "z", "red", "depth", "tag", "scalar_probability"});
-    CHECK(table.names.size() == 6 + 8);
-    CHECK(table.rows[0] == std::vector<double>{1, 2, 3, 9, 0.5, 0, 0, 0.25, 0.5, 0.75, 1, 0, -1, 0});
-    CHECK(table.rows[3][0] == 0.1);
-    CHECK(table.rows[3][3] == 300);
-    CHECK(std::isnan(table.rows[3][4]));
-    CHECK(table.rows[4][5] == -6);
-    CHECK(table.rows[4][6] == 4);
-  }
+  const ScanFiles scan({a, b, c}, {});
+  write_results(FakeDetection().with_results(5), scan, with_points(PointsFormat::kPly), folder / "out");
+  const Table table = read_table(folder / "out" / "points.ply");
+  REQUIRE(table.rows.size() == 5);
+  CHECK(Names(table.names.begin(), table.names.begin() + 7) ==
+        Names{"x", "y", "z", "red", "depth", "tag", "scalar_probability"});
+  CHECK(table.names.size() == 6 + 8);
+  CHECK(table.rows[0] == std::vector<double>{1, 2, 3, 9, 0.5, 0, 0, 0.25, 0.5, 0.75, 1, 0, -1, 0});
+  CHECK(table.rows[3][0] == 0.1);
+  CHECK(table.rows[3][3] == 300);
+  CHECK(std::isnan(table.rows[3][4]));
+  CHECK(table.rows[4][5] == -6);
+  CHECK(table.rows[4][6] == 4);
 }
 
 TEST_CASE("normals of the input stay, and are not written a second time", "[io]") {
@@ -208,26 +186,25 @@ TEST_CASE("normals of the input stay, and are not written a second time", "[io]"
       "a.ply",
       ascii_ply("1 2 3 1 0 0\n", kXyz + "property float nx\nproperty float ny\nproperty float nz\n"));
   const ScanFiles scan({file}, {});
-  write_results(FakeDetection().with_results(1), scan, with_points_ply(true), folder / "out");
+  write_results(FakeDetection().with_results(1), scan, with_points(PointsFormat::kPly, true), folder / "out");
   const Table table = read_table(folder / "out/points.ply");
   CHECK(table.names.size() == 6 + 8);
   CHECK(table.rows.at(0)[3] == 1);
 }
 
 TEST_CASE("an earlier result that is an input is never replaced", "[io]") {
-  FilesConfig of_each_file = with_points_ply();
-  of_each_file.output.points_format = PointsFormat::kInput;
+  const FilesConfig of_each_file = with_points();
   const ScratchFolder folder;
   const auto detection = FakeDetection().with_results(1);
   for (const auto& [config, result] :
-       {std::pair{with_points_ply(), "out/points.ply"}, {of_each_file, "out/points/a.ply"}}) {
+       {std::pair{with_points(PointsFormat::kPly), "out/points.ply"}, {of_each_file, "out/points/a.ply"}}) {
     const ScanFiles first({folder.write("a.ply", ascii_ply("1 2 3\n"))}, {});
     write_results(detection, first, config, folder / "out");
     const std::string content = read_file(folder / result);
     fs::create_hard_link(folder / result, folder / "linked.ply");
     for (const char* name : {result, "linked.ply"}) {
       const ScanFiles scan({folder / name}, {});
-      for (const FilesConfig& next : {with_points_ply(), of_each_file, FilesConfig{}})
+      for (const FilesConfig& next : {with_points(PointsFormat::kPly), of_each_file, FilesConfig{}})
         CHECK_THAT(error_of([&] { write_results(detection, scan, next, folder / "out"); }),
                    Contains(std::string(name) + ": is an input in the place of a result"));
     }
@@ -242,7 +219,7 @@ TEST_CASE("an input that changed during the run is an error that leaves no resul
   const ScanFiles scan({folder.write("a.ply", ascii_ply("1 2 3\n4 5 6\n"))}, {});
   for (const std::size_t results : {1u, 3u}) {
     CHECK_THAT(error_of([&] {
-                 write_results(FakeDetection().with_results(results), scan, with_points_ply(),
+                 write_results(FakeDetection().with_results(results), scan, with_points(PointsFormat::kPly),
                                folder / "out");
                }),
                Contains("the input has changed"));

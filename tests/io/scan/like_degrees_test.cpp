@@ -2,6 +2,7 @@
 #include "io/scan/like_degrees.hpp"
 
 #include "io/scan/scan_pass.hpp"
+#include "tests/support/clouds.hpp"
 #include "tests/support/drawn_files.hpp"
 #include "tests/support/golden.hpp"
 
@@ -39,13 +40,6 @@ Positions swapped(Positions positions) {
   return positions;
 }
 
-std::string text(const Positions& positions) {
-  std::ostringstream text;
-  text.precision(12);
-  for (const Eigen::Vector3d& p : positions) text << p.x() << " " << p.y() << " " << p.z() << "\n";
-  return text.str();
-}
-
 }  // namespace
 
 TEST_CASE("degrees of one survey with heights in metres are known by their values") {
@@ -62,7 +56,7 @@ TEST_CASE("degrees of one survey with heights in metres are known by their value
 
 TEST_CASE("degrees are known in files without a system and a unit") {
   const ScratchFolder folder;
-  const std::string rows = text(survey({4.1, 52.6}, 0.002, shelf));
+  const std::string rows = Cloud{survey({4.1, 52.6}, 0.002, shelf), {}}.text();
   for (const std::string& file :
        {folder.write("a.xyz", rows), folder.write("a.ply", ascii_ply(rows, kXyz))}) {
     INFO(file);

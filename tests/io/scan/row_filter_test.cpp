@@ -80,12 +80,7 @@ TEST_CASE("filters that leave no point are an error that names each of them and 
 TEST_CASE("withheld points and noise of LAS do not take part, unless they are kept") {
   const ScratchFolder folder;
   const auto las = [&](const std::vector<int>& classes) {
-    LasFile las;
-    for (const int number : classes) {
-      las.points.push_back(las_point(20, 1, 2, 3));
-      put(las.points.back(), 15, static_cast<std::uint8_t>(number));
-    }
-    return folder.write("a.las", las.bytes());
+    return folder.write("a.las", las_of_classes(classes));
   };
   constexpr int kWithheld = 128;
   const auto file = las({2, 7, 18, 2 | kWithheld, 7 | kWithheld});
@@ -104,9 +99,8 @@ TEST_CASE("withheld points and noise of LAS do not take part, unless they are ke
 
 TEST_CASE("filters that leave no point of one file are no error where another file has points") {
   const ScratchFolder folder;
-  LasFile las{.points = {las_point(20, 1, 2, 3)}};
-  put(las.points[0], 15, std::uint8_t{7});
-  const auto noise = folder.write("a.las", las.bytes()), text = folder.write("b.txt", "x y z\n1 2 3\n");
+  const auto noise = folder.write("a.las", las_of_classes({7})),
+             text = folder.write("b.txt", "x y z\n1 2 3\n");
   CHECK(read_filtered({noise, text}, {}).kept == std::vector{1});
 }
 

@@ -2,7 +2,7 @@
 #include "io/scan/scan_pass.hpp"
 
 #include "tests/io/io_support.hpp"
-#include "tests/support/clouds.hpp"
+#include "tests/support/memory_scan.hpp"
 
 namespace lacuna::test {
 namespace {
@@ -12,19 +12,6 @@ const std::string kIntegers =
 const std::string kNormals =
     ascii_ply("1 0.1 5 6 0 0.5\n", "property float nz\n" + kXyz + "property float nx\nproperty float ny\n");
 const std::string kEmpty = ascii_ply("");
-
-Cloud all_of(PointSource& source) {
-  Cloud all;
-  PointBatch batch;
-  while (source.next(batch)) {
-    REQUIRE(value(batch.first) == all.positions.size());
-    all.positions.insert(all.positions.end(), batch.positions.begin(), batch.positions.end());
-    all.normals.insert(all.normals.end(), batch.normals.begin(), batch.normals.end());
-  }
-  CHECK(batch.size() == 0);
-  CHECK(value(batch.first) == all.positions.size());
-  return all;
-}
 
 }  // namespace
 
@@ -37,7 +24,7 @@ TEST_CASE("several files are one scan, in double, with ids over all rows", "[io]
   CHECK(scan.has_normals());
   CHECK_FALSE(has_single_precision(scan));
   for (int time = 0; time < 2; ++time) {
-    const Cloud all = all_of(pass);
+    const Cloud all = read_points(pass);
     REQUIRE(all.size() == 3);
     CHECK(all.positions[0] == Eigen::Vector3d(255, -300, 70000));
     CHECK(all.positions[1] == Eigen::Vector3d(1, 2, 3));
@@ -57,7 +44,7 @@ TEST_CASE("rewinding in the middle starts from the first point", "[io]") {
   PointBatch batch;
   REQUIRE(pass.next(batch));
   pass.rewind();
-  CHECK(all_of(pass).positions.size() == 2);
+  CHECK(read_points(pass).positions.size() == 2);
   CHECK(has_single_precision(scan));
 }
 
@@ -67,7 +54,7 @@ TEST_CASE("a scan without normals has none, and a text file does not say its siz
   ScanPass pass(scan);
   CHECK_FALSE(scan.has_normals());
   CHECK_FALSE(scan.expected_points());
-  const Cloud all = all_of(pass);
+  const Cloud all = read_points(pass);
   CHECK(all.size() == 1);
   CHECK(all.normals.empty());
 }
@@ -127,15 +114,14 @@ TEST_CASE("a file that is not the one that was opened first is an error that say
     const ScanFiles scan({folder.write("a.ply", kNormals), file}, {});
     ScanPass pass(scan);
     CHECK(error_of([&] { scan.check_unchanged(); }).empty());
-    CHECK(all_of(pass).positions.size() == 2);
+    CHECK(read_points(pass).positions.size() == 2);
     std::this_thread::sleep_for(
         std::chrono::milliseconds(20));  // more than a tick of the file system's clock
     change(file);
     for (const std::string& error :
          {error_of([&] { scan.check_unchanged(); }), error_of([&] { scan.open(1); }), error_of([&] {
             pass.rewind();
-            for (PointBatch batch; pass.next(batch);) {
-            }
+            read_points(pass);
           })}) {
       INFO(error);
       CHECK(error.find(file.string() + ": has changed during the run (") == 0);
@@ -149,11 +135,11 @@ TEST_CASE("a point too far away is an error that names its file and its place in
   const ScratchFolder folder;
   const ScanFiles scan({folder.write("a.xyz", "1 2 3\n"), folder.write("b.xyz", "1 2 3\n1 -1e200 3\n")}, {});
   ScanPass pass(scan);
-  CHECK_THAT(error_of([&] { all_of(pass); }),
+  CHECK_THAT(error_of([&] { read_points(pass); }),
              Contains("b.xyz: point 1 lies at 1 -1e+200 3; coordinates must be within 1e30"));
   const ScanFiles bounded_files({folder.write("b.xyz", "1 2 3\n1 -1e200 3\n")}, {.bounds = {0, 0, 9, 9}});
   ScanPass bounded(bounded_files);
-  CHECK(error_of([&] { all_of(bounded); }).empty());
+  CHECK(error_of([&] { read_points(bounded); }).empty());
 }
 
 TEST_CASE("passes over some files count what one over all of them counts", "[io]") {
@@ -162,18 +148,18 @@ TEST_CASE("passes over some files count what one over all of them counts", "[io]
       {folder.write("a.xyz", "1 2 3\n40 5 6\n"), folder.write("b.xyz", "7 8 9\nnan 0 0\n7 8 90\n")},
       {.bounds = {0, 0, 0, 9, 9, 9}});
   ScanPass whole(scan), task(scan);
-  all_of(whole);
+  read_points(whole);
   std::vector<std::uint64_t> counts(whole.pass_counts().size());
   for (const std::size_t file : {0, 1}) {
     task.rewind_to({file, file + 1}, PointId{0});
-    all_of(task);
+    read_points(task);
     for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += task.pass_counts()[i];
   }
   CHECK(counts == whole.pass_counts());
   CHECK(whole.counts().filtered_out.bounds == 2);
   CHECK(rows_of(scan, whole.counts()) == std::vector<std::uint64_t>{2, 3});
   task.rewind();
-  CHECK(all_of(task).size() == 5);
+  CHECK(read_points(task).size() == 5);
 }
 
 }  // namespace lacuna::test

@@ -22,11 +22,8 @@ std::vector<StationSummary> stations_of(std::vector<ScanInput> inputs, const Out
 
 TEST_CASE("scans of an E57 file with a pose are stations, with the rows of each") {
   const ScratchFolder folder;
-  const auto scan = [](const std::string& pose, std::vector<double> x) {
-    return test::E57TestScan{
-        .fields = {test::e57_doubles("cartesianX", x), test::e57_doubles("cartesianY", x),
-                   test::e57_doubles("cartesianZ", x)},
-        .pose = pose};
+  const auto scan = [](const std::string& pose, const std::vector<double>& x) {
+    return test::E57TestScan{.fields = test::e57_position(x, x, x), .pose = pose};
   };
   const std::string file = folder.write(
       "a.e57", test::encode_e57({scan(test::e57_pose({1, 0, 0, 0}, {1, 2, 3}), {1, 2, 3}), scan("", {4}),

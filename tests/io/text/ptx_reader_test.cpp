@@ -37,7 +37,6 @@ TEST_CASE("the first ray of PTX says whether there are colours, also behind an e
   const std::string coloured = "1\n2\n" + kStill + "1 2 3 4 255 0 300\n4 5 6 0.5 1 2 3\n";
   const std::string bare = "1\n1\n" + kStill + "1 2 3 4\n", nothing = "0\n5\n" + kStill;
   const auto rows = [&](const std::string& text) { return read_table(folder.write("a.ptx", text), 1).rows; };
-  using Rows = std::vector<std::vector<double>>;
   CHECK(rows(nothing).empty());
   CHECK(rows(nothing + bare) == Rows{{1, 2, 3, 4, 1}});
   CHECK(rows(nothing + coloured) == Rows{{1, 2, 3, 4, 255, 0, 255, 1}, {4, 5, 6, 0.5, 1, 2, 3, 1}});
@@ -82,17 +81,12 @@ TEST_CASE("a matrix of PTX is a pose, as in a list of files", "[io]") {
 
 TEST_CASE("PTX: a scanner position that is not the place of the matrix is found", "[io]") {
   const ScratchFolder folder;
-  const auto findings = [&](const std::string& text) {
-    const auto reader = open_scan(folder.write("a.ptx", text), {});
-    for (RowBatch batch; reader->next(batch, 1);) {
-    }
-    return reader->findings();
+  const auto other_places = [&](const std::string& text) {
+    return findings_of(folder.write("a.ptx", text)).other_places;
   };
-  CHECK(findings(block("7 8 9", kUnturned + "7 8 9.5 1")).other_places == 0);  // rounded, to half a step
-  CHECK(findings(block("7 8 9", kUnturned + "7 8 11 1")).other_places == 1);
-  CHECK(
-      findings(block("7 8 9", kUnturned + "7 8 9 1") + block("0 0 0", kUnturned + "7 8 9 1")).other_places ==
-      1);
+  CHECK(other_places(block("7 8 9", kUnturned + "7 8 9.5 1")) == 0);  // rounded, to half a step
+  CHECK(other_places(block("7 8 9", kUnturned + "7 8 11 1")) == 1);
+  CHECK(other_places(block("7 8 9", kUnturned + "7 8 9 1") + block("0 0 0", kUnturned + "7 8 9 1")) == 1);
 }
 
 TEST_CASE("PTX: a broken file gives one error or whole rays", "[io]") {

@@ -2,6 +2,7 @@
 #include "tools/matching/match_loops.hpp"
 
 #include "bench/evaluation/loop_scores.hpp"
+#include "tests/support/grid_places.hpp"
 #include "tests/tools/matching/drawn.hpp"
 
 namespace lacuna::matching {
@@ -93,12 +94,9 @@ TEST_CASE("a loop of which less than 70 percent lies on a true one is false") {
 }
 
 // A square of `side` edges of length 1 to a side, with a corner at (x, y), counterclockwise.
-LoopIds square(Drawing& drawing, int side, double x, double y) {
+LoopIds square(Drawing& drawing, int side, int x, int y) {
   LoopIds ids;
-  for (int i = 0; i < side; ++i) ids.push_back(drawing.point(x + i, y));
-  for (int i = 0; i < side; ++i) ids.push_back(drawing.point(x + side, y + i));
-  for (int i = 0; i < side; ++i) ids.push_back(drawing.point(x + side - i, y + side));
-  for (int i = 0; i < side; ++i) ids.push_back(drawing.point(x, y + side - i));
+  for (const auto& [px, py] : test::places_around(x, y, side, side)) ids.push_back(drawing.point(px, py));
   return ids;
 }
 
@@ -170,14 +168,10 @@ TEST_CASE("a loop on a short true loop next to a long one goes to the long one")
 
 TEST_CASE("distances are to edges, so long ones hide nothing") {
   Drawing drawing;
-  LoopIds corners, dense;
-  const double side = 30;
-  for (const auto& [x, y] : {std::pair{0., 0.}, {side, 0.}, {side, side}, {0., side}})
+  LoopIds corners;
+  for (const auto& [x, y] : {std::pair{0, 0}, {30, 0}, {30, 30}, {0, 30}})
     corners.push_back(drawing.point(x, y));
-  for (int i = 0; i < 30; ++i) dense.push_back(drawing.point(i, 0));
-  for (int i = 0; i < 30; ++i) dense.push_back(drawing.point(side, i));
-  for (int i = 0; i < 30; ++i) dense.push_back(drawing.point(side - i, side));
-  for (int i = 0; i < 30; ++i) dense.push_back(drawing.point(0, side - i));
+  const LoopIds dense = square(drawing, 30, 0, 0);
   const MatchRule rule{.tolerance = 0.5, .min_vertices = 4};
   CHECK(scores_of(match(drawing, {dense}, {corners}, rule)).found == 1);
   CHECK(scores_of(match(drawing, {corners}, {dense}, rule)).found == 1);

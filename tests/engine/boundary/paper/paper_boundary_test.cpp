@@ -38,15 +38,6 @@ Traced trace(const Cloud& cloud, const Config& config, std::uint64_t global_memo
   return result;
 }
 
-// By first id, length, ids.
-IdLoops in_order(IdLoops loops) {
-  std::sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) {
-    if (a[0] != b[0]) return a[0] < b[0];
-    return a.size() != b.size() ? a.size() < b.size() : a < b;
-  });
-  return loops;
-}
-
 // Edges of each component of the graph of eligible edges, most first.
 std::vector<std::size_t> component_sizes(const reference::Detection& plain) {
   std::vector<std::size_t> tree(plain.points.size()), edges(plain.points.size());
@@ -95,7 +86,7 @@ TEST_CASE("a component larger than the memory of the global stage has the loops 
   const Config config = everything_eligible();
   const reference::Detection plain = reference::detect(cloud.positions, {}, config);
   const std::vector<std::size_t> components = component_sizes(plain);
-  const Traced expected{in_order(plain.loops), plain.eligible.size(), components.size()};
+  const Traced expected{reference::in_report_order(plain.loops), plain.eligible.size(), components.size()};
   REQUIRE(components.size() > 20);
   REQUIRE(components[0] > 10'000);  // 32 bytes each and more; below, from all of them down to none fit
   REQUIRE(components[5] < 2'000);
@@ -121,7 +112,7 @@ std::size_t check_drawn(std::uint64_t first, std::uint64_t last) {
     INFO("seed " << seed);
     const reference::Detection plain = reference::detect(cloud.positions, cloud.normals, config);
     const Traced traced = trace(cloud, tiled(config, std::int64_t(1 + 7 * (seed % 10)), 8), 1);
-    CHECK(traced.loops == in_order(plain.loops));
+    CHECK(traced.loops == reference::in_report_order(plain.loops));
     CHECK(traced.eligible_edges == plain.eligible.size());
     CHECK(traced.components == component_sizes(plain).size());
     CHECK(traced.wrong_points == 0);
