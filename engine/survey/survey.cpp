@@ -220,8 +220,8 @@ bool Survey::is_full() const {
   return table_.size() > std::min(memory_ / 2 / CellTable::kBytesPerCell, std::max(2 * wanted, kFewestCells));
 }
 
-// Where the first batch is a small part of the scan, cells may be far finer than the spacing of the points:
-// one doubling merges none of them.
+// Where the first batch is a small part of the scan, cells may be far finer than the spacing. Then one
+// doubling merges none of them.
 void Survey::make_space() {
   const auto is_sparse = [&](const CellTable& larger) { return are_sparse(table_.size(), larger.size()); };
   int& shift = scan_.grid.shift;

@@ -30,7 +30,7 @@ struct StarRadii {
 template <class Link>
 StarRadii smallest_radii(const Link& link, const TangentialConfig& config);
 
-// The same with their unit, `Sampling::distance`.
+// These radii with their unit, `Sampling::distance`.
 struct ScaledRadii {
   StarRadii star;
   double distance;
