@@ -96,6 +96,7 @@ struct TangentialConfig {
   std::int64_t min_curve = 8;  // points; around fewer, a sampling leaves gaps anyway
 };
 
+// Which of the chosen loops are reported. Tracking applies min_confidence, select_loops the others.
 struct SelectionConfig {
   double min_confidence = 0.5;  // from 0 to 1; the paper's loops have 1
   double min_perimeter = 0.0;   // lengths in units of the scan
@@ -109,7 +110,7 @@ struct SelectionConfig {
   friend bool operator==(const SelectionConfig&, const SelectionConfig&) = default;
 };
 
-// Which results are wanted besides the loops.
+// Which results are wanted besides the loops: in the section `output`, with the OutputConfig of io/options/.
 struct ResultsConfig {
   bool points = false;                   // of every point of the input
   std::int64_t sample_points = 1000000;  // of an even sample of the scan, at most; 0: none

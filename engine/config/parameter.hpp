@@ -33,7 +33,7 @@ enum class Changes : std::uint8_t {
   kPoints,       // the points of a level: a run with another value is another run
   kEvaluation,   // what is found at each point
   kOutputs,      // which results of evaluated points are kept
-  kNothingKept,  // results that are made from kept data
+  kNothingKept,  // no kept data, only results that are made from it: the selection, files, a report
   kProcess,      // no result: threads, memory and temporary files of one process
 };
 

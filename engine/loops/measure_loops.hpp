@@ -24,7 +24,7 @@ struct MeasuredLoops {
 MeasuredLoops measure_loops(ChosenLoops loops, std::span<const LoopTrack> tracks, double mean_edge_length,
                             const Spill& spill, const Workers& workers, Phases& phases);
 
-// Returns the loops that the selection reports.
+// Returns the loops that the selection reports. It leaves out min_confidence, which track_loops has applied.
 std::vector<std::size_t> select_loops(const std::vector<LoopMeasures>& loops, const SelectionConfig& config);
 
 }  // namespace lacuna

@@ -26,7 +26,7 @@ struct Counts {
   std::uint64_t boundary_points = 0;  // points of the input: duplicates count, thinned-out ones do not
   std::uint64_t boundary_edges = 0;   // of the boundary graph; by the paper: eligible ones
   std::uint64_t components = 0;       // of the boundary graph
-  std::uint64_t raw_loops = 0;        // before selection
+  std::uint64_t raw_loops = 0;        // of all levels, before tracking chooses
   std::uint64_t undefined_normals = 0;
   std::uint64_t normals_off = 0;  // given ones, by more than 45 degrees from the estimated ones
 };
@@ -35,7 +35,7 @@ struct Counts {
 struct LevelSummary {
   double edge = 0;           // of its lattice; 0: every point
   std::uint64_t points = 0;  // distinct ones
-  std::uint64_t loops = 0;   // before selection
+  std::uint64_t loops = 0;   // before tracking chooses
 };
 
 // Bins of equal width from 0 to 1.

@@ -37,7 +37,7 @@ void write_holes(const ExplainedDetection& detection, const ScanFiles& scan, con
                  OutputFile& out);
 
 // run.json: what may differ between runs with the same answer: threads, tiles, times, memory. It has the
-// coordinate reference system and the unit, too.
+// coordinate reference system and the unit, too. What depends on the answer belongs in holes.json.
 void write_run(const Detection& detection, const ScanFiles& scan, const FilesConfig& config, OutputFile& out);
 
 // holes.csv: one line for each loop, in order, with the ids of holes.json. What is not finite is empty.

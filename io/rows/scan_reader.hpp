@@ -143,7 +143,7 @@ bool fill_batch(RowBatch& batch, std::size_t max_rows, std::size_t stride, const
   return batch.count > 0;
 }
 
-// The data by which a format is recognised.
+// The data by which a format is recognised. The name of the file says nothing.
 struct FileStart {
   std::string_view first_bytes;
   std::uint64_t size = 0;  // of the whole file
