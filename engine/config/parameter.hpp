@@ -58,6 +58,12 @@ struct Parameter {
   LACUNA_API void set(std::string_view text) const;
 };
 
+// Returns a parameter that is true or false.
+inline Parameter flag(std::string_view section, std::string_view key, Changes changes, bool* value,
+                      std::string_view help, std::string_view missing = "") {
+  return {section, key, changes, value, 0, 1, "true or false", help, missing};
+}
+
 // Whether the value has one of these types.
 template <typename... Types>
 bool is_any_of(const Parameter& parameter) {

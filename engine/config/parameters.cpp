@@ -37,8 +37,8 @@ std::vector<Parameter> parameters(Config& config) {
       {"scale", "min_hole", Changes::kPoints, &scale.min_hole, 0, 1e100, "a length of 0 (off) or more",
        "Diameter of the smallest circle that fits in a wanted hole, in units of the scan; sets the first "
        "level."},
-      {"scale", "every_point", Changes::kPoints, &scale.every_point, 0, 1, "true or false",
-       "The scan at one level, that of all points.", no_tangential},
+      flag("scale", "every_point", Changes::kPoints, &scale.every_point,
+           "The scan at one level, that of all points.", no_tangential),
 
       {"neighbourhood", "k", Changes::kPoints, &neighbourhood.k, 1, 1000, "a whole number from 1 to 1000",
        "Nearest neighbours of a point, before the neighbourhoods are made symmetric."},
@@ -54,8 +54,8 @@ std::vector<Parameter> parameters(Config& config) {
        "estimated, not used."},
       {"normals", "crease_threshold", Changes::kEvaluation, &normals.crease_threshold, 0, 1,
        "a number from 0 to 1", "Angle probability above which an estimated normal is turned at a crease."},
-      {"normals", "orient_normals", Changes::kOutputs, &normals.orient, 0, 1, "true or false",
-       "Orient normals consistently, by minimum spanning tree.", no_normals},
+      flag("normals", "orient_normals", Changes::kOutputs, &normals.orient,
+           "Orient normals consistently, by minimum spanning tree.", no_normals),
 
       {"criteria", "sigma", Changes::kEvaluation, &criteria.sigma, kAboveZero, 1000,
        "a number above 0, at most 1000",
@@ -138,11 +138,11 @@ std::vector<Parameter> parameters(Config& config) {
        "a length of 0 or more", "Loops with a smaller diameter are not reported; 0: as min_hole has it."},
       {"selection", "min_points", Changes::kNothingKept, &selection.min_points, 0, 1e15,
        "a whole number from 0 to 10^15", "Loops with fewer points are not reported."},
-      {"selection", "holes_only", Changes::kNothingKept, &selection.holes_only, 0, 1, "true or false",
-       "Report holes only, not the outer boundaries of open surfaces."},
+      flag("selection", "holes_only", Changes::kNothingKept, &selection.holes_only,
+           "Report holes only, not the outer boundaries of open surfaces."),
 
-      {"output", "points", Changes::kOutputs, &results.points, 0, 1, "true or false",
-       "Write the annotated scan too: every point of the input with its probabilities."},
+      flag("output", "points", Changes::kOutputs, &results.points,
+           "Write the annotated scan too: every point of the input with its probabilities."),
       {"output", "sample_points", Changes::kOutputs, &results.sample_points, 0, 1e8,
        "a whole number from 0 to 100000000",
        "Points of sample.ply at most, spread evenly over the surface, for report and render; 0: no sample."},

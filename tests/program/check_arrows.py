@@ -11,6 +11,8 @@ import pathlib
 import re
 import sys
 
+if len(sys.argv) < 2:
+    sys.exit(__doc__.splitlines()[-1])
 folder = pathlib.Path(sys.argv[1])
 rows = re.findall(r"^\| `([\w]+)/?` \|", (folder / "README.md").read_text(encoding="utf-8"), re.MULTILINE)
 order = {name: place for place, name in enumerate(rows)}

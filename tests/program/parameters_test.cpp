@@ -70,6 +70,12 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"tile_points", "150"},
 };
 
+std::string_view other_value(std::string_view key) {
+  const auto found = kOtherValues.find(key);
+  if (found == kOtherValues.end()) FAIL("kOtherValues has no value of " << key);
+  return found->second;
+}
+
 struct Scan {
   std::string text, noise;  // files
 };
@@ -166,7 +172,7 @@ void set_other(const Parameter& parameter, const std::string& workspace) {
   } else if (parameter.key == "workspace" || parameter.key == "scratch") {
     parameter.set(workspace);
   } else {
-    parameter.set(kOtherValues.at(parameter.key));
+    parameter.set(other_value(parameter.key));
   }
 }
 
@@ -272,7 +278,7 @@ TEST_CASE("each option without effect has its warning, each other none") {
                                                    "area",          "points_format"};
       if (parameter.is_constant || parameter.section == "run" || left_out.contains(parameter.key)) continue;
       options.push_back(parameter.option());
-      if (!is_flag) options.emplace_back(kOtherValues.at(parameter.key));
+      if (!is_flag) options.emplace_back(other_value(parameter.key));
       if (!parameter.missing.empty()) {
         expected += "lacuna: warning: " + parameter.option() + " changes nothing without " +
                     std::string(parameter.missing) + "\n";
@@ -415,13 +421,12 @@ TEST_CASE("each parameter that info, check or find-stations offers changes what 
                                                    {"recursive", {"folder"}},
                                                    {"skip_damaged", {"plain.txt", "damaged.las"}},
                                                    {"unit", {"degrees.txt"}}};
-  const std::map<std::string_view, std::string> values = {
-      {"crs", "EPSG:4326"},
-      {"area", sweep.file("half.geojson")},
-      {"except", sweep.file("water.geojson")},
-      {"stations", std::string(kOtherValues.at("stations"))},
-      {"classes", sweep.file("water.geojson")},
-      {"scratch", sweep.file("plain.txt")}};
+  const std::map<std::string_view, std::string> values = {{"crs", "EPSG:4326"},
+                                                          {"area", sweep.file("half.geojson")},
+                                                          {"except", sweep.file("water.geojson")},
+                                                          {"stations", std::string(other_value("stations"))},
+                                                          {"classes", sweep.file("water.geojson")},
+                                                          {"scratch", sweep.file("plain.txt")}};
   // They divide the work, or bound its memory.
   const std::set<std::string> silent = {"check --threads", "find-stations --threads",
                                         "find-stations --memory-limit"};
@@ -444,7 +449,7 @@ TEST_CASE("each parameter that info, check or find-stations offers changes what 
       if (values.contains(parameter.key)) {
         changed.push_back(values.at(parameter.key));
       } else if (!std::holds_alternative<bool*>(parameter.value)) {
-        changed.emplace_back(kOtherValues.at(parameter.key));
+        changed.emplace_back(other_value(parameter.key));
       }
       INFO(command << " " << option);
       const Words& files = scans.contains(parameter.key) ? scans.at(parameter.key) : all;
