@@ -173,10 +173,12 @@ struct FlatLoop {
     box.max().array() += width;
   }
   Eigen::AlignedBox2d flat_box() const { return {box.min().head<2>().eval(), box.max().head<2>().eval()}; }
-  Eigen::AlignedBox3d box_in_space() const {
+  // Returns a box around the loop, its surroundings and a margin.
+  Eigen::AlignedBox3d box_in_space(double margin) const {
+    const Eigen::AlignedBox3d wider(box.min().array() - margin, box.max().array() + margin);
     Eigen::AlignedBox3d space;
     for (int i = 0; i < 8; ++i)
-      space.extend(plane.point_at(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i))));
+      space.extend(plane.point_at(wider.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i))));
     return space;
   }
 };
@@ -217,7 +219,8 @@ double prominence(const TileStore& points, std::span<const LoopPoint> loop, cons
     height[pixel] = static_cast<float>(at.z());
   });
   const std::span<const std::uint32_t> to_loop = nearest_marked(raster, is_on_loop, scratch);
-  for_each_point_near(points, flat.box_in_space(), [&](const Eigen::Vector3d& point) {
+  // The raster is up to half a pixel wider than the box on each side. Its points count, whatever their cells.
+  for_each_point_near(points, flat.box_in_space(raster.edge), [&](const Eigen::Vector3d& point) {
     const Eigen::Vector3d at = flat.plane(point);
     const std::uint32_t pixel = raster.pixel_at(at);
     if (pixel != kNowhere && std::abs(at.z() - height[to_loop[pixel]]) <= flat.width) is_sampled[pixel] = 1;

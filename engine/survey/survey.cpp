@@ -157,7 +157,9 @@ Survey::Survey(std::uint64_t memory, std::uint64_t expected_points, std::filesys
       stored_(std::move(file), memory_ / 4) {}
 
 // A surface of n points and this extent has sqrt(n / 16) cells of 16 points along it. Half of that size is
-// small enough for a first batch from a small area of the scan. Cells that are too small merge.
+// small enough for a first batch from a small area of the scan. A batch that is spread over the whole scan,
+// in random order, shows how many cells there will be. Sizes with several times too many are then passed
+// over.
 void Survey::choose_cell_size(const PointBatch& batch) {
   const double points = static_cast<double>(expected_points_);
   const Whereabouts place = whereabouts_of(batch);
@@ -167,8 +169,21 @@ void Survey::choose_cell_size(const PointBatch& batch) {
   const double edge = extent / (2 * std::sqrt(points / kPointsPerCell) + 1);
   // Cells below the last digit of the coordinates would divide nothing.
   const int digit = farthest > 0 ? std::ilogb(farthest) - std::numeric_limits<double>::digits : kMinExponent;
-  const int finest =
-      std::clamp(std::ilogb(std::max(edge, 1e-300)), std::max(digit, kMinExponent), kMaxExponent);
+  int finest = std::clamp(std::ilogb(std::max(edge, 1e-300)), std::max(digit, kMinExponent), kMaxExponent);
+  scan_.grid = CellGrid::around(place.middle, finest);
+
+  // Cells grow by the factor by which the batch is thinner than the scan. Those of outliers are alone in a
+  // block of 8^3 cells.
+  const int doublings = std::ilogb(std::max(points / static_cast<double>(batch.size()), 1.0)) / 2;
+  const std::vector<CountedCell> runs = count_cells(batch, scan_.grid).runs;
+  CellTable sample, blocks;
+  sample.add(runs, doublings);
+  blocks.add(runs, doublings + 3);
+  std::size_t together = sample.size();
+  blocks.for_each([&](const CountedCell& block) { together -= block.points == 1; });
+  const double most = 2 * points / kPointsPerCell;
+  for (double cells = std::ldexp(static_cast<double>(together), 2 * doublings); cells > most; cells /= 4)
+    ++finest;
   scan_.grid = CellGrid::around(place.middle, finest);
   sized_ = true;
 }

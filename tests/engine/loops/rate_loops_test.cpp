@@ -84,6 +84,23 @@ TEST_CASE(
   CHECK(hole_of(moved).track.evidence.prominence == Approx(before).epsilon(0.4));
 }
 
+TEST_CASE("a prominence depends on the points alone, not on the cells that hold them") {
+  Config config;
+  config.selection.min_confidence = 0;
+  config.scale.every_point = true;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const Cloud cloud = scattered(3000, seed).scaled(50);
+    const auto prominences = [&](const Config& given) {
+      std::vector<double> all;
+      for (const ReportedLoop& loop : run_engine(cloud, given).loops)
+        all.push_back(loop.measures.track.evidence.prominence);
+      return all;
+    };
+    INFO("seed " << seed);
+    CHECK(prominences(tiled(config, 40)) == prominences(config));
+  }
+}
+
 TEST_CASE("outer curves have no prominence") {
   for (const ReportedLoop& loop : run_engine(punched_plane(), {}).loops)
     if (loop.measures.kind == LoopKind::kOuter) CHECK(loop.measures.track.evidence.prominence == 0);
