@@ -3,8 +3,10 @@
 #include "engine/loops/rate_loops.hpp"
 
 #include "engine/loops/confidence.hpp"
+#include "engine/loops/prominence.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
+#include "tests/support/tiled_scan.hpp"
 
 namespace lacuna {
 namespace {
@@ -84,21 +86,30 @@ TEST_CASE(
   CHECK(hole_of(moved).track.evidence.prominence == Approx(before).epsilon(0.4));
 }
 
-TEST_CASE("a prominence depends on the points alone, not on the cells that hold them") {
-  Config config;
-  config.selection.min_confidence = 0;
-  config.scale.every_point = true;
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    const Cloud cloud = scattered(3000, seed).scaled(50);
-    const auto prominences = [&](const Config& given) {
-      std::vector<double> all;
-      for (const ReportedLoop& loop : run_engine(cloud, given).loops)
-        all.push_back(loop.measures.track.evidence.prominence);
-      return all;
-    };
-    INFO("seed " << seed);
-    CHECK(prominences(tiled(config, 40)) == prominences(config));
+// The box of the loop and its surroundings reaches to 9.985, the raster to 10.
+TEST_CASE("all points over the raster count for a prominence, whatever cells they are in") {
+  Cloud ring;
+  std::vector<LoopPoint> loop;
+  for (int i = 0; i < 40; ++i) {
+    const double angle = i * std::numbers::pi / 20;
+    ring.positions.emplace_back(5 * std::cos(angle), 5 * std::sin(angle), 0);
+    LoopPoint& point = loop.emplace_back();
+    point.x = ring.positions.back().x();
+    point.y = ring.positions.back().y();
   }
+  Cloud framed = ring;
+  for (double along = -9.5; along <= 9.5; along += 0.5) {
+    for (const double side : {-9.995, 9.995}) {
+      framed.positions.emplace_back(side, along, 0);
+      framed.positions.emplace_back(along, side, 0);
+    }
+  }
+  const auto prominence_in = [&](const Cloud& cloud) {
+    const TiledScan scan(cloud, tiled({}, 4));
+    Scratch scratch(scan.job.spill.folder, 1 << 20);
+    return prominence(scan.store, loop, shape_of(loop, scratch), 1, scratch);
+  };
+  CHECK(prominence_in(framed) > 1.1 * prominence_in(ring));
 }
 
 TEST_CASE("outer curves have no prominence") {
