@@ -16,10 +16,10 @@ struct TrackedLoops {
   std::vector<LoopTrack> tracks;
 };
 
-// Returns the chosen loop of each hole, if its confidence is at least the selection's. The other limits of
-// the selection are those of select_loops. `levels`: from fine to coarse. The choice does not depend on what
-// is wanted, so a higher confidence gives a subset. All loops of the paper, which has one level, are chosen.
-// Cost: a sort of the loops' cells on disk.
+// Returns the chosen loop of each hole, if its confidence is at least the selection's. select_loops applies
+// the other limits. `levels`: from fine to coarse. The choice does not depend on what is wanted, so a higher
+// confidence gives a subset. All loops of the paper, which has one level, are chosen. Cost: a sort of the
+// loops' cells on disk.
 TrackedLoops track_loops(std::vector<LevelLoops> levels, Job& job);
 
 }  // namespace lacuna

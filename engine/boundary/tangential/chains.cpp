@@ -99,6 +99,7 @@ void close_chains(const Stitch<OpenChain>::ForEachRecord& for_each_chain, std::u
                   const Column<CurvePoint>& points, std::uint64_t curve_budget, Scratch& scratch,
                   const VisitCurve& visit) {
   SortedRuns<NumberedEnd> ends(scratch.folder() / "chain-ends", scratch.budget() / 2);
+  ends.reserve(2 * count);
   const std::span<OpenChain> chains = scratch.array<OpenChain>(count);
   LocalIndex number = 0;
   for_each_chain([&](const OpenChain& chain) {
