@@ -3,6 +3,8 @@
 
 #include "engine/store/column_writer.hpp"
 
+#include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace lacuna {
@@ -66,6 +68,15 @@ void Loops::sort() {
     const int order = &a == &b ? 0 : compare(*this, a, *this, b);
     return order != 0 ? order < 0 : a.evidence.is_coarse < b.evidence.is_coarse;
   });
+}
+
+void order_by_place(std::span<LoopPoint> loop) {
+  const auto comes_first = [](const LoopPoint& a, const LoopPoint& b) {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+  };
+  if (loop.size() < 2) return;
+  std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end(), comes_first), loop.end());
+  if (comes_first(loop.back(), loop[1])) std::reverse(loop.begin() + 1, loop.end());
 }
 
 }  // namespace lacuna

@@ -84,8 +84,12 @@ struct ChosenLoops {
   }
 };
 
-// Calls visit(i, points, scratch) for each loop of `Loops` or `ChosenLoops`, from several threads. Memory:
-// three quarters of the working memory, whatever the length of a loop.
+// Turns a loop so that it begins at its first place, by x, y, z, and goes on to the neighbour that comes first.
+// So sums along it do not depend on ids.
+void order_by_place(std::span<LoopPoint> loop);
+
+// Calls visit(i, points, scratch) for each loop of `Loops` or `ChosenLoops`, from several threads. Points are
+// ordered by place. Memory: three quarters of the working memory, whatever the length of a loop.
 template <class LoopSet, class Visit>
 void for_each_loop(const LoopSet& loops, const Spill& spill, const Workers& workers, Visit&& visit) {
   std::vector<std::uint64_t> needs;
@@ -96,6 +100,7 @@ void for_each_loop(const LoopSet& loops, const Spill& spill, const Workers& work
     Scratch scratch(spill.folder, most);
     const std::span<LoopPoint> points = scratch.array<LoopPoint>(loops.count(i));
     loops.read(i, points);
+    order_by_place(points);
     visit(i, std::span<const LoopPoint>(points), scratch);
   });
 }

@@ -193,6 +193,9 @@ LoopShape shape_of(std::span<const LoopPoint> loop, Scratch& scratch) {
   shape.area = area.stableNorm();
   if (shape.area > 0) shape.normal = area / shape.area;
   shape.kind = kind(loop, shape.normal, scratch);
+  Eigen::Index largest = 0;
+  shape.normal.cwiseAbs().maxCoeff(&largest);
+  if (shape.normal[largest] < 0) shape.normal = -shape.normal;
   return shape;
 }
 
@@ -223,7 +226,9 @@ double diameter(const Loop& loop) {
 
 LoopMeasures measure_loop(const Loop& loop, double lattice_edge) {
   Scratch scratch = in_memory();
-  return measure_loop(std::span(loop), lattice_edge, scratch);
+  Loop ordered = loop;
+  order_by_place(ordered);
+  return measure_loop(std::span<const LoopPoint>(ordered), lattice_edge, scratch);
 }
 
 }  // namespace lacuna

@@ -15,8 +15,8 @@ namespace lacuna {
 // shrinks, the surface lies inside: an outer boundary. A cap of less than about half a sphere has an outer
 // boundary, a larger one a hole.
 //
-// `normal` is the direction of the polygon's area vector (Newell), by the right hand rule about the written
-// direction. `area` is the length of this vector: the area of the loop projected along the normal.
+// `normal` is the direction of the polygon's area vector (Newell), turned so that its largest component is
+// positive. `area` is the length of this vector: the area of the loop projected along the normal.
 // `planarity` is 1 - sqrt(smallest / largest eigenvalue of the points' covariance). `tiles` counts cubes of a
 // fixed lattice, of edge `lattice_edge`, that hold a point of the loop. So the number does not depend on the
 // tiling of the run. `scratch` holds the loop and the arrays for its measures. Precondition: three points or
@@ -34,7 +34,7 @@ LoopShape shape_of(std::span<const LoopPoint> loop, Scratch& scratch);
 // Returns the largest distance between two points, exactly, by branch and bound over runs of the loop.
 double diameter(std::span<const LoopPoint> loop, Scratch& scratch);
 
-// These functions take a loop in memory.
+// These functions take a loop in memory, in any order (`order_by_place`).
 LoopMeasures measure_loop(const Loop& loop, double lattice_edge);
 double diameter(const Loop& loop);
 

@@ -71,7 +71,7 @@ struct LoopMeasures {
   double own_area = 0;   // of a reported hole: the part of its area that is in no larger one
   double diameter = 0;   // largest distance between two of its points
   Eigen::Vector3d centroid{0, 0, 0};  // of its points
-  // Unit; right hand rule about the loop's direction; 0 where it encloses nothing.
+  // Unit; its largest component is positive; 0 where the loop encloses nothing.
   Eigen::Vector3d normal{0, 0, 0};
   double planarity = 0;  // 1: in one plane; 1 - (thickness / extent) of its points, [0, 1]
   double mean_probability = 0;

@@ -18,7 +18,8 @@ namespace {
 struct TrackedLoop {
   std::uint32_t level, loop;  // the number within the level
   std::uint32_t first, last;
-  LoopEvidence evidence = {};
+  std::uint32_t first_of_kind;  // of the track that has the loops of its own kind alone
+  LoopEvidence evidence;
   double log_odds = 0;
 };
 
@@ -26,7 +27,8 @@ struct TrackedLoop {
 std::vector<TrackedLoop> loops_of(std::span<const LevelLoops> levels) {
   std::vector<TrackedLoop> loops;
   for (std::uint32_t l = 0; l < levels.size(); ++l) {
-    for (std::uint32_t i = 0; i < levels[l].loops.size(); ++i) loops.push_back({l, i, l, l});
+    for (std::uint32_t i = 0; i < levels[l].loops.size(); ++i)
+      loops.push_back({l, i, l, l, l, levels[l].loops.evidence(i)});
   }
   return loops;
 }
@@ -41,14 +43,18 @@ void follow(std::span<const NearLoops> pairs, std::vector<TrackedLoop>& loops) {
     loops[links[i].a].last = std::max(loops[links[i].a].last, loops[links[i].b].last);
   std::sort(links.begin(), links.end(),
             [](const NearLoops& x, const NearLoops& y) { return x.b != y.b ? x.b < y.b : x.a < y.a; });
-  for (const NearLoops& link : links)
-    loops[link.b].first = std::min(loops[link.b].first, loops[link.a].first);
+  for (const NearLoops& link : links) {
+    const TrackedLoop& from = loops[link.a];
+    TrackedLoop& to = loops[link.b];
+    to.first = std::min(to.first, from.first);
+    if (to.evidence.kind == from.evidence.kind)
+      to.first_of_kind = std::min(to.first_of_kind, from.first_of_kind);
+  }
 }
 
 // Adds the persistence to the evidence: 0 where the track ends at all points, or before the spacing.
 void rate(std::span<const LevelLoops> levels, std::vector<TrackedLoop>& loops) {
   for (TrackedLoop& loop : loops) {
-    loop.evidence = levels[loop.level].loops.evidence(loop.loop);
     const double spacing = loop.evidence.spacing, edge = levels[loop.last].edge;
     if (edge > spacing) loop.evidence.persistence = octaves(edge / spacing);
     loop.log_odds = log_odds(loop.evidence);
@@ -68,8 +74,11 @@ std::vector<double> ranks_of(std::span<const TrackedLoop> loops) {
 }
 
 // Goes down from the highest rank. A loop is chosen unless a chosen loop is at the same place. At the same
-// place are loops that run along half of it, and loops that run along loops of the same hole.
-std::vector<std::uint32_t> choose(std::span<const NearLoops> pairs, std::span<const double> ranks) {
+// place are loops that run along half of it, and loops that run along loops of the same hole. Of two loops of
+// different kinds that both begin at its level or a finer one, each is a curve of its own, though a coarse
+// cell holds both.
+std::vector<std::uint32_t> choose(std::span<const NearLoops> pairs, std::span<const TrackedLoop> loops) {
+  const std::vector<double> ranks = ranks_of(loops);
   struct Neighbour {
     std::uint32_t loop;
     bool is_same;
@@ -104,6 +113,9 @@ std::vector<std::uint32_t> choose(std::span<const NearLoops> pairs, std::span<co
       for (std::uint32_t n = begin[at]; n < begin[at + 1]; ++n) {
         const auto& [other, is_same] = neighbours[n];
         if (standing[other] == Standing::kChosen) continue;
+        if (at != loop && loops[other].evidence.kind != loops[loop].evidence.kind &&
+            loops[other].first_of_kind <= loops[loop].level)
+          continue;
         if (std::exchange(reached_by[other], loop) == loop) continue;
         standing[other] = Standing::kCovered;
         if (is_same) place.push_back(other);
@@ -132,7 +144,7 @@ TrackedLoops track_loops(std::vector<LevelLoops> levels, Job& job) {
   std::vector<TrackedLoop> loops = loops_of(levels);
   follow(pairs, loops);
   rate(levels, loops);
-  std::vector<std::uint32_t> chosen = choose(pairs, ranks_of(loops));
+  std::vector<std::uint32_t> chosen = choose(pairs, loops);
   const double min_confidence = job.config.selection.min_confidence;
   std::erase_if(chosen, [&](std::uint32_t i) { return probability_of(loops[i].log_odds) < min_confidence; });
   // At most one of several loops with the same points is chosen.

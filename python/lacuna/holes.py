@@ -61,7 +61,7 @@ class Loop:
     area: float  # seen along its normal; of a hole without its islands
     diameter: float  # largest distance between two of its points
     centroid: np.ndarray
-    normal: np.ndarray  # unit; right hand rule about the loop's direction; 0 where it encloses nothing
+    normal: np.ndarray  # unit; its largest component is positive; 0 where the loop encloses nothing
     planarity: float  # 1: in one plane
     mean_probability: float
     prominence: float  # of a hole over the gaps of the sampling around it; 0: not measured
