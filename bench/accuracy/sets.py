@@ -14,6 +14,7 @@ from pathlib import Path
 from mesh import cut_balls, read_mesh, write_mesh
 from range_map import SCENES, range_map
 from degrade import doubled, falling_by_ten, halved, read_scan, with_outliers
+from screens import SHAPES, screens
 from thin import overlap, thin, write_points
 
 SYNTH_KINDS = ["plane", "waves", "cylinder", "torus", "sphere-cap"]
@@ -252,6 +253,18 @@ def hard_lidar_sets(arguments):
                     ["--scene", name.split("-")[0], "--points", 150_000, "--seed", seed, *options])
 
 
+def screen_set(arguments, group, kind, seed):
+    scan = arguments.work / "sets" / f"{group}-{kind}-{seed}.ply"
+    return Set(group, scan.stem, scan, scan.with_suffix(".loops.txt"), 16,
+               lambda: write_points(*screens(kind, 0.1, seed), scan))
+
+
+def screen_sets(arguments):
+    for kind in SHAPES:
+        for seed in range(1, 5):
+            yield screen_set(arguments, "screens", kind, seed)
+
+
 def quick_sets(arguments):
     """Small ones of every kind, for tools/check.sh."""
     def holes(kind, *options):
@@ -282,6 +295,7 @@ def quick_sets(arguments):
                                                     ("doubled", "sphere-cap", doubled)], start=221):
         source = surface(arguments, "quick", f"quick-whole-{kind}", holes(kind, "--points", 16_000, "--noise", 0.25))
         yield degraded(arguments, source, "quick", f"quick-{name}", treatment, 8, seed)
+    yield screen_set(arguments, "quick", "screens", 31)
     for scene, perspective, noise, strays in (("table", False, 0, True), ("wall", True, 0.1, False)):
         yield made_mesh(arguments, "quick", f"quick-range-{scene}",
                         lambda made=(scene, perspective, noise, strays, 31): range_map(*made))
@@ -289,4 +303,4 @@ def quick_sets(arguments):
 
 # By group; a group of the table may be one of several that a function yields.
 GROUPS = [synth_sets, uneven_sets, closed_sets, mesh_sets, uneven_mesh_sets, degraded_sets, range_sets, range_made_sets,
-          lidar_sets, hard_lidar_sets, quick_sets]
+          lidar_sets, hard_lidar_sets, screen_sets, quick_sets]

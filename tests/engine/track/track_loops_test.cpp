@@ -15,6 +15,7 @@ struct DrawnLoop {
   double radius;
   double surface = kSure;
   bool is_coarse = false;
+  LoopKind kind = LoopKind::kHole;
 
   static constexpr double kSure = 0.95, kUnsure = 0.35;  // surface shares
 };
@@ -38,6 +39,7 @@ class Drawn {
                                   .is_coarse = loop.is_coarse,
                                   .width = 8,
                                   .compactness = 1 / (2 * std::numbers::pi),
+                                  .kind = loop.kind,
                                   .prominence = 8};
       level.loops.add(static_cast<std::uint64_t>(count), evidence, [&](std::uint64_t i) {
         const double angle = 2 * std::numbers::pi * static_cast<double>(i) / count;
@@ -121,6 +123,17 @@ TEST_CASE("of a fine and a coarse bound at one level, the fine loop stands where
   const TrackedLoops tracked = drawn.track();
   REQUIRE(tracked.loops.size() == 1);
   CHECK(tracked.loops.count(0) == 128);
+}
+
+TEST_CASE("an opening and the outer curve around it stay two, though a coarse cell holds both") {
+  const DrawnLoop opening{{0, 0, 0}, 20}, around{.middle = {0, 0, 0}, .radius = 26, .kind = LoopKind::kOuter};
+  Drawn drawn;
+  for (const double edge : {0., 2., 4.}) drawn.add(edge, {around, opening});
+  CHECK(drawn.track().loops.size() == 2);
+  Drawn coarse;  // the opening has no finer loop of its own
+  for (const double edge : {0., 2.}) coarse.add(edge, {around});
+  coarse.add(4, {around, opening});
+  CHECK(coarse.track().loops.size() == 1);
 }
 
 TEST_CASE("a higher --min-confidence leaves loops out, and changes none") {
