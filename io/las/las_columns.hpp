@@ -15,7 +15,7 @@
 namespace lacuna::io {
 
 // The columns are every field of the point format, then the extra bytes; x, y and z are doubles in units of
-// the scan. Values of extra bytes with a scale or offset, and integers of eight bytes, are doubles, and so are
+// the scan. Values of extra bytes with a scale or offset, and integers of eight bytes, are doubles. So are
 // integers of which a value means no data; that value is NaN. Scan angles are in degrees. Bytes that the
 // header does not describe are the columns extra_0, extra_1 and so on. Names differ: a number is added to a
 // second one.

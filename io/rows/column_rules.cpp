@@ -133,8 +133,7 @@ bool never_falls(const SampledRows& rows) {
   return true;
 }
 
-// Whether the second column goes one way while the first stays, and turns back where the first changes, as y
-// does in a grid that is written by x.
+// Whether a grid is written by x, the first column: y goes one way while x stays, and back where x changes.
 bool is_grid_by_first(const SampledRows& rows) {
   double way = 0;
   for (std::size_t row = 1; row < rows.rows(); ++row) {
