@@ -42,6 +42,7 @@ struct OtherFormat {
   std::string_view begins;
   std::string_view name;
   std::string_view way_out;
+  std::size_t at = 0;  // byte of its beginning
 };
 
 constexpr std::string_view kZip = "PK\x03\x04"sv;
@@ -72,6 +73,14 @@ constexpr std::array kOtherFormats = {
     OtherFormat{"CCB2"sv, "CloudCompare's BIN", "CloudCompare saves it as PLY or LAS"},
     OtherFormat{"OFF\n"sv, "OFF", kMeshLab},
     OtherFormat{"COFF\n"sv, "OFF", kMeshLab},
+    OtherFormat{"NOFF\n"sv, "OFF", kMeshLab},
+    OtherFormat{"CNOFF\n"sv, "OFF", kMeshLab},
+    OtherFormat{"BPF!"sv, "BPF", kConvert},
+    OtherFormat{"FASTBIN"sv, "FBI of TerraScan", kConvert},
+    OtherFormat{"CXYZ"sv, "BIN of TerraScan", kConvert, 12},
+    OtherFormat{"CSD\0"sv, "CSD of Optech", kConvert},
+    OtherFormat{"NITF0"sv, "NITF", kConvert},
+    OtherFormat{"PAR1"sv, "Parquet", kExportPoints},
     OtherFormat{"\x93NUMPY"sv, "an array of NumPy", kTakesArrays},
     OtherFormat{"glTF"sv, "binary glTF", "CloudCompare or Blender export it as PLY"},
     OtherFormat{"version https://git-lfs"sv, "a pointer of Git LFS",
@@ -132,8 +141,12 @@ std::optional<std::string> describe_other_format(const std::filesystem::path& fi
     return describe("DXF", kExportPoints);
   if (first == "solid" && lower_case(first_bytes).find("facet normal") != first_bytes.npos)
     return describe("STL", kMeshLab);
+  if (first.starts_with('{'))
+    return describe("JSON",
+                    "of points of GeoJSON, `ogr2ogr -f CSV OUT.csv IN -lco GEOMETRY=AS_XYZ` makes text");
   for (const OtherFormat& format : kOtherFormats) {
-    if (first_bytes.starts_with(format.begins)) return describe(format.name, format.way_out);
+    if (first_bytes.substr(std::min(format.at, first_bytes.size())).starts_with(format.begins))
+      return describe(format.name, format.way_out);
   }
   return std::nullopt;
 }

@@ -27,7 +27,7 @@ std::string property_name(std::string_view given) {
 
 std::string bare_name(std::string_view name) {
   std::string bare = lower_case(name);
-  std::erase_if(bare, [](char c) { return c < 'a' || c > 'z'; });
+  std::erase_if(bare, [](char c) { return c == '_' || c == ' '; });
   return bare.starts_with("scalar") ? bare.substr(6) : bare;
 }
 

@@ -20,7 +20,8 @@ std::string property_name(std::string_view given);
 // The names of the properties that make the colour of a point.
 inline constexpr const char* kColourNames[] = {"red", "green", "blue", "intensity"};
 
-// Returns one spelling for "return_number", PDAL's "ReturnNumber" and CloudCompare's "scalar_Return_Number".
+// Returns one spelling for "return_number", PDAL's "ReturnNumber" and CloudCompare's "scalar_Return_Number":
+// without case, blanks and underscores.
 std::string bare_name(std::string_view name);
 
 }  // namespace lacuna::io

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 namespace lacuna::io {
@@ -29,8 +30,9 @@ LasColumns::LasColumns(const LasHeader& header) : record_bytes_(header.record_by
          .added = header.offset[axis]});
   }
   for (const LasField& field : las_fields(header.point_format)) {
-    if (field.is_uint64) {
-      add(field.name, Scalar::kFloat64, {.kind = Kind::kScaled, .offset = field.offset, .stored = kUint64});
+    if (field.stored > 0) {
+      add(field.name, field.type,
+          {.kind = Kind::kScaled, .offset = field.offset, .stored = field.stored, .scale = field.scale});
     } else if (field.bits > 0) {
       add(field.name, field.type,
           {.kind = Kind::kBits,
@@ -68,15 +70,18 @@ void LasColumns::add_extra(const LasExtraBytes& extra, std::size_t& offset) {
     const std::string given = extra.name.empty() ? "extra" : extra.name;
     const std::string name = values > 1 ? given + "_" + std::to_string(i) : given;
     const bool is_scaled = extra.scale != 1 || extra.offset != 0 || type == kUint64 || type == kInt64;
-    if (is_scaled) {
-      add(name, Scalar::kFloat64,
+    const std::optional<double> no_data = las_no_data(extra, i);
+    const Scalar kept = las_extra_type(type).kept;
+    if (is_scaled || no_data) {
+      add(name, is_scaled || is_integer(kept) ? Scalar::kFloat64 : kept,
           {.kind = Kind::kScaled,
            .offset = offset,
            .stored = type,
            .scale = extra.scale,
-           .added = extra.offset});
+           .added = extra.offset,
+           .no_data = no_data});
     } else {
-      add(name, las_extra_type(type).kept, {.kind = Kind::kCopy, .offset = offset});
+      add(name, kept, {.kind = Kind::kCopy, .offset = offset});
     }
   }
 }
@@ -112,9 +117,16 @@ void LasColumns::unpack(std::span<const std::byte> records, std::byte* rows) con
                     [&](auto zero) { fill([](const std::byte* at) { return load<decltype(zero)>(at); }); });
           break;
         case Source::Kind::kScaled:
-          fill([&](const std::byte* at) {
-            return load_las_value(source.stored, at) * source.scale + source.added;
-          });
+          const auto value_of = [&](const std::byte* at) {
+            const double stored = load_las_value(source.stored, at);
+            return stored == source.no_data ? std::numeric_limits<double>::quiet_NaN()
+                                            : stored * source.scale + source.added;
+          };
+          if (layout_.properties[column].type == Scalar::kFloat32) {
+            fill([&](const std::byte* at) { return nearest_float(value_of(at)); });
+          } else {
+            fill(value_of);
+          }
           break;
       }
     }

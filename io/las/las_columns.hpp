@@ -6,6 +6,7 @@
 #include "io/rows/scan_reader.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -14,9 +15,10 @@
 namespace lacuna::io {
 
 // The columns are every field of the point format, then the extra bytes; x, y and z are doubles in units of
-// the scan. Values of extra bytes with a scale or offset, and integers of eight bytes, are doubles. Bytes
-// that the header does not describe are the columns extra_0, extra_1 and so on. Names differ: a number is
-// added to a second one.
+// the scan. Values of extra bytes with a scale or offset, and integers of eight bytes, are doubles. So are
+// integers of which a value means no data; that value is NaN. Scan angles are in degrees. Bytes that the
+// header does not describe are the columns extra_0, extra_1 and so on. Names differ: a number is added to a
+// second one.
 class LasColumns {
  public:
   explicit LasColumns(const LasHeader& header);
@@ -33,6 +35,7 @@ class LasColumns {
     std::uint8_t shift = 0, mask = 0xff;  // of bits
     std::uint8_t stored = 0;              // type of extra bytes, 1 to 10
     double scale = 1, added = 0;
+    std::optional<double> no_data = std::nullopt;  // the stored value that becomes NaN
   };
   void add(std::string name, Scalar type, Source source);
   void add_extra(const LasExtraBytes& extra, std::size_t& offset);

@@ -76,6 +76,17 @@ double load_las_value(std::uint8_t type, const std::byte* from) {
                    [&](auto zero) { return static_cast<double>(load<decltype(zero)>(from)); });
 }
 
+std::optional<double> las_no_data(const LasExtraBytes& extra, std::size_t i) {
+  constexpr std::uint8_t kHasNoData = 1;
+  constexpr std::size_t kNoDataAt = 40;  // as eight bytes of the kind of the type
+  if (extra.type == 0 || extra.type > kLastType || (extra.options & kHasNoData) == 0) return std::nullopt;
+  const std::uint8_t type = base_type(extra);
+  const bool is_signed = type % 2 == 0, is_floating = type >= kFloatType;
+  const double value = load_las_value(is_floating ? kDoubleType : is_signed ? kInt64Type : kUint64Type,
+                                      &extra.descriptor[kNoDataAt + sizeof(double) * i]);
+  return type == kFloatType ? static_cast<double>(nearest_float(value)) : value;
+}
+
 std::size_t las_extra_size(const LasExtraBytes& extra) {
   if (extra.type == 0) return extra.options;
   if (extra.type > kLastType) return 0;

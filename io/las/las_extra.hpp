@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -21,6 +22,9 @@ const LasExtraType& las_extra_type(std::uint8_t type);
 
 // Returns a stored value of type 1 to 10, without scale and offset.
 double load_las_value(std::uint8_t type, const std::byte* from);
+
+// Returns the stored value that means no data, of value `i` of a type of several; empty without one.
+std::optional<double> las_no_data(const LasExtraBytes& extra, std::size_t i);
 
 // Returns the bytes in a point: of one, two or three values, or without a type; 0 if the type is not known.
 std::size_t las_extra_size(const LasExtraBytes& extra);

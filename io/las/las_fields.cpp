@@ -74,7 +74,8 @@ std::vector<LasField> las_fields(int format) {
     bits("edge_of_flight_line", 15, 7, 1);
     whole("classification", Scalar::kUint8, 16);
     whole("user_data", Scalar::kUint8, 17);
-    whole("scan_angle", Scalar::kInt16, 18);  // in steps of 0.006 degrees
+    fields.push_back(
+        {.name = "scan_angle", .type = Scalar::kFloat32, .offset = 18, .stored = 4, .scale = 0.006});
     whole("point_source_id", Scalar::kUint16, 20);
   }
   if (groups.gps_time) whole("gps_time", Scalar::kFloat64, *groups.gps_time);
@@ -88,7 +89,7 @@ std::vector<LasField> las_fields(int format) {
     const std::size_t at = *groups.waveform;
     whole("wave_packet_descriptor", Scalar::kUint8, at);
     fields.push_back(
-        {.name = "wave_packet_offset", .type = Scalar::kFloat64, .offset = at + 1, .is_uint64 = true});
+        {.name = "wave_packet_offset", .type = Scalar::kFloat64, .offset = at + 1, .stored = 7});
     whole("wave_packet_bytes", Scalar::kUint32, at + 9);
     whole("wave_return_location", Scalar::kFloat32, at + 13);
     whole("wave_x", Scalar::kFloat32, at + 17);

@@ -15,7 +15,8 @@ struct LasField {
   Scalar type;       // of its column
   std::size_t offset;
   std::uint8_t shift = 0, bits = 0;  // of a byte; bits 0: the whole value
-  bool is_uint64 = false;            // as it is stored
+  std::uint8_t stored = 0;           // type of extra bytes as which it is stored, if that is another
+  double scale = 1;                  // of the stored value
 };
 
 // Returns all fields but the coordinates, which are the first twelve bytes, in the order of their columns.

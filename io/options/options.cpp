@@ -36,7 +36,8 @@ void check_boxes(const InputConfig& input) {
   const std::vector<double>& bounds = input.bounds;
   if (!bounds.empty() && bounds.size() != 4 && bounds.size() != 6)
     throw Error("bounds has " + std::to_string(bounds.size()) +
-                " numbers; allowed: 4 (min x y, max x y) or 6 (min x y z, max x y z), divided by commas");
+                (bounds.size() == 1 ? " number" : " numbers") +
+                "; allowed: 4 (min x y, max x y) or 6 (min x y z, max x y z), divided by commas");
   check_box("bounds", bounds);
   const std::span<const double> boxes = input.leave_out;
   if (boxes.size() % 6 != 0)
@@ -107,8 +108,8 @@ VoidSize void_size_of(const AreaConfig& area) {
     size.unit = kUnitNames[static_cast<std::size_t>(LengthUnit::kM)];
   }
   if ((!is_level && !read_length(length, size)) || !(size.length > 0 && size.length <= kMost))
-    throw Error("void_rule = " + quote(area.void_rule) +
-                (area.void_rule.empty() ? ": a check of an area needs it" : "") +
+    throw Error((area.void_rule.empty() ? "--void-rule is required for an area"
+                                        : "void_rule = " + quote(area.void_rule)) +
                 "; allowed: " + kAllowedRules);
   size.length *= spacings;
   return size;
@@ -126,8 +127,11 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
   const std::string_view no_points = config.results.points ? "" : "--points";
   const std::string_view no_gis = has_loops_for_gis(output) ? "" : "--gpkg or --geojson";
   return {
-      {"input", "columns", Changes::kPoints, &input.columns, 0, 0, "column names, separated by spaces",
-       "Names of a text file's columns, such as x y z nx ny nz; empty: from its header line."},
+      {"input", "columns", Changes::kPoints, &input.columns, 0, 0,
+       "column names, divided by commas or blanks",
+       "Names of a text file's columns, such as x,y,z,nx,ny,nz or x=Ost,y=Nord,z=Hoehe; empty: from its "
+       "header "
+       "line."},
       {"input", "bounds", Changes::kPoints, &input.bounds, -1e30, 1e30,
        "4 numbers, min x y and max x y, or 6, min x y z and max x y z; none: no bounds",
        "Points outside of this box do not take part."},

@@ -131,14 +131,19 @@ void read_points(const fs::path& file, std::size_t most, Scene& scene) {
   const std::uint64_t rows = reader->expected_rows().value_or(0);
   const std::uint64_t wanted = std::min<std::uint64_t>(rows, most);
 
+  const Property& id = find(file, layout, "scalar_id");
+  const Json inputs = scene.holes.value("inputs", Json::array());
+  std::size_t next_input = 1;
+
   ColourColumns colours(layout);
   std::vector<Eigen::Vector3d> positions, normals;
-  std::vector<double> probabilities;
+  std::vector<double> probabilities, ids;
   std::uint64_t taken = 0, before = 0;
   for (RowBatch batch; reader->next(batch, kRowsAtATime); before += batch.count) {
     load_vectors(batch, layout, kPositionNames, positions);
     load_vectors(batch, layout, kNormalNames, normals);
     load_column(batch, layout.stride, probability, probabilities);
+    load_column(batch, layout.stride, id, ids);
     colours.load(batch);
     for (; taken < wanted && taken * rows / wanted < before + batch.count; ++taken) {
       const std::size_t i = taken * rows / wanted - before;
@@ -147,6 +152,8 @@ void read_points(const fs::path& file, std::size_t most, Scene& scene) {
       scene.points.positions.push_back(place_in(scene, positions[i]));
       scene.points.normals.push_back(normal.allFinite() ? normal : Eigen::Vector3f(0, 0, 0));
       scene.points.probabilities.push_back(static_cast<float>(probabilities[i]));
+      for (; next_input < inputs.size() && ids[i] >= inputs[next_input].at("first_id"); ++next_input)
+        colours.begin_file();
       colours.take(i);
     }
   }

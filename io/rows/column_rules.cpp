@@ -126,11 +126,46 @@ bool repeats(const SampledRows& rows, std::size_t a, std::size_t b) {
   return !is_constant;
 }
 
-bool rises(const SampledRows& rows) {
+bool never_falls(const SampledRows& rows) {
   for (std::size_t row = 1; row < rows.rows(); ++row) {
-    if (!(rows.at(row, 0) > rows.at(row - 1, 0))) return false;
+    if (!(rows.at(row, 0) >= rows.at(row - 1, 0))) return false;
   }
   return true;
+}
+
+// Whether a grid is written by x, the first column: y goes one way while x stays, and back where x changes.
+bool is_grid_by_first(const SampledRows& rows) {
+  double way = 0;
+  for (std::size_t row = 1; row < rows.rows(); ++row) {
+    const double step = rows.at(row, 1) - rows.at(row - 1, 1);
+    const double along = rows.at(row, 0) == rows.at(row - 1, 0) ? step : -step;
+    if (way == 0) way = along;
+    if (!(along * way > 0)) return false;
+  }
+  return way != 0 && rows.at(0, 0) != rows.at(rows.rows() - 1, 0);
+}
+
+bool is_share(const SampledRows& rows, std::size_t column) {
+  for (std::size_t row = 0; row < rows.rows(); ++row) {
+    if (!(rows.at(row, column) >= 0 && rows.at(row, column) <= 1)) return false;
+  }
+  return true;
+}
+
+// Whether the first columns, one or three, are from 0 to 1, as intensities and colours are, and none of the
+// three behind them is.
+bool begins_with_shares(const SampledRows& rows, std::size_t count) {
+  for (std::size_t column = 0; column < count + 3; ++column) {
+    if (column >= rows.columns || is_share(rows, column) != (column < count)) return false;
+  }
+  return true;
+}
+
+// Whether all values of the first column have as many decimals, and those of the next three another number.
+bool has_other_decimals(const SampledRows& rows) {
+  const auto& decimals = rows.decimals;
+  return decimals.size() > 3 && decimals[0] && decimals[1] && decimals[0] != decimals[1] &&
+         decimals[1] == decimals[2] && decimals[2] == decimals[3];
 }
 
 // The value that a share of the values is below; NaN without values.
@@ -289,8 +324,15 @@ std::string doubt_of_first_columns(const SampledRows& rows) {
     return whole == 1 ? "the first column has whole numbers alone, and three with decimals follow"
                       : "the first " + std::to_string(whole) +
                             " columns have whole numbers alone, and three with decimals follow";
-  if (whole == 0 && rises(rows) && has_decimals(1))
-    return "the first column rises from row to row, as times do";
+  if (whole == 0 && never_falls(rows) && has_decimals(1) && !is_grid_by_first(rows))
+    return "the first column never falls from row to row, as times do";
+  if (has_other_decimals(rows) && has_decimals(1))
+    return "the first column has other decimals than the three that follow, as times and depths have";
+  for (const std::size_t count : {1, 3}) {
+    if (begins_with_shares(rows, count) && has_decimals(count))
+      return count == 1 ? "the first column is from 0 to 1, as intensities are, and the next three are not"
+                        : "the first three columns are from 0 to 1, as colours are, and the next three are not";
+  }
   return {};
 }
 

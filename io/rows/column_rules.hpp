@@ -32,6 +32,7 @@ bool name_some_position(std::span<const std::string> names);
 struct SampledRows {
   std::size_t columns = 0;
   std::vector<double> values;
+  std::vector<std::optional<std::size_t>> decimals;  // of each column, where its values have as many each
 
   std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
   double at(std::size_t row, std::size_t column) const { return values[row * columns + column]; }

@@ -127,12 +127,18 @@ const Property* RowLayout::find(std::string_view name) const {
   return nullptr;
 }
 
-const Property* RowLayout::find_alike(std::string_view name) const {
-  const std::string bare = bare_name(name);
+std::vector<const Property*> RowLayout::all_alike(std::string_view name) const {
+  if (const Property* const exact = find(name)) return {exact};
+  std::vector<const Property*> alike;
   for (const Property& property : properties) {
-    if (bare_name(property.name) == bare) return &property;
+    if (bare_name(property.name) == bare_name(name)) alike.push_back(&property);
   }
-  return nullptr;
+  return alike;
+}
+
+const Property* RowLayout::find_alike(std::string_view name) const {
+  const std::vector<const Property*> alike = all_alike(name);
+  return alike.empty() ? nullptr : alike.front();
 }
 
 }  // namespace lacuna::io

@@ -41,7 +41,10 @@ struct RowLayout {
   std::size_t stride = 0;            // bytes per row, no padding
 
   LACUNA_API const Property* find(std::string_view name) const;  // one after the other
-  // Returns the first one whose name is spelled alike (bare_name in io/files/property_name.hpp).
+  // Returns the ones whose names are spelled alike (bare_name in io/files/property_name.hpp); the one of this
+  // very name alone, if there is one.
+  std::vector<const Property*> all_alike(std::string_view name) const;
+  // Returns the first of them.
   LACUNA_API const Property* find_alike(std::string_view name) const;
 };
 

@@ -33,7 +33,7 @@ class ConditionParser {
                 "not, parentheses");
   }
 
-  // Takes a name, a number or a sign; empty at the end.
+  // Takes a name, with its quotes if it has them, a number or a sign; empty at the end.
   std::string_view next_word() {
     const auto is_part = [](char c) {
       return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -42,7 +42,11 @@ class ConditionParser {
     rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t"), rest_.size()));
     std::size_t size =
         static_cast<std::size_t>(std::find_if_not(rest_.begin(), rest_.end(), is_part) - rest_.begin());
-    if (size == 0 && !rest_.empty()) {
+    if (rest_.starts_with('"')) {
+      const std::size_t end = rest_.find('"', 1);
+      if (end == rest_.npos) fail("a name is not closed by a quote");
+      size = end + 1;
+    } else if (size == 0 && !rest_.empty()) {
       constexpr std::string_view kDouble[] = {"==", "!=", "<=", ">=", "&&", "||"};
       size = std::any_of(std::begin(kDouble), std::end(kDouble),
                          [&](std::string_view sign) { return rest_.starts_with(sign); })
@@ -108,23 +112,33 @@ class ConditionParser {
         std::find_if(std::begin(kSigns), std::end(kSigns), [&](const auto& s) { return s.first == sign; });
     if (found == std::end(kSigns)) fail(in_quotes(sign) + " is no comparison");
     double value;
-    if (parse_number(next_word(), value)) return add({.kind = found->second, .a = column, .value = value});
+    if (parse_number(next_word(), value)) {
+      // As the column has it: the float nearest to 0.1 is above 0.1.
+      if (to_.columns_[column].property.type == Scalar::kFloat32)
+        value = static_cast<double>(nearest_float(value));
+      return add({.kind = found->second, .a = column, .value = value});
+    }
     return add({.kind = found->second, .a = column, .b = find_column(last_word_)});
   }
 
   std::size_t find_column(std::string_view name) {
     if (name.empty()) fail("a comparison is missing at the end");
-    const Property* property = layout_.find(name);
-    if (property == nullptr && !bare_name(name).empty()) property = layout_.find_alike(name);
-    if (property == nullptr) {
+    if (name.starts_with('"')) name = name.substr(1, name.size() - 2);
+    const std::vector<const Property*> alike = layout_.all_alike(name);
+    if (alike.size() != 1) {
       std::string names;
-      for (const Property& p : layout_.properties) names += (names.empty() ? "" : ", ") + p.name;
+      const auto add = [&](const Property& p) { names += (names.empty() ? "" : ", ") + p.name; };
+      for (const Property* p : alike) add(*p);
+      if (!alike.empty())
+        throw Error(file_ + ": several columns for " + in_quotes(name) + " of --where: " + names +
+                    "; allowed: one of these names as it is");
+      for (const Property& p : layout_.properties) add(p);
       throw Error(file_ + ": no column for " + in_quotes(name) + " of --where; the columns are " + names);
     }
     for (std::size_t i = 0; i < to_.columns_.size(); ++i) {
-      if (to_.columns_[i].property.name == property->name) return i;
+      if (to_.columns_[i].property.name == alike[0]->name) return i;
     }
-    to_.columns_.push_back({*property, {}});
+    to_.columns_.push_back({*alike[0], {}});
     return to_.columns_.size() - 1;
   }
 

@@ -15,8 +15,9 @@ namespace lacuna::io {
 
 class Condition {
  public:
-  // Names of columns may be in any case, with or without underscores. `and`, `or` and `not` are also written
-  // &&, || and !. Throws `Error` for text that is no condition, and for a name that is no column.
+  // Names of columns may be in any case, with or without underscores, and in double quotes. `and`, `or` and
+  // `not` are also written &&, || and !. A number is rounded to the type of its column. Throws `Error` for
+  // text that is no condition, and for a name that fits no column, or several.
   Condition(std::string_view text, const std::string& file, const RowLayout& layout);
 
   // Loads the columns of these rows; `holds` is about one of them.

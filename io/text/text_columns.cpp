@@ -201,13 +201,18 @@ class ColumnFinder {
 
   // Reads the sampled lines that have a value for each column, and marks columns with words as not read.
   SampledRows sample(std::vector<std::string>& names, const std::vector<Line>& lines) const {
-    SampledRows rows{.columns = names.size(), .values = {}};
+    SampledRows rows{.columns = names.size(), .values = {}, .decimals = {}};
     constexpr std::size_t kMostValues = std::size_t{1} << 16;
     for (const Line& line : lines) {
       if (rows.values.size() >= kMostValues) break;
       const Cells cells = split(line.text, columns_.separator);
       if (cells.size() < names.size() || (cells.size() > names.size() && !columns_.has_more)) continue;
+      const bool is_first = rows.values.empty();
+      rows.decimals.resize(names.size());
       for (std::size_t i = 0; i < names.size(); ++i) {
+        const std::size_t decimals = cells[i].size() - std::min(cells[i].find('.') + 1, cells[i].size());
+        if (is_first) rows.decimals[i] = decimals;
+        if (rows.decimals[i] != decimals) rows.decimals[i].reset();
         double value = std::numeric_limits<double>::quiet_NaN();
         if (!parse_cell(cells[i], value) && !is_missing(cells[i]) && names[i] != "x" && names[i] != "y" &&
             names[i] != "z")

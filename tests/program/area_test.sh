@@ -455,7 +455,7 @@ refuse() {
 }
 some=(holes.xyz --columns "x y z" --out refused)
 for command in check detect; do
-  refuse "void_rule = \"\": a check of an area needs it; allowed: a length above 0, or" "$command" "${some[@]}" --area holes.geojson
+  refuse "--void-rule is required for an area; allowed: a length above 0, or" "$command" "${some[@]}" --area holes.geojson
   refuse "nothing.gpkg: cannot be opened: No such file" "$command" "${some[@]}" --area nothing.gpkg --void-rule 4
   refuse "holes.xyz: cannot be read as GeoPackage" "$command" "${some[@]}" --area holes.xyz --void-rule 4
   refuse "void_rule = 1e-6: the area has .* cells of an eighth of this size, more than .* allowed: a size of .* or more" "$command" "${some[@]}" \
@@ -513,7 +513,7 @@ refuse "points are so far apart that outlines of voids have .* edges" check wide
   --void-rule 1.5 --memory-limit 112MiB
 refuse "area_tile = 0.5: the area has 360000 squares with this edge, more than .* allowed: an edge of 1.3.* or more" check wide.xyz \
   --columns "x y z" --area wide.geojson --void-rule 0.5 --area-tile 0.5 --memory-limit 112MiB
-refuse "a check of an area needs it" check "${some[@]}"
+refuse "--void-rule is required for an area" check "${some[@]}"
 refuse "void_rule = 0.3: the points are too sparse for an outline of the scan; allowed: a larger size" check whole.txt --void-rule 0.3
 refuse "earth.txt: its places are geocentric, as of EPSG:4978, and --area needs a plan; .*EPSG:32632" check earth.txt \
   --columns "x y z" "${on[@]}"

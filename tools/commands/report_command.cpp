@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "engine/run/error.hpp"
 #include "io/report/report.hpp"
+#include "io/results/voids.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/visible_text.hpp"
@@ -11,6 +13,7 @@
 
 namespace lacuna::tools {
 using namespace io;
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -20,6 +23,9 @@ struct ReportArguments {
 };
 
 void run_report(const ReportArguments& arguments) {
+  if (fs::exists(arguments.folder / kVoidsFile) && !fs::exists(arguments.folder / "holes.json"))
+    throw Error(arguments.folder.string() +
+                ": has the results of lacuna check, whose --report writes their sheet");
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
   const std::filesystem::path file = write_report(arguments.folder, overwrite);
   std::cout << "written: " << visible(file.string()) << "\n";

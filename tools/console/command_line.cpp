@@ -131,6 +131,8 @@ std::string option_hint(const CLI::App& command, const std::string& name) {
   if (chooses_points && name.starts_with("--class"))
     return suggestion(name, {names.begin(), names.end()}) +
            "; --where 'Classification == 2' chooses points by their class";
+  if (chooses_points && name == "--pose")
+    return "; a list of files has poses: @LIST with lines such as scan2.ply pose=scan2.xf";
   if (name.starts_with("--")) return suggestion(name, {names.begin(), names.end()});
   for (const CLI::Option* option : command.get_options()) {
     const bool is_parameter = section_of(*option) != kGeneral;
@@ -361,6 +363,11 @@ void CommandLine::run(std::vector<std::string> arguments) {
     app_->parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::Success& shown) {  // --help, --version
     app_->exit(shown, std::cout, std::cerr);
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string text = error.what();
+    throw UsageError(text.substr(0, text.find(':')) +
+                     (text.find("At Most") != text.npos ? " is given more than once" : " lacks a value") +
+                     usage_hint(*app_, arguments));
   } catch (const CLI::Error& error) {
     throw UsageError(error.what() + usage_hint(*app_, arguments));
   } catch (const WrongOption& error) {

@@ -113,8 +113,8 @@ class Hierarchy {
       tiles_.push_back({*place, points.get<std::uint64_t>()});
     }
     if (tiles_.size() + left_.size() + roots_.size() > most_)
-      fail(folder_, "has more tiles than the " + std::to_string(most_) +
-                        " that fit in the memory limit; allowed: a higher limit");
+      throw TooManyTiles(folder_.string() + ": has more tiles than the " + std::to_string(most_) +
+                         " that fit in the memory limit; allowed: a higher limit");
   }
 
   fs::path folder_;

@@ -2,11 +2,17 @@
 // Entwine's point tiles (https://entwine.io/en/latest/entwine-point-tile.html): a folder of LAZ files.
 #pragma once
 
+#include "engine/run/error.hpp"
 #include "io/rows/scan_reader.hpp"
 
 #include <filesystem>
 
 namespace lacuna::tools {
+
+// A hierarchy that does not fit in memory. Its tiles cannot be read without it.
+struct TooManyTiles : Error {
+  using Error::Error;
+};
 
 // Returns the ept.json that a name stands for: itself, or the one in a folder. Empty if there is none.
 std::filesystem::path find_ept(const std::filesystem::path& input);

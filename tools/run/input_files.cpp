@@ -140,6 +140,8 @@ void add_ept(const fs::path& ept, const ReadOptions& options, const InputConfig&
   const fs::path data = ept_data(ept);
   try {
     check_ept(ept, options);
+  } catch (const TooManyTiles&) {
+    throw;
   } catch (const Error& error) {
     const std::string reason = visible(error.what());
     if (!config.skip_damaged) throw Error(reason + "; --skip-damaged reads the tiles that are there");
@@ -176,10 +178,13 @@ ScanInput parse_entry(const fs::path& folder, std::string_view line, const ReadO
 void add_list(const fs::path& list, const ReadOptions& options, std::vector<ScanInput>& files) {
   InputFile in(list);
   const std::size_t before = files.size();
+  if (in.peek(3) == "\xef\xbb\xbf") in.skip(3);  // byte order mark of UTF-8
   while (const auto line = in.next_line()) {
     std::string name(*line);
     if (name.ends_with('\r')) name.pop_back();
     if (name.empty() || name.starts_with('#')) continue;
+    if (const std::size_t end = name.find('"', 1); name.front() == '"' && end != name.npos)
+      name = name.substr(1, end - 1) + name.substr(end + 1);
     try {
       files.push_back(parse_entry(list.parent_path(), name, options));
     } catch (const Error& error) {
@@ -197,6 +202,10 @@ std::vector<ScanInput> expand_inputs(const std::vector<fs::path>& given, const F
   std::vector<ScanInput> files;
   for (const fs::path& input : given) {
     std::error_code error;  // what is missing is an error later, when it is opened
+    if (input.empty()) throw Error("a scan without a name; allowed: files, folders and @LIST");
+    if (input.string().find_first_of("*?") != std::string::npos && !fs::exists(input, error))
+      throw Error(input.string() +
+                  ": no file of this name; a pattern works without quotes, where it fits a file");
     if (input == "-") {
       throw Error(
           "-: standard input is not read, because a scan is read more than once; save it in a file first, "

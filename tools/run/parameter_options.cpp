@@ -57,8 +57,8 @@ bool ReadParameters::has(const Parameter& parameter) const {
 }
 
 ReadParameters parameters_of_run() {
-  return {.common = {"min_hole", "k", "min_confidence", "holes_only", "bounds", "where", "points", "gpkg",
-                     "report", "workspace", "memory_limit"},
+  return {.common = {"min_hole", "k", "min_confidence", "holes_only", "bounds", "where", "crs", "unit",
+                     "points", "gpkg", "stations", "report", "workspace", "memory_limit"},
           .rare = {"scale", "neighbourhood", "normals", "criteria", "coherence", "loops", "spanning",
                    "tangential", "selection", "input", "area", "output", "run"}};
 }

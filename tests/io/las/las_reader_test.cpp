@@ -71,7 +71,7 @@ TEST_CASE("every field of every point format of LAS is a column", "[io]") {
                                            {"synthetic", 1}});
       add(std::uint8_t{64}, {{"classification", 64}});
       add(std::uint8_t{200}, {{"user_data", 200}});
-      add(std::int16_t{-15'000}, {{"scan_angle", -15'000}});
+      add(std::int16_t{-15'000}, {{"scan_angle", -90}});
     } else {
       add(std::uint8_t{0b1'0'011'010}, {{"edge_of_flight_line", 1},
                                         {"scan_direction_flag", 0},
@@ -133,6 +133,27 @@ TEST_CASE("extra bytes of LAS are columns by their descriptors, others by their 
   CHECK(value(table, 0, "x_2") == static_cast<double>(1ull << 40));
   CHECK(value(table, 0, "extra_0") == 5);
   CHECK(value(table, 0, "extra_1") == 6);
+}
+
+TEST_CASE("stored values of extra bytes that mean no data are NaN, whatever their scale", "[io]") {
+  const ScratchFolder folder;
+  std::string height = las_extra_descriptor("height", 4, 1 + 8, 0.01, 0),
+              width = las_extra_descriptor("width", 9, 1), count = las_extra_descriptor("count", 1, 1);
+  put(height, 40, std::int64_t{-9999});
+  put(width, 40, -0.1);
+  put(count, 40, std::uint64_t{255});
+  std::vector<std::string> points(2, las_point(20 + 2 + 4 + 1, 1, 2, 3));
+  put<std::int16_t>(points[0], 20, -9999);
+  put<float>(points[0], 22, -0.1f);
+  put<std::uint8_t>(points[0], 26, 255);
+  put<std::int16_t>(points[1], 20, 150);
+  LasFile las{.points = points};
+  las.records = {las_record("LASF_Spec", 4, height + width + count)};
+  const Table table = read_table(folder.write("a.las", las.bytes()));
+  for (const char* name : {"height", "width", "count"}) CHECK(std::isnan(value(table, 0, name)));
+  CHECK(value(table, 1, "height") == 1.5);
+  CHECK(value(table, 1, "width") == 0);
+  CHECK(value(table, 1, "count") == 0);
 }
 
 TEST_CASE("records of extra bytes are joined in order where they fit a point, else the last one holds",

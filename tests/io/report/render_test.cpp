@@ -3,7 +3,9 @@
 
 #include "io/report/labels.hpp"
 #include "io/report/roof.hpp"
+#include "io/report/scene_colours.hpp"
 #include "io/report/section.hpp"
+#include "io/rows/scalar.hpp"
 #include "tests/support/test.hpp"
 
 namespace lacuna::io {
@@ -260,6 +262,30 @@ TEST_CASE("a section above everything hides nothing, one below everything all") 
   CHECK(scene.points.positions.empty());
   CHECK(scene.loops.vertices.empty());
   CHECK(scene.loops.first == std::vector<std::size_t>{0, 0, 0, 0});
+}
+
+template <class T>
+std::vector<Colour> colours_of(Scalar type, const std::vector<std::vector<T>>& files) {
+  const RowLayout layout = packed_layout(
+      std::vector<std::pair<std::string, Scalar>>{{"red", type}, {"green", type}, {"blue", type}});
+  ColourColumns colours(layout);
+  for (const std::vector<T>& file : files) {
+    colours.begin_file();
+    for (const T value : file) {
+      const std::array<T, 3> row = {value, value, value};
+      const auto bytes = std::as_bytes(std::span(row));
+      colours.load({.count = 1, .bytes = {bytes.begin(), bytes.end()}});
+      colours.take(0);
+    }
+  }
+  return colours.finish();
+}
+
+TEST_CASE("colours are scaled file by file, and floats that are hardly above 1 are shares") {
+  const auto shorts = colours_of<std::uint16_t>(Scalar::kUint16, {{10, 200}, {51'400, 257}, {}, {7}});
+  CHECK(shorts == std::vector<Colour>{{10, 10, 10}, {200, 200, 200}, {200, 200, 200}, {1, 1, 1}, {7, 7, 7}});
+  const auto floats = colours_of<float>(Scalar::kFloat32, {{0.2f, 1.00001f}, {51, 255}});
+  CHECK(floats == std::vector<Colour>{{51, 51, 51}, {255, 255, 255}, {51, 51, 51}, {255, 255, 255}});
 }
 
 }  // namespace

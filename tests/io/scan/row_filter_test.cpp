@@ -136,6 +136,28 @@ TEST_CASE("a condition of any attributes says which points take part") {
                 [&](const std::string& where) { return error_of([&] { kept(where); }); });
 }
 
+TEST_CASE("a condition takes the column of its very name, or the only one that is spelled alike") {
+  const ScratchFolder folder;
+  const auto file = folder.write("a.txt", "x y z Band_1 band1 Band2\n0 0 0 1 2 3\n");
+  const auto kept = [&](const std::string& where) { return read_filtered({file}, {.where = where}).kept; };
+  for (const char* where : {"band1 == 2", "Band_1 == 1", "band_2 == 3", "\"band 2\" == 3"})
+    CHECK(kept(where) == std::vector{0});
+  check_reasons({{"BAND1 == 1", "several columns for 'BAND1' of --where: Band_1, band1; allowed"},
+                 {"band_9 > 0", "no column for 'band_9'"},
+                 {"\"band 2 > 0", "is not closed by a quote"}},
+                [&](const std::string& where) { return error_of([&] { kept(where); }); });
+}
+
+TEST_CASE("a number of a condition is rounded to the type of its column") {
+  const ScratchFolder folder;
+  const auto file =
+      folder.write("a.ply", ascii_ply("1 1 1 0.1\n2 2 2 0.7\n", kXyz + "property float quality\n"));
+  const auto kept = [&](const std::string& where) { return read_filtered({file}, {.where = where}).kept; };
+  CHECK(kept("quality <= 0.1") == std::vector{0});
+  CHECK(kept("quality >= 0.7") == std::vector{1});
+  CHECK(kept("quality > 0.1") == std::vector{1});
+}
+
 TEST_CASE("a scan without a point is an error that says why") {
   const ScratchFolder folder;
   const auto error = [&](const std::string& text) {

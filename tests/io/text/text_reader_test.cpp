@@ -70,16 +70,32 @@ TEST_CASE("a first column that counts the rows, and whole numbers before decimal
   const auto places = [&](int i) { return number(i * i) + ".5," + number(7 * i % 5) + ".25,1.75"; };
   const auto place = [&](int i) { return number(i % 7) + ".5 " + number(i % 5) + ".25 1.75"; };
   const std::string ids = rows(50, [&](int i) { return number(i) + "," + places(i); });
-  check_refused(
-      "a.csv",
-      {{ids, "line 1: no header line, and the first column counts the rows"},
-       {rows(50, [](int i) { return number(i + 1) + " 3 4 5 6"; }), "counts the rows"},
-       {rows(50, [&](int i) { return number(i + 1001) + "," + places(i); }), "counts the rows"},
-       {rows(60, [&](int i) { return number(i / 9) + " " + number(i % 9) + " " + place(i); }),
-        "the first 2 columns have whole numbers alone"},
-       {rows(60, [&](int i) { return number(99 * i % 61) + " " + place(i); }),
-        "the first column has whole numbers alone"},
-       {rows(60, [&](int i) { return "42." + number(i + 10) + " " + place(i); }), "rises from row to row"}});
+  check_refused("a.csv",
+                {{ids, "line 1: no header line, and the first column counts the rows"},
+                 {rows(50, [](int i) { return number(i + 1) + " 3 4 5 6"; }), "counts the rows"},
+                 {rows(50, [&](int i) { return number(i + 1001) + "," + places(i); }), "counts the rows"},
+                 {rows(60, [&](int i) { return number(i / 9) + " " + number(i % 9) + " " + place(i); }),
+                  "the first 2 columns have whole numbers alone"},
+                 {rows(60, [&](int i) { return number(99 * i % 61) + " " + place(i); }),
+                  "the first column has whole numbers alone"},
+                 {rows(60, [&](int i) { return "42." + number(i + 10) + " " + place(i); }),
+                  "never falls from row to row"},
+                 {rows(60, [&](int i) { return "42." + number(i / 7) + " " + place(i); }),
+                  "never falls from row to row"},
+                 {rows(60,
+                       [&](int i) {
+                         return number(1000 + 37 * i % 60) + ".123 " + number(i % 7) + ".5 " + number(i % 5) +
+                                ".5 1.5";
+                       }),
+                  "has other decimals than the three that follow"},
+                 {rows(60, [&](int i) { return "0." + number(37 * i % 60 + 10) + " 5" + place(i) + " 4.5"; }),
+                  "the first column is from 0 to 1"},
+                 {rows(60,
+                       [&](int i) {
+                         const std::string share = "0." + number(37 * i % 60 + 10) + " ";
+                         return share + "0.5 0.25 5" + place(i);
+                       }),
+                  "the first three columns are from 0 to 1"}});
   CHECK(read(ids, "id x y z").rows.size() == 50);
   CHECK(read("id,x,y,z\n" + ids).rows.size() == 50);
 }
@@ -209,6 +225,9 @@ TEST_CASE("x on a grid is x", "[io]") {
   CHECK(error(rows(60, [&](int i) { return number(500000 + i) + " 5400000 312.5 1"; })).empty());
   CHECK(error(rows(9, [&](int i) { return number(i) + " 0 1.5 7"; })).empty());
   CHECK(error(rows(60, [&](int i) { return number(2 * i) + " 0 1.5 7"; })).empty());
+  CHECK(error(rows(60, [&](int i) {
+          return number(i / 10) + ".5 " + number(i % 10) + ".25 1.75 0.5";
+        })).empty());
 }
 
 TEST_CASE("columns of the field are x, y and z by their names, also in comments", "[io]") {
