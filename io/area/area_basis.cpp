@@ -39,20 +39,19 @@ std::string classes_of(const ScanFiles& scan, const InputConfig& config) {
   return text;
 }
 
-std::string swaths_of(const PlanOfPoints& points, const ScanFiles& scan) {
+std::string swaths_of(const AreaCheck& check, const ScanFiles& scan) {
   if (files_with(scan, "point_source_id") == 0) return "all: no file states them";
-  return counted(points.swaths.size(), "value") + " of point_source_id, taken together";
+  return counted(check.swaths.size(), "value") + " of point_source_id, taken together";
 }
 
 }  // namespace
 
-std::vector<BasisLine> basis_of(const AreaCheck& check, const Area& area, const PlanOfPoints& points,
-                                const ScanFiles& scan, const FilesConfig& config) {
+std::vector<BasisLine> basis_of(const AreaCheck& check, const ScanFiles& scan, const FilesConfig& config) {
   const std::string& unit = scan.length_unit();
-  std::string polygons =
-      (area.bay > 0 ? "the scan's own outline, with bays up to " + print(area.bay, unit) + " wide"
-                    : config.area.area) +
-      ", " + counted(area.polygons.size(), "polygon");
+  std::string polygons = (check.is_outline ? "the scan's own outline" : config.area.area) + ", " +
+                         counted(check.polygons.size(), "polygon");
+  if (check.is_outline)
+    polygons += ", without " + print(check.left_out, unit.empty() ? "" : unit + "²") + " of its convex hull";
   if (!config.area.except.empty()) polygons += "; voids in " + config.area.except + " do not count";
   const std::string least = print(check.void_size, unit);
   const std::string& rule = config.area.void_rule;
@@ -64,7 +63,7 @@ std::vector<BasisLine> basis_of(const AreaCheck& check, const Area& area, const 
                         (rule.find(':') == rule.npos ? "" : ", by the rule " + rule)},
           {"returns", returns_of(scan)},
           {"point classes", classes_of(scan, config.input)},
-          {"swaths", swaths_of(points, scan)},
+          {"swaths", swaths_of(check, scan)},
           {"a point", point}};
 }
 

@@ -3,14 +3,12 @@
 #pragma once
 
 #include "io/area/check_area.hpp"
-#include "io/area/empty_places.hpp"
 
 #include <vector>
 
 namespace lacuna::io {
 
 // Returns a line for each thing that decides what a figure is of: area, returns, classes, swaths, points.
-std::vector<BasisLine> basis_of(const AreaCheck& check, const Area& area, const PlanOfPoints& points,
-                                const ScanFiles& scan, const FilesConfig& config);
+std::vector<BasisLine> basis_of(const AreaCheck& check, const ScanFiles& scan, const FilesConfig& config);
 
 }  // namespace lacuna::io

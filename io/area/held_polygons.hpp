@@ -32,7 +32,8 @@ void check_corners(const HeldPolygons& polygons, std::uint64_t more);
 // Adds a ring without its repeated corner. One of fewer than three corners is left out.
 void add_ring(Ring2 ring, PlanPolygon& polygon);
 
-// Adds a polygon that was read, and counts its corners. Throws `Error` if one is not finite.
+// Adds a polygon that was read, and counts its corners. Throws `Error` if one is not within
+// 1e30.
 void take_polygon(PlanPolygon polygon, HeldPolygons& polygons);
 
 }  // namespace lacuna::io

@@ -4,7 +4,10 @@
 #include "engine/run/error.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <set>
+#include <utility>
 
 #include <ogr_api.h>
 #include <ogr_geometry.h>
@@ -25,18 +28,6 @@ Geometry grown(const OGRGeometry& geometry, double distance) {
   return made(geometry.Buffer(distance, kQuarter));
 }
 
-// Grows by steps that double, since a circle grown by a circle is one. Few outlines are left for the wide
-// steps, which took minutes where points are sparse.
-Geometry grown_far(const OGRGeometry& geometry, double distance, double step) {
-  Geometry result = made(geometry.clone());
-  for (double done = 0; done < distance; step *= 2) {
-    step = std::min(step, distance - done);
-    result = grown(*result, step);
-    done += step;
-  }
-  return result;
-}
-
 template <class Visit>
 void for_each_polygon(const OGRGeometry& geometry, const Visit& visit) {
   const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
@@ -45,12 +36,6 @@ void for_each_polygon(const OGRGeometry& geometry, const Visit& visit) {
   } else if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection)) {
     for (const OGRGeometry* const part : *geometry.toGeometryCollection()) for_each_polygon(*part, visit);
   }
-}
-
-double area_of(const OGRGeometry& geometry) {
-  double area = 0;
-  for_each_polygon(geometry, [&](const OGRPolygon& polygon) { area += polygon.get_Area(); });
-  return area;
 }
 
 Geometry without_holes(const OGRGeometry& geometry) {
@@ -63,41 +48,65 @@ Geometry without_holes(const OGRGeometry& geometry) {
   return filled.IsEmpty() ? made(filled.clone()) : made(filled.UnionCascaded());
 }
 
-// Whether a part of the closing is a corner of the scan, and no bay: its mouth is wide for its area. The
-// fillet of a right angle has a twelfth of the square of its mouth. A channel has about a half of it if it is
-// as long as wide.
-bool is_corner(const OGRPolygon& part, const OGRGeometry& near_covered, double least_area) {
-  constexpr double kShallow = 0.25;
-  const double area = part.get_Area();
-  if (area < least_area) return true;
-  const Geometry border = made(part.Boundary());
-  const Geometry mouth = made(border->Difference(&near_covered));
-  const double length = OGR_G_Length(OGRGeometry::ToHandle(mouth.get()));
-  return area < kShallow * length * length;
+// How wide a bay at the border is at most that is a part of the polygon: a tenth of the polygon's width,
+// which is four areas of its convex hull over the perimeter.
+double narrow_bay(const OGRPolygon& polygon) {
+  constexpr double kOfWidth = 0.1;
+  const Geometry hull = made(polygon.ConvexHull());
+  const Geometry border = made(hull->Boundary());
+  const double perimeter = OGR_G_Length(OGRGeometry::ToHandle(border.get()));
+  return kOfWidth * 4 * OGR_G_Area(OGRGeometry::ToHandle(hull.get())) / perimeter;
+}
+
+// Whether a polygon leaves out a bay. Its corners on the convex hull divide its border: each part lies
+// between the ends of a bay's mouth.
+bool leaves_bay(const OGRPolygon& polygon, double narrow, double void_size) {
+  constexpr double kOfMouth = 0.2;
+  const Geometry hull = made(polygon.ConvexHull());
+  const OGRLinearRing& ring = *polygon.getExteriorRing();
+  std::set<std::pair<double, double>> corners;
+  for (const OGRPoint& corner : *hull->toPolygon()->getExteriorRing())
+    corners.emplace(corner.getX(), corner.getY());
+  const auto is_on_hull = [&](int i) { return corners.contains({ring.getX(i), ring.getY(i)}); };
+  const int count = ring.getNumPoints() - 1;  // the last point is the first one again
+  int first = 0;
+  while (first < count && !is_on_hull(first)) ++first;
+  OGRLinearRing bay;
+  for (int i = first; i <= first + count; ++i) {
+    const int at = i % count;
+    bay.addPoint(ring.getX(at), ring.getY(at));
+    if (!is_on_hull(at)) continue;
+    if (bay.getNumPoints() > 2) {
+      const double mouth = std::hypot(bay.getX(0) - ring.getX(at), bay.getY(0) - ring.getY(at));
+      const double circle = std::max(void_size, std::min(narrow, kOfMouth * mouth));
+      OGRPolygon outline;
+      bay.closeRings();
+      outline.addRing(&bay);
+      if (!grown(*made(outline.Buffer(0)), -circle / 2)->IsEmpty()) return true;
+    }
+    bay.empty();
+    bay.addPoint(ring.getX(at), ring.getY(at));
+  }
+  return false;
 }
 
 }  // namespace
 
 extern "C" void lacuna_outline_scan(OutlineTask& task) {
-  constexpr double kStep = 0.75, kOff = 1;  // of outlines along cells
-  const double least_area = 4 * task.reach * task.reach;
+  constexpr double kStep = 0.75;  // of outlines along cells
   OGRMultiPolygon parts;
   polygonise(task.covered, [&](std::uint8_t, const OGRPolygon& part) {
     for_each_polygon(*made(part.SimplifyPreserveTopology(kStep)),
                      [&](const OGRPolygon& polygon) { parts.addGeometry(&polygon); });
   });
-  const Geometry covered = without_holes(parts);
-  const Geometry closed =
-      without_holes(*grown(*grown_far(*covered, task.bay / 2, task.reach), -task.bay / 2));
-  const Geometry near_covered = grown(*covered, kOff);
-  OGRMultiPolygon corners;
-  for_each_polygon(*made(closed->Difference(covered.get())), [&](const OGRPolygon& part) {
-    if (is_corner(part, *near_covered, least_area)) corners.addGeometry(&part);
-  });
-  const Geometry outline = made(closed->Difference(&corners));
-  if (2 * area_of(*outline) < area_of(*closed)) return;
-  for_each_polygon(*grown(*outline, -task.reach), [&](const OGRPolygon& polygon) {
-    if (polygon.get_Area() >= least_area) task.polygons.push_back(outline_of(polygon));
+  for_each_polygon(*grown(*without_holes(parts), -task.reach), [&](const OGRPolygon& part) {
+    if (part.get_Area() < 4 * task.reach * task.reach) return;
+    const double narrow = narrow_bay(part);
+    const Geometry closed = grown(*without_holes(*grown(part, narrow / 2)), -narrow / 2);
+    for_each_polygon(*closed, [&](const OGRPolygon& polygon) {
+      task.has_bay = task.has_bay || leaves_bay(polygon, narrow, task.void_size);
+      task.polygons.push_back(outline_of(polygon));
+    });
   });
 }
 

@@ -13,16 +13,17 @@ namespace lacuna::io {
 // Lengths and places are in cells.
 struct OutlineTask {
   RasterRows covered;                 // 1: a cell whose middle is nearer to a point than `reach`
-  double reach = 0, bay = 0;          // `bay`: how wide a bay is at most that belongs to the scan
+  double reach = 0, void_size = 0;    // `void_size`: how wide a bay must be at least
   std::vector<PlanPolygon> polygons;  // the outline
+  bool has_bay = false;               // a bay is left out
 };
 
-// Fills in the outline: the morphological closing of what is covered, by a circle of the diameter `bay`,
-// without `reach` around it. So what points enclose belongs to it, and bays, as of rivers. Parts that touch
-// the outside along much of their border are no bays, but corners of the scan, and are left out. It has no
-// polygon where points cover no square of the edge 2 `reach`, or are so sparse that corners are most of the
-// closing. Throws `Error`. Cost: linear in cells; the
-// logarithm of the corners of what is covered, for each corner.
+// Fills in the outline: what is covered and what that encloses, without `reach` around it. So it joins points
+// that are at most twice `reach` apart. Each of its polygons then takes in what lies between borders that are
+// nearer to each other than a tenth of its own width. A bay lies between a polygon and its convex hull, and a
+// circle of the void size fits in it. Where its mouth is wide, a larger circle must fit: of a tenth of that
+// width, or of a fifth of the mouth. Polygons without a square of the edge 2 `reach` are left out. Throws
+// `Error`. Cost: linear in cells; the logarithm of the corners of what is covered, for each corner.
 using OutlineScan = void(OutlineTask& task);
 
 inline constexpr const char* kOutlineScan = "lacuna_outline_scan";
