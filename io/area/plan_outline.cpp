@@ -56,26 +56,24 @@ class PointCells : public RowObserver {
             std::span<const Eigen::Vector3d> kept) final {
     for (const Eigen::Vector3d& point : kept) {
       if (!point.allFinite()) continue;
-      add(point.head<2>(), cells);
-      while (cells.size() > kMost) coarsen();
+      if (cells.empty()) level_ = std::max(std::ilogb(point.head<2>().cwiseAbs().maxCoeff()), -kBits) - kBits;
+      add(point.head<2>(), level_, cells);
+      if (cells.size() > kMost) make_space();
     }
     progress_.advance(kept.size());
   }
 
   double edge() const { return std::ldexp(1, level_); }
 
-  void coarsen() {
-    ++level_;
-    Cells coarser;
-    for (const auto& [cell, furthest] : cells)
-      for (const Eigen::Vector2d& point : furthest.points) add(point, coarser);
-    cells = std::move(coarser);
+  void coarsen(int levels = 1) {
+    cells = coarser(levels);
+    level_ += levels;
   }
 
   // Whether nearly all cells have three neighbours or more. So corners of an area have, and lines have not.
   bool is_area() const {
     constexpr std::size_t kNeighbours = 3, kFew = 20;  // one in so many may be lone
-    constexpr double kExact = 1ull << 50;
+    constexpr double kExact = std::uint64_t{1} << kBits;
     std::size_t lone = 0;
     for (const auto& [cell, furthest] : cells) {
       std::size_t near = 0;
@@ -99,14 +97,34 @@ class PointCells : public RowObserver {
 
  private:
   static constexpr std::size_t kMost = 1 << 16;
+  static constexpr int kBits = 50;  // of the numbers of cells, so that all have neighbours
 
-  void add(const Eigen::Vector2d& point, Cells& to) const {
-    const Eigen::Array2d at = (point.array() / edge()).floor() + 0.0;  // no -0
+  // The least level that has space, in large steps first: the first level is far below that of the spacing.
+  void make_space() {
+    for (const int levels : {16, 4, 1}) {
+      for (Cells next = coarser(levels); levels == 1 || next.size() > kMost; next = coarser(levels)) {
+        cells = std::move(next);
+        level_ += levels;
+        if (cells.size() <= kMost) return;
+      }
+    }
+  }
+
+  Cells coarser(int levels) const {
+    Cells result;
+    for (const auto& [cell, furthest] : cells)
+      for (const Eigen::Vector2d& point : furthest.points)
+        if (&point == &furthest.points[0] || point != furthest.points[0]) add(point, level_ + levels, result);
+    return result;
+  }
+
+  static void add(const Eigen::Vector2d& point, int level, Cells& to) {
+    const Eigen::Array2d at = (point.array() / std::ldexp(1, level)).floor() + 0.0;  // no -0
     const auto [place, is_new] = to.try_emplace(PlanCell(at.x(), at.y()), point);
     if (!is_new) place->second.add(point);
   }
 
-  int level_ = -100;  // an extent of 1e-30 has cells
+  int level_ = 0;
   Progress& progress_;
 };
 

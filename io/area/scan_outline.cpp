@@ -93,7 +93,7 @@ bool leaves_bay(const OGRPolygon& polygon, double narrow, double void_size) {
 }  // namespace
 
 extern "C" void lacuna_outline_scan(OutlineTask& task) {
-  constexpr double kStep = 0.75;  // of outlines along cells
+  constexpr double kStep = 0.75, kFine = 0.25;  // of outlines along cells, and of arcs
   OGRMultiPolygon parts;
   polygonise(task.covered, [&](std::uint8_t, const OGRPolygon& part) {
     for_each_polygon(*made(part.SimplifyPreserveTopology(kStep)),
@@ -103,7 +103,7 @@ extern "C" void lacuna_outline_scan(OutlineTask& task) {
     if (part.get_Area() < 4 * task.reach * task.reach) return;
     const double narrow = narrow_bay(part);
     const Geometry closed = grown(*without_holes(*grown(part, narrow / 2)), -narrow / 2);
-    for_each_polygon(*closed, [&](const OGRPolygon& polygon) {
+    for_each_polygon(*made(closed->SimplifyPreserveTopology(kFine)), [&](const OGRPolygon& polygon) {
       task.has_bay = task.has_bay || leaves_bay(polygon, narrow, task.void_size);
       task.polygons.push_back(outline_of(polygon));
     });
