@@ -2,7 +2,7 @@
 #include "io/area/plan_outline.hpp"
 
 #include "io/area/plan_raster.hpp"
-#include "io/area/scan_outline.hpp"
+#include "io/area/plan_shapes.hpp"
 #include "io/crs/gis_module.hpp"
 #include "io/scan/scan_pass.hpp"
 

@@ -16,7 +16,7 @@ struct PlanOutline {
   bool has_bay = false;  // wider than the void size
 };
 
-// Returns the outline of all points (io/area/scan_outline.hpp). Its reach is two edges of cells of the
+// Returns the outline of all points (io/area/plan_shapes.hpp). Its reach is two edges of cells of the
 // points' own spacing: the least power of two at which 95 % of the cells with points have three of eight
 // neighbours with points. So it depends on the points alone, but not on their order. A polygon has a
 // hundredth of the area of the largest one at least. Without points, or where they cover no area, it has no

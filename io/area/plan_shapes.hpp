@@ -1,14 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
-// The outline of a scan in plan, by GDAL and GEOS: a function of lacuna_gis.so.
+// The shapes of a raster in plan, by GDAL and GEOS: voids, and the outline of a scan. Functions of
+// lacuna_gis.so.
 #pragma once
 
 #include "engine/export.hpp"
 #include "io/area/plan_polygon.hpp"
-#include "io/area/polygonise.hpp"
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace lacuna::io {
+
+// Cells that GDAL reads row by row.
+struct RasterRows {
+  std::size_t columns, rows;
+  // Writes the values of the cells of a row; 0: no part. It is called for each row several times.
+  std::function<void(std::size_t row, std::span<std::uint8_t> values)> row;
+};
+
+// A part of the raster whose cells have the same value. Places are in cells.
+struct TracedVoid {
+  std::uint8_t value;
+  PlanPolygon outline;           // along the edges of cells; the outer ring first
+  Eigen::Vector2d middle{0, 0};  // of the largest circle that fits in
+  double radius = 0;             // of that circle
+};
+
+struct TraceTask {
+  RasterRows raster;
+  std::vector<TracedVoid> voids;
+};
+
+// Fills in the voids: cells of one value that share edges. Throws `Error`. Cost: linear in cells; for the
+// circles, the logarithm of the corners at some hundred places of each void.
+using TraceVoids = void(TraceTask& task);
+
+inline constexpr const char* kTraceVoids = "lacuna_trace_voids";
+extern "C" LACUNA_API TraceVoids lacuna_trace_voids;
 
 // Lengths and places are in cells.
 struct OutlineTask {
