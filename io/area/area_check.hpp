@@ -20,6 +20,12 @@
 
 namespace lacuna::io {
 
+// The name and the form of voids.json, which docs/area.md describes.
+inline constexpr const char* kVoidsFile = "voids.json";
+inline constexpr std::string_view kVoidsSchema = "voids 2";
+
+inline constexpr std::string_view kShareColumn = "in_";  // before the name of a class
+
 enum class VoidKind : std::uint8_t {
   kHole,     // points are all around it
   kOpen,     // it reaches the border of the area, or the edge of the scan

@@ -4,7 +4,6 @@
 #include "engine/run/error.hpp"
 #include "engine/run/memory.hpp"
 #include "engine/run/regular_file.hpp"
-#include "io/area/area_polygons.hpp"
 #include "io/area/area_tiles.hpp"
 #include "io/area/convex_hull.hpp"
 #include "io/area/empty_places.hpp"
@@ -224,28 +223,6 @@ std::uint64_t most_edges(const FilesConfig& config) {
               ": the points are so far apart that outlines of voids have at least " + std::to_string(edges) +
               " edges, more than the " + std::to_string(most_edges(config)) +
               " that fit in the memory limit; allowed: a larger size");
-}
-
-// Throws `Error` where outlines are far too long for the memory, before it is decided which nearly empty
-// places are empty. That decision takes most of the time, and hardly makes outlines shorter.
-void refuse_far_too_long_outlines(const PlanRaster& empty, const PlanRaster& inside, const PlanGrid& grid,
-                                  const FilesConfig& config) {
-  constexpr std::uint64_t kFar = 2;
-  const auto copy = [&](std::size_t row, std::span<std::uint64_t> cells) {
-    std::ranges::copy(empty.row(row), cells.begin());
-  };
-  std::uint64_t edges = 0;
-  for (std::size_t row = 0; row < grid.rows; ++row) {
-    std::vector<std::uint64_t> voids(inside.row(row).size());
-    grow_row(grid, copy, row, kEmptyRadius, voids);
-    std::uint64_t last = 0;  // the cell before
-    for (std::size_t word = 0; word < voids.size(); ++word) {
-      const std::uint64_t cells = voids[word] & inside.row(row)[word];
-      edges += static_cast<std::uint64_t>(std::popcount(cells ^ (cells << 1 | last)));
-      last = cells >> 63;
-    }
-    if (edges > kFar * most_edges(config)) fail_long_outlines(edges, config);
-  }
 }
 
 // Whether a cell is empty and in no exception, so that its void counts.
@@ -595,10 +572,7 @@ AreaCheck check_cells(Area& area, double tile_edge, const ScanFiles& scan, const
                          .copies = copy_distance_of(scan, grid.size, grid.area(inside.count()))};
   PlanOfPoints points =
       find_empty_places(grid, inside, rules, Memory::share(config.run.memory_limit).limit / 8, scan, tiles,
-                        progress, [&](const PlanRaster& empty) {
-                          refuse_far_too_long_outlines(empty, inside, grid, config);
-                          return has_voids(empty, excepted);
-                        });
+                        progress, [&](const PlanRaster& empty) { return has_voids(empty, excepted); });
   tiles.add_area(inside);
 
   // The voids: the circles around what is empty.

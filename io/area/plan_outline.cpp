@@ -58,16 +58,20 @@ class PointCells : public RowObserver {
       if (!point.allFinite()) continue;
       if (cells.empty()) level_ = std::max(std::ilogb(point.head<2>().cwiseAbs().maxCoeff()), -kBits) - kBits;
       add(point.head<2>(), level_, cells);
-      if (cells.size() > kMost) make_space();
+      while (cells.size() > kMost) coarsen();
     }
     progress_.advance(kept.size());
   }
 
   double edge() const { return std::ldexp(1, level_); }
 
-  void coarsen(int levels = 1) {
-    cells = coarser(levels);
-    level_ += levels;
+  void coarsen() {
+    ++level_;
+    Cells coarser;
+    for (const auto& [cell, furthest] : cells)
+      for (const Eigen::Vector2d& point : furthest.points)
+        if (&point == &furthest.points[0] || point != furthest.points[0]) add(point, level_, coarser);
+    cells = std::move(coarser);
   }
 
   // Whether nearly all cells have three neighbours or more. So corners of an area have, and lines have not.
@@ -98,25 +102,6 @@ class PointCells : public RowObserver {
  private:
   static constexpr std::size_t kMost = 1 << 16;
   static constexpr int kBits = 50;  // of the numbers of cells, so that all have neighbours
-
-  // The least level that has space, in large steps first: the first level is far below that of the spacing.
-  void make_space() {
-    for (const int levels : {16, 4, 1}) {
-      for (Cells next = coarser(levels); levels == 1 || next.size() > kMost; next = coarser(levels)) {
-        cells = std::move(next);
-        level_ += levels;
-        if (cells.size() <= kMost) return;
-      }
-    }
-  }
-
-  Cells coarser(int levels) const {
-    Cells result;
-    for (const auto& [cell, furthest] : cells)
-      for (const Eigen::Vector2d& point : furthest.points)
-        if (&point == &furthest.points[0] || point != furthest.points[0]) add(point, level_ + levels, result);
-    return result;
-  }
 
   static void add(const Eigen::Vector2d& point, int level, Cells& to) {
     const Eigen::Array2d at = (point.array() / std::ldexp(1, level)).floor() + 0.0;  // no -0
