@@ -53,7 +53,7 @@ enum class Undecided : std::uint8_t {
   kFewPoints,         // a square grid of their spacing leaves circles of the void size empty, too
   kHeightsApart,      // voids are there only if points whose heights lie apart cover nothing
   kCoarseConversion,  // the polygons may lie off by more than half of the void size
-  kSeveralParts,      // the outline of the scan has several polygons
+  kSeveralParts,      // the scan has several parts, or many that are too small for its outline
   kBay,               // the outline of the scan leaves out a bay that is wider than the void size
 };
 inline constexpr std::array<std::string_view, 9> kUndecided = {

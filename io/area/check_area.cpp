@@ -696,7 +696,7 @@ AreaCheck check_scan(const ScanFiles& scan, const FilesConfig& config, Progress&
   }
   check->is_outline = true;
   check->left_out = std::max(area_of({hull.corners()}) - outline_area, 0.0);
-  if (check->polygons.size() > 1) check->undecided.push_back(Undecided::kSeveralParts);
+  if (check->polygons.size() > 1 || outline.has_dust) check->undecided.push_back(Undecided::kSeveralParts);
   if (outline.has_bay) check->undecided.push_back(Undecided::kBay);
   check->basis = basis_of(*check, scan, config);
   progress.end();

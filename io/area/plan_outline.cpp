@@ -218,12 +218,16 @@ PlanOutline outline_of_points(const ScanFiles& scan, double void_size, Progress&
   PlanOutline result;
   if (points.cells.size() < kLeastCells) return result;
   double largest = 0;
+  std::size_t kept = 0;
   for (const CellGroup& group : groups) {
+    kept += group.cells.size();
     OutlineTask task = outline(group, points, PlanGrid::over(group.box, size()), void_size);
     for (const PlanPolygon& polygon : task.polygons) largest = std::max(largest, area_of(polygon));
     result.has_bay = result.has_bay || task.has_bay;
     result.groups.push_back(std::move(task.polygons));
   }
+  const std::size_t cells = points.cells.size();
+  result.has_dust = static_cast<double>(cells - kept) > kOfLargest * static_cast<double>(cells);
   for (std::vector<PlanPolygon>& polygons : result.groups)
     std::erase_if(polygons, [&](const PlanPolygon& each) { return area_of(each) < kOfLargest * largest; });
   std::erase_if(result.groups, [](const std::vector<PlanPolygon>& polygons) { return polygons.empty(); });

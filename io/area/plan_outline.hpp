@@ -13,15 +13,15 @@ namespace lacuna::io {
 struct PlanOutline {
   // The polygons, in coordinates of the scan, in groups whose boxes are mostly land.
   std::vector<std::vector<PlanPolygon>> groups;
-  bool has_bay = false;  // wider than the void size
+  bool has_bay = false;   // wider than the void size
+  bool has_dust = false;  // more than a hundredth of the cells are in parts that are left out
 };
 
-// Returns the outline of all points (io/area/plan_shapes.hpp). Its reach is two edges of cells of the
-// points' own spacing: the least power of two at which 95 % of the cells with points have three of eight
-// neighbours with points. So it depends on the points alone, but not on their order. A polygon has a
-// hundredth of the area of the largest one at least. Without points, or where they cover no area, it has no
-// group. Reads the scan once. It holds 65,536 cells, as larger ones, and a raster of 4 MiB. Loads
-// lacuna_gis.so. Throws `Error`.
+// Returns the outline of all points (io/area/plan_shapes.hpp). Its reach is two edges of cells. The edge is
+// the least power of two at which 95 % of the cells with points have three such neighbours of eight. So the
+// outline depends on the points, but not on their order. A polygon has a hundredth of the area of the largest
+// one at least. Where points cover no area, there is no group. Reads the scan once. Memory: 65,536 cells, as
+// larger ones, and a raster of 4 MiB. Loads lacuna_gis.so. Throws `Error`.
 PlanOutline outline_of_points(const ScanFiles& scan, double void_size, Progress& progress);
 
 }  // namespace lacuna::io

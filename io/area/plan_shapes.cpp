@@ -158,8 +158,8 @@ Geometry without_holes(const OGRGeometry& geometry) {
   return filled.IsEmpty() ? made(filled.clone()) : made(filled.UnionCascaded());
 }
 
-// How wide a bay at the border is at most that is a part of the polygon: a tenth of the polygon's width,
-// which is four areas of its convex hull over the perimeter.
+// Returns how wide a bay is at most that is a part of the polygon. It is a tenth of the polygon's width: four
+// areas of its convex hull over the perimeter.
 double narrow_bay(const OGRPolygon& polygon) {
   constexpr double kOfWidth = 0.1;
   const Geometry hull = made(polygon.ConvexHull());

@@ -227,6 +227,7 @@ write("gap.txt", lambda x, y: is_land(x, y) or y > 50)
 write("corner.txt", lambda x, y: x < 60 or y < 45)
 write("arms.txt", lambda x, y: x < 30 or y < 25)
 write("notch.txt", lambda x, y: abs(x - 40) > 3 or y > 30)
+write("thin.txt", lambda x, y: x < 40 or round(2 * x) % 5 == 0 and round(2 * y) % 5 == 0)
 write("pond.xyz", lambda x, y: math.hypot(x - 40, y - 30) > 4)
 END
 { head -n 1 gap.txt; tail -n +2 gap.txt | sort -k 2; } >sorted.txt
@@ -259,8 +260,23 @@ for rule in 2 3 9; do
 done
 outline 3 corner.txt 3 "bay" 4441 143
 outline 0 corner.txt 12 "" 4441 143
+outline 3 thin.txt 8 "several parts" 2350 0
+grep -q "^not decided: the scan has 1 large part and many small ones, and its outline leaves out" outline.txt
 outline 1 notch.txt 3 open 4731 0
 outline 1 pond.xyz 3 hole 4731 0
+# Parts are checked one by one, and squares of the table that both have are one.
+awk 'BEGIN { print "x y z"; for (i = 0; i < 160; i++) for (j = 0; j < 80; j++) if (i < 60 || i > 70) print i / 2, j / 2, 0 }' >halves.txt
+"$program" check halves.txt --void-rule 3 --area-tile 20 --out halves --quiet 2>halves.err || [[ $? == 3 ]]
+python3 - <<'END'
+import json
+found = json.load(open("halves/voids.json"))
+tiles = found["tiles"]
+assert found["undecided"] == ["several parts"] and abs(found["spacing"] - .5) < .02, found["spacing"]
+assert len({tuple(tile["corner"]) for tile in tiles}) == len(tiles) == 8, len(tiles)
+assert sum(tile["points"] for tile in tiles) == found["points"] and len(found["polygons"]) == 2
+for name in ("tiles", "polygons"):
+    assert abs(sum(each["area"] for each in found[name]) - found["area"]) < 1e-6, name
+END
 
 # ---- the sheet of a check, and the colours of its layers
 "$program" check pond.xyz --void-rule anps:0.75 --unit m --out sheet --report --quiet 2>sheet.err || true
