@@ -185,8 +185,7 @@ std::vector<std::string> check(std::vector<io::ScanInput> inputs, const io::File
                                  Memory::share(config.run.memory_limit).reading);
         tools::require_lengths(scan);
         warnings = tools::input_warnings(scan);
-        io::Area area = io::area_or_outline(scan, config, watched);
-        const io::AreaCheck checked = io::check_area(std::move(area), scan, config, watched);
+        const io::AreaCheck checked = io::check_scan(scan, config, watched);
         std::ranges::copy(tools::area_warnings(checked, scan.length_unit()), std::back_inserter(warnings));
         io::ResultFolder results(folder);
         io::write_voids(checked, scan, config, results);

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,12 @@
 #include <Eigen/Core>
 
 namespace lacuna::io {
+
+// The name and the form of voids.json, which docs/area.md describes.
+inline constexpr const char* kVoidsFile = "voids.json";
+inline constexpr std::string_view kVoidsSchema = "voids 2";
+
+inline constexpr std::string_view kShareColumn = "in_";  // before the name of a class
 
 enum class VoidKind : std::uint8_t {
   kHole,     // points are all around it
@@ -29,8 +36,10 @@ constexpr std::string_view name_of(VoidKind kind) {
   return kVoidKinds[static_cast<std::size_t>(kind)];
 }
 
-enum class AreaAnswer : std::uint8_t { kCovered, kVoids, kNotDecided };
-inline constexpr std::array<std::string_view, 3> kAreaAnswers = {"covered", "voids", "not decided"};
+// The first two are yes. The second one is all that a scan's own outline can show.
+enum class AreaAnswer : std::uint8_t { kCovered, kCoveredWithin, kVoids, kNotDecided };
+inline constexpr std::array<std::string_view, 4> kAreaAnswers = {"covered", "covered within its own outline",
+                                                                 "voids", "not decided"};
 constexpr std::string_view name_of(AreaAnswer answer) {
   return kAreaAnswers[static_cast<std::size_t>(answer)];
 }
@@ -44,10 +53,13 @@ enum class Undecided : std::uint8_t {
   kFewPoints,         // a square grid of their spacing leaves circles of the void size empty, too
   kHeightsApart,      // voids are there only if points whose heights lie apart cover nothing
   kCoarseConversion,  // the polygons may lie off by more than half of the void size
+  kSeveralParts,      // the scan has several parts, or many that are too small for its outline
+  kBay,               // the outline of the scan leaves out a bay that is wider than the void size
 };
-inline constexpr std::array<std::string_view, 7> kUndecided = {
-    "no point",   "no first return", "synthetic points alone", "different systems",
-    "few points", "heights apart",   "coarse conversion"};
+inline constexpr std::array<std::string_view, 9> kUndecided = {
+    "no point",          "no first return", "synthetic points alone",
+    "different systems", "few points",      "heights apart",
+    "coarse conversion", "several parts",   "bay"};
 constexpr std::string_view name_of(Undecided reason) {
   return kUndecided[static_cast<std::size_t>(reason)];
 }
@@ -108,6 +120,8 @@ inline constexpr std::array<std::string_view, 5> kNotShown = {
 
 struct AreaCheck {
   std::vector<AreaPolygon> polygons;  // of the project
+  bool is_outline = false;            // they are the scan's own outline
+  double left_out = 0;                // of the convex hull of that outline: the area beyond it
   double void_size = 0;               // diameter of the least void
   double area = 0;                    // of the project
   double voids_area = 0;              // of all voids
@@ -117,6 +131,7 @@ struct AreaCheck {
   std::vector<BasisLine> basis;       // of all figures
   // These are as in PlanOfPoints.
   std::uint64_t points = 0, later_returns = 0, synthetic = 0, repeated = 0, near = 0;
+  std::set<double> swaths;
   ScanCounts counts;
   bool counts_once = true;
   std::vector<HeightGroup> apart;
@@ -134,15 +149,18 @@ struct AreaCheck {
   }
   // Points at a larger spacing leave circles of the void size empty even in a square grid.
   static double most_spacing(double void_size) { return void_size / std::numbers::sqrt2; }
-  AreaAnswer answer() const {
-    return !undecided.empty() ? AreaAnswer::kNotDecided
-           : counting() > 0   ? AreaAnswer::kVoids
-                              : AreaAnswer::kCovered;
-  }
+  AreaAnswer answer() const { return answer(undecided.empty(), counting() > 0); }
   AreaAnswer answer_of(const AreaPolygon& polygon) const {
-    return !undecided.empty() || !(polygon.area > 0) ? AreaAnswer::kNotDecided
-           : polygon.missing_area > 0                ? AreaAnswer::kVoids
-                                                     : AreaAnswer::kCovered;
+    return answer(undecided.empty() && polygon.area > 0, polygon.missing_area > 0);
+  }
+  bool is_covered() const { return undecided.empty() && counting() == 0; }
+
+ private:
+  AreaAnswer answer(bool is_decided, bool has_voids) const {
+    return !is_decided  ? AreaAnswer::kNotDecided
+           : has_voids  ? AreaAnswer::kVoids
+           : is_outline ? AreaAnswer::kCoveredWithin
+                        : AreaAnswer::kCovered;
   }
 };
 

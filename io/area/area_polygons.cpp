@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/area/area_polygons.hpp"
-
 #include "engine/run/error.hpp"
+#include "io/area/held_polygons.hpp"
 #include "io/crs/gdal_session.hpp"
 
 #include <algorithm>

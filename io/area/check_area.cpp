@@ -4,13 +4,12 @@
 #include "engine/run/error.hpp"
 #include "engine/run/memory.hpp"
 #include "engine/run/regular_file.hpp"
-#include "io/area/area_basis.hpp"
-#include "io/area/area_polygons.hpp"
 #include "io/area/area_tiles.hpp"
+#include "io/area/convex_hull.hpp"
 #include "io/area/empty_places.hpp"
 #include "io/area/geojson_polygons.hpp"
 #include "io/area/plan_outline.hpp"
-#include "io/area/trace_voids.hpp"
+#include "io/area/plan_shapes.hpp"
 #include "io/crs/gis_module.hpp"
 #include "io/crs/length_unit.hpp"
 #include "io/scan/plan_system.hpp"
@@ -19,6 +18,7 @@
 #include <bit>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -199,12 +199,11 @@ void check_tiles(const PlanGrid& grid, double memory, const AreaConfig& config) 
 }
 
 // The sheet of a check shows the density in squares, a round number of units wide.
-double tile_edge_of(const FilesConfig& config, const PlanGrid& grid) {
+double tile_edge_of(const FilesConfig& config, double void_size, const Eigen::AlignedBox2d& bounds) {
   constexpr double kAlongMap = 50;
   if (config.area.area_tile > 0 || !config.area.is_check || !config.output.report)
     return config.area.area_tile;
-  const double cells = static_cast<double>(std::max(grid.columns, grid.rows));
-  const double least = std::max(grid.size, cells * grid.edge() / kAlongMap);
+  const double least = std::max(void_size, bounds.sizes().maxCoeff() / kAlongMap);
   const double power = std::pow(10, std::floor(std::log10(least)));
   for (const double edge : {power, 2 * power, 5 * power})
     if (edge >= least) return edge;
@@ -224,28 +223,6 @@ std::uint64_t most_edges(const FilesConfig& config) {
               ": the points are so far apart that outlines of voids have at least " + std::to_string(edges) +
               " edges, more than the " + std::to_string(most_edges(config)) +
               " that fit in the memory limit; allowed: a larger size");
-}
-
-// Throws `Error` where outlines are far too long for the memory, before it is decided which nearly empty
-// places are empty. That decision takes most of the time, and hardly makes outlines shorter.
-void refuse_far_too_long_outlines(const PlanRaster& empty, const PlanRaster& inside, const PlanGrid& grid,
-                                  const FilesConfig& config) {
-  constexpr std::uint64_t kFar = 2;
-  const auto copy = [&](std::size_t row, std::span<std::uint64_t> cells) {
-    std::ranges::copy(empty.row(row), cells.begin());
-  };
-  std::uint64_t edges = 0;
-  for (std::size_t row = 0; row < grid.rows; ++row) {
-    std::vector<std::uint64_t> voids(inside.row(row).size());
-    grow_row(grid, copy, row, kEmptyRadius, voids);
-    std::uint64_t last = 0;  // the cell before
-    for (std::size_t word = 0; word < voids.size(); ++word) {
-      const std::uint64_t cells = voids[word] & inside.row(row)[word];
-      edges += static_cast<std::uint64_t>(std::popcount(cells ^ (cells << 1 | last)));
-      last = cells >> 63;
-    }
-    if (edges > kFar * most_edges(config)) fail_long_outlines(edges, config);
-  }
 }
 
 // Whether a cell is empty and in no exception, so that its void counts.
@@ -376,21 +353,6 @@ class Plan {
   std::vector<std::pair<std::size_t, std::size_t>> hull_;  // by row: the cells within the convex hull
 };
 
-// In cells; the first ring is the outer one.
-double area_of(const PlanPolygon& polygon) {
-  double area = 0;
-  for (std::size_t ring = 0; ring < polygon.size(); ++ring) {
-    const Ring2& corners = polygon[ring];
-    double twice = 0;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Eigen::Vector2d &a = corners[i], &b = corners[(i + 1) % corners.size()];
-      twice += a.x() * b.y() - a.y() * b.x();
-    }
-    area += (ring == 0 ? 0.5 : -0.5) * std::fabs(twice);
-  }
-  return area;
-}
-
 // Traces the voids. The convex hull may cut off slivers. They are left out: a quarter of a circle at least is
 // in the area, of each other void.
 std::vector<TracedVoid> trace(const Plan& plan, const PlanGrid& grid) {
@@ -510,93 +472,107 @@ CopyDistance copy_distance_of(const ScanFiles& scan, double void_size, double ar
   return {with_time, std::clamp(std::sqrt(area / all) / kOfSpacing, least, std::max(with_time, least))};
 }
 
-// The box around all points, seen from above.
-class BoundsObserver : public RowObserver {
- public:
-  explicit BoundsObserver(Progress& progress) : progress_(progress) {}
-  Eigen::AlignedBox2d bounds;
+// The cells over the area in half of the memory, and the edge of its table.
+void lay_cells(Area& area, double void_size, const Eigen::AlignedBox2d& bounds, const FilesConfig& config) {
+  const auto limit = static_cast<double>(Memory::share(config.run.memory_limit).limit);
+  area.grid = grid_over(bounds, void_size, area.exceptions.empty() ? 3 : 4,
+                        limit / 2 - static_cast<double>(area.bytes), config.area);
+  check_tiles(area.grid, limit / 8, config.area);
+}
 
- private:
-  void take(std::size_t, const ScanReader&, const RowBatch&, std::span<const Eigen::Vector3d>,
-            std::span<const Eigen::Vector3d> kept) final {
-    for (const Eigen::Vector3d& point : kept)
-      if (point.allFinite()) bounds.extend(point.head<2>());
-    progress_.advance(kept.size());
-  }
-
-  Progress& progress_;
-};
-
-// `points`: the box around them; without one, the area has a file.
-Area make_area(const ScanFiles& scan, const FilesConfig& config,
-               const std::optional<Eigen::AlignedBox2d>& points) {
-  require_plan(scan, points ? "check" : "--area");
+// Reads the files of an area. `user` needs the plan.
+Area read_files(const ScanFiles& scan, const FilesConfig& config, double void_size, const char* user) {
+  require_plan(scan, user);
   Area area;
-  const double void_size = void_size_in(scan, config.area);
   PolygonFiles files(scan, config, void_size);
-  if (!points) area.polygons = files.read(config.area.area);
+  if (!config.area.area.empty()) area.polygons = files.read(config.area.area);
   if (!config.area.except.empty()) area.exceptions = files.read(config.area.except);
   area.off = files.off();
   area.classes = read_classes(config.area.classes, files);
-  const auto limit = static_cast<double>(Memory::share(config.run.memory_limit).limit);
-  Eigen::AlignedBox2d bounds = points ? *points : bounds_of(area.polygons);
-  if (points) {
-    area.bay = bay_of(bounds);
-    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(void_size);
-    bounds = {bounds.min() - margin, bounds.max() + margin};
-  }
-  area.grid = grid_over(bounds, void_size, area.exceptions.empty() ? 3 : 4,
-                        limit / 2 - static_cast<double>(files.bytes()), config.area);
-  check_tiles(area.grid, limit / 8, config.area);
+  area.bytes = files.bytes();
   return area;
 }
 
-}  // namespace
+// ---- the basis
 
-std::optional<Area> read_area(const ScanFiles& scan, const FilesConfig& config) {
-  if (config.area.area.empty()) return std::nullopt;
-  return make_area(scan, config, std::nullopt);
+std::string counted(std::size_t count, const std::string& thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
-Area area_or_outline(const ScanFiles& scan, const FilesConfig& config, Progress& progress) {
-  if (!config.area.area.empty()) return make_area(scan, config, std::nullopt);
-  BoundsObserver points(progress);
-  progress.begin("bounds", scan.expected_points().value_or(0));
-  read_all(scan, points);
-  if (points.bounds.isEmpty()) throw Error("no point takes part, so that the scan has no outline");
-  return make_area(scan, config, points.bounds);
+std::string print(double value, const std::string& unit) {
+  return fmt::format("{:.3g}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
-AreaCheck check_area(Area area, const ScanFiles& scan, const FilesConfig& config, Progress& progress) {
+std::size_t files_with(const ScanFiles& scan, const char* column) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      scan.files(), [&](const ScanFile& file) { return file.layout.find_alike(column) != nullptr; }));
+}
+
+std::string returns_of(const ScanFiles& scan) {
+  const std::size_t stated = files_with(scan, "return_number"), files = scan.files().size();
+  if (stated == 0) return "all: no file states them";
+  if (stated == files) return "first ones alone";
+  return "first ones alone; all points of " + counted(files - stated, "file") + ", which state none";
+}
+
+std::string classes_of(const ScanFiles& scan, const InputConfig& config) {
+  const bool is_stated = files_with(scan, "classification") > 0;
+  std::string text = !is_stated          ? "all: no file states them"
+                     : config.keep_noise ? "all"
+                                         : "all but noise of LAS, 7 and 18";
+  if (!config.where.empty()) text += ", where " + config.where;
+  return text;
+}
+
+std::string swaths_of(const AreaCheck& check, const ScanFiles& scan) {
+  if (files_with(scan, "point_source_id") == 0) return "all: no file states them";
+  return counted(check.swaths.size(), "value") + " of point_source_id, taken together";
+}
+
+// Returns a line for each thing that decides what a figure is of: area, returns, classes, swaths, points.
+std::vector<BasisLine> basis_of(const AreaCheck& check, const ScanFiles& scan, const FilesConfig& config) {
+  const std::string& unit = scan.length_unit();
+  std::string polygons = (check.is_outline ? "the scan's own outline" : config.area.area) + ", " +
+                         counted(check.polygons.size(), "polygon");
+  if (check.is_outline)
+    polygons += ", without " + print(check.left_out, unit.empty() ? "" : unit + "²") + " of its convex hull";
+  if (!config.area.except.empty()) polygons += "; voids in " + config.area.except + " do not count";
+  const std::string least = print(check.void_size, unit);
+  const std::string& rule = config.area.void_rule;
+  std::string point = "covers what is nearer than " + print(check.void_size / 2, unit);
+  if (std::isfinite(check.spacing)) point += "; spacing " + print(check.spacing, unit) + " where points are";
+  if (!config.area.classes.empty()) polygons += "; map of " + config.area.classes;
+  return {{"area", polygons},
+          {"voids", "circles of " + least + " or more without points" +
+                        (rule.find(':') == rule.npos ? "" : ", by the rule " + rule)},
+          {"returns", returns_of(scan)},
+          {"point classes", classes_of(scan, config.input)},
+          {"swaths", swaths_of(check, scan)},
+          {"a point", point}};
+}
+
+// ---- the check
+
+void sort_voids(AreaCheck& check) {
+  std::sort(check.voids.begin(), check.voids.end(), [](const Void& a, const Void& b) {
+    const auto key = [](const Void& v) { return std::tuple(!v.counts, -v.area, v.middle.x(), v.middle.y()); };
+    return key(a) < key(b);
+  });
+}
+
+AreaCheck check_cells(Area& area, double tile_edge, const ScanFiles& scan, const FilesConfig& config,
+                      Progress& progress) {
   // What is empty: the cells of the area without a point near them.
   const PlanGrid& grid = area.grid;
-  const bool is_outline = area.polygons.empty();
-  PlanRaster inside = rasterise(area.polygons, grid);
-  if (is_outline) inside.fill();
+  const PlanRaster inside = rasterise(area.polygons, grid);
   std::optional<PlanRaster> excepted;
   if (!area.exceptions.empty()) excepted = rasterise(area.exceptions, grid);
-  const double tile_edge = tile_edge_of(config, grid);
   AreaTiles tiles(tile_edge, grid);
   const PointRules rules{.height_gap = height_gap_of(scan, config, grid.size),
                          .copies = copy_distance_of(scan, grid.size, grid.area(inside.count()))};
   PlanOfPoints points =
       find_empty_places(grid, inside, rules, Memory::share(config.run.memory_limit).limit / 8, scan, tiles,
-                        progress, [&](const PlanRaster& empty) {
-                          refuse_far_too_long_outlines(empty, inside, grid, config);
-                          return has_voids(empty, excepted);
-                        });
-  if (is_outline) {
-    // The outline of points one by one would take minutes, and says nothing.
-    const double spacing = points.density.spacing(inside) * grid.edge();
-    if (spacing <= AreaCheck::most_spacing(grid.size))
-      area.polygons = outline_of_points(points.empty, grid, area.bay);
-    if (area.polygons.empty())
-      throw Error(
-          "void_rule = " + config.area.void_rule +
-          ": the points are too sparse for an outline of the scan; allowed: a larger size, or --area");
-    inside = rasterise(area.polygons, grid);
-    points.empty.intersect(inside);
-  }
+                        progress, [&](const PlanRaster& empty) { return has_voids(empty, excepted); });
   tiles.add_area(inside);
 
   // The voids: the circles around what is empty.
@@ -610,6 +586,7 @@ AreaCheck check_area(Area area, const ScanFiles& scan, const FilesConfig& config
                   .synthetic = points.synthetic,
                   .repeated = points.repeated,
                   .near = points.near,
+                  .swaths = points.swaths,
                   .counts = points.counts,
                   .counts_once = points.counts_once,
                   .apart = points.apart,
@@ -617,12 +594,8 @@ AreaCheck check_area(Area area, const ScanFiles& scan, const FilesConfig& config
                   .area_off = area.off};
   for (TracedVoid& traced : trace(plan, grid))
     check.voids_area += check.voids.emplace_back(plan.measure(std::move(traced), tiles)).area;
-  std::sort(check.voids.begin(), check.voids.end(), [](const Void& a, const Void& b) {
-    const auto key = [](const Void& v) { return std::tuple(!v.counts, -v.area, v.middle.x(), v.middle.y()); };
-    return key(a) < key(b);
-  });
+  sort_voids(check);
   check.undecided = undecided_reasons(points, check, scan);
-  check.basis = basis_of(check, area, points, scan, config);
   {  // one such raster at a time
     const PlanRaster missing = missing_cells(check, excepted, grid);
     check.missing_area = grid.area(missing.count());
@@ -631,10 +604,103 @@ AreaCheck check_area(Area area, const ScanFiles& scan, const FilesConfig& config
       check.polygons.push_back(measure(std::move(outline), grid, missing, middles));
   }
   for (const ClassPolygons& polygons : area.classes) add_class(polygons, grid, check);
-  progress.end();
   check.tile_edge = tile_edge;
   check.tiles = tiles.with_area();
   return check;
+}
+
+// Adds the check of other polygons of the area.
+void add_check(AreaCheck&& other, AreaCheck& sum) {
+  const auto with_points = [](const AreaCheck& check) {
+    const double area = check.spacing * check.spacing * static_cast<double>(check.points);
+    return std::isfinite(area) ? area : 0;
+  };
+  sum.spacing =
+      std::sqrt((with_points(sum) + with_points(other)) / static_cast<double>(sum.points + other.points));
+  std::ranges::move(other.polygons, std::back_inserter(sum.polygons));
+  std::ranges::move(other.voids, std::back_inserter(sum.voids));
+  std::ranges::move(other.apart, std::back_inserter(sum.apart));
+  for (const auto sums : {&AreaCheck::area, &AreaCheck::voids_area, &AreaCheck::missing_area})
+    sum.*sums += other.*sums;
+  for (const auto counts : {&AreaCheck::points, &AreaCheck::later_returns, &AreaCheck::synthetic,
+                            &AreaCheck::repeated, &AreaCheck::near})
+    sum.*counts += other.*counts;
+  for (std::size_t i = 0; i < sum.classes.size(); ++i)
+    sum.classes[i].voids_area += other.classes[i].voids_area;
+  for (const Undecided reason : other.undecided)
+    if (std::ranges::find(sum.undecided, reason) == sum.undecided.end()) sum.undecided.push_back(reason);
+  sum.swaths.merge(other.swaths);
+  sum.counts_once = sum.counts_once && other.counts_once;
+  for (const AreaTile& tile : other.tiles) {
+    const auto same = std::ranges::find(sum.tiles, tile.corner, &AreaTile::corner);
+    if (same == sum.tiles.end()) {
+      sum.tiles.push_back(tile);
+      continue;
+    }
+    same->area += tile.area;
+    same->voids_area += tile.voids_area;
+    same->points += tile.points;
+    same->voids += tile.voids;
+  }
+  std::ranges::sort(sum.tiles, {},
+                    [](const AreaTile& at) { return std::pair(at.corner.y(), at.corner.x()); });
+  sort_voids(sum);
+}
+
+}  // namespace
+
+std::optional<Area> read_area(const ScanFiles& scan, const FilesConfig& config) {
+  if (config.area.area.empty()) return std::nullopt;
+  const double void_size = void_size_in(scan, config.area);
+  Area area = read_files(scan, config, void_size, "--area");
+  lay_cells(area, void_size, bounds_of(area.polygons), config);
+  return area;
+}
+
+AreaCheck check_area(Area area, const ScanFiles& scan, const FilesConfig& config, Progress& progress) {
+  const double tile_edge = tile_edge_of(config, area.grid.size, bounds_of(area.polygons));
+  AreaCheck check = check_cells(area, tile_edge, scan, config, progress);
+  check.basis = basis_of(check, scan, config);
+  progress.end();
+  return check;
+}
+
+AreaCheck check_scan(const ScanFiles& scan, const FilesConfig& config, Progress& progress) {
+  if (std::optional<Area> area = read_area(scan, config))
+    return check_area(std::move(*area), scan, config, progress);
+  const double void_size = void_size_in(scan, config.area);
+  Area area = read_files(scan, config, void_size, "check");
+  PlanOutline outline = outline_of_points(scan, void_size, progress);
+  if (outline.groups.empty())
+    throw Error("the points cover no area, so that the scan has no outline; --area states one");
+  Eigen::AlignedBox2d bounds;
+  ConvexHull hull;
+  double outline_area = 0;
+  for (const std::vector<PlanPolygon>& polygons : outline.groups) {
+    bounds.extend(bounds_of(polygons));
+    for (const PlanPolygon& polygon : polygons) {
+      outline_area += area_of(polygon);
+      for (const Eigen::Vector2d& corner : polygon.front()) hull.add(corner);
+    }
+  }
+  const double tile_edge = tile_edge_of(config, void_size, bounds);
+  std::optional<AreaCheck> check;
+  for (std::vector<PlanPolygon>& polygons : outline.groups) {
+    area.polygons = std::move(polygons);
+    lay_cells(area, void_size, bounds_of(area.polygons), config);
+    AreaCheck part = check_cells(area, tile_edge, scan, config, progress);
+    if (check)
+      add_check(std::move(part), *check);
+    else
+      check = std::move(part);
+  }
+  check->is_outline = true;
+  check->left_out = std::max(area_of({hull.corners()}) - outline_area, 0.0);
+  if (check->polygons.size() > 1 || outline.has_dust) check->undecided.push_back(Undecided::kSeveralParts);
+  if (outline.has_bay) check->undecided.push_back(Undecided::kBay);
+  check->basis = basis_of(*check, scan, config);
+  progress.end();
+  return std::move(*check);
 }
 
 }  // namespace lacuna::io

@@ -24,20 +24,14 @@ struct ClassPolygons {
 struct Area {
   std::vector<PlanPolygon> polygons, exceptions;  // in coordinates of the scan
   std::vector<ClassPolygons> classes;             // likewise
-  double off = 0;  // how far polygons and exceptions may lie off, as their conversion says
-  double bay =
-      0;  // without polygons: how wide bays are that belong to the outline of the scan, as in OutlineTask
+  double off = 0;           // how far polygons and exceptions may lie off, as their conversion says
+  std::uint64_t bytes = 0;  // of all corners
   PlanGrid grid;
 };
 
 // Returns nothing where the config has no area. Throws `Error`: a file that cannot be used, or too many
 // corners or cells for the memory limit.
 LACUNA_API std::optional<Area> read_area(const ScanFiles& scan, const FilesConfig& config);
-
-// Returns the area of a check: that of `read_area`, or one without polygons over all points, whose polygons
-// `check_area` finds. They are the scan's own outline (io/area/scan_outline.hpp), with bays up to a third as
-// wide as the shorter side of the scan. Reads the scan once, then. Throws `Error`.
-LACUNA_API Area area_or_outline(const ScanFiles& scan, const FilesConfig& config, Progress& progress);
 
 // A place is empty if no point lies nearer to it than half of the void size, seen from above. Voids are what
 // the circles around empty places cover within the area.
@@ -64,5 +58,10 @@ LACUNA_API Area area_or_outline(const ScanFiles& scan, const FilesConfig& config
 // points and in cells. Throws `Error` where outlines do not fit in memory.
 LACUNA_API AreaCheck check_area(Area area, const ScanFiles& scan, const FilesConfig& config,
                                 Progress& progress);
+
+// Checks the area of the config, or the scan's own outline (io/area/plan_outline.hpp). The outline is never
+// `covered`, but covered within itself, or not decided where it has several polygons or leaves out a bay. Its
+// polygons are checked in their groups, and each group reads the scan like an area. Throws `Error`.
+LACUNA_API AreaCheck check_scan(const ScanFiles& scan, const FilesConfig& config, Progress& progress);
 
 }  // namespace lacuna::io

@@ -243,7 +243,6 @@ PlanOfPoints find_empty_places(const PlanGrid& grid, const PlanRaster& inside, c
   PlanRaster undecided = std::move(marking->maybe);
   tiles = std::move(marking->tiles);
   marking.reset();
-  has_voids(plan.empty);
 
   undecided.subtract(plan.empty);
   if (undecided.count() > 0) {

@@ -13,6 +13,8 @@ namespace {
 // with rows, and buffers of GDAL and SQLite.
 constexpr std::uint64_t kHeld = 40, kAtWork = 40;
 
+constexpr double kMostCoordinate = 1e30;  // as of points
+
 }  // namespace
 
 std::uint64_t bytes_of_corners(std::uint64_t all, std::uint64_t most_in_one) {
@@ -39,8 +41,10 @@ void take_polygon(PlanPolygon polygon, HeldPolygons& polygons) {
   std::uint64_t corners = 0;
   for (const Ring2& ring : polygon) {
     corners += ring.size();
-    if (!std::ranges::all_of(ring, [](const Eigen::Vector2d& corner) { return corner.allFinite(); }))
-      throw Error(polygons.file + ": has a corner that is not finite");
+    if (!std::ranges::all_of(ring, [](const Eigen::Vector2d& corner) {
+          return (corner.array().abs() <= kMostCoordinate).all();
+        }))
+      throw Error(polygons.file + ": has a corner beyond 1e30, or one that is not finite");
   }
   polygons.corners += corners;
   polygons.most_in_one = std::max(polygons.most_in_one, corners);

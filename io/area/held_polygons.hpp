@@ -2,6 +2,7 @@
 // The polygons of files of an area, which are held in memory, and the bound on them.
 #pragma once
 
+#include "engine/export.hpp"
 #include "io/area/plan_polygon.hpp"
 #include "io/crs/conversion_accuracy.hpp"
 
@@ -32,7 +33,18 @@ void check_corners(const HeldPolygons& polygons, std::uint64_t more);
 // Adds a ring without its repeated corner. One of fewer than three corners is left out.
 void add_ring(Ring2 ring, PlanPolygon& polygon);
 
-// Adds a polygon that was read, and counts its corners. Throws `Error` if one is not finite.
+// Adds a polygon that was read, and counts its corners. Throws `Error` if one is not within
+// 1e30.
 void take_polygon(PlanPolygon polygon, HeldPolygons& polygons);
+
+// Fills in the polygons of all layers, unless they are there, as those of GeoJSON are: in the system
+// `file_crs`. They are converted where both systems are known and differ. Edges are straight in the system of
+// the file, as RFC 7946 has it. So they are cut until the parts bend by no more than `bend`. Of a GeoPackage,
+// tables alone are read: a view may have no end. Throws `Error` if the file cannot be read, has a system that
+// cannot be converted, or has more corners than are allowed.
+using ReadAreaPolygons = void(HeldPolygons& polygons);
+
+inline constexpr const char* kReadAreaPolygons = "lacuna_read_area_polygons";
+extern "C" LACUNA_API ReadAreaPolygons lacuna_read_area_polygons;
 
 }  // namespace lacuna::io

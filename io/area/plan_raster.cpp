@@ -102,6 +102,20 @@ PlanGrid PlanGrid::over(const Eigen::AlignedBox2d& box, double size) {
   return grid;
 }
 
+double area_of(const PlanPolygon& polygon) {
+  double area = 0;
+  for (std::size_t ring = 0; ring < polygon.size(); ++ring) {
+    const Ring2& corners = polygon[ring];
+    double twice = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Eigen::Vector2d &a = corners[i], &b = corners[(i + 1) % corners.size()];
+      twice += a.x() * b.y() - a.y() * b.x();
+    }
+    area += (ring == 0 ? 0.5 : -0.5) * std::fabs(twice);
+  }
+  return area;
+}
+
 void PlanRaster::set(std::size_t row, std::size_t from, std::size_t to) {
   std::uint64_t* const words = words_.data() + row * words_of_row_;
   for_each_word(from, to, [&](std::size_t word, std::uint64_t mask) { words[word] |= mask; });
@@ -140,10 +154,6 @@ PlanRaster rasterise(std::span<const PlanPolygon> polygons, const PlanGrid& grid
 
 void PlanRaster::fill() {
   for (std::size_t row = 0; row < rows(); ++row) set(row, 0, columns_);
-}
-
-void PlanRaster::intersect(const PlanRaster& other) {
-  for (std::size_t i = 0; i < words_.size(); ++i) words_[i] &= other.words_[i];
 }
 
 void PlanRaster::subtract(const PlanRaster& other) {

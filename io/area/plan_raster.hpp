@@ -45,6 +45,8 @@ struct PlanGrid {
   }
 };
 
+double area_of(const PlanPolygon& polygon);  // the first ring is the outer one
+
 class PlanRaster {
  public:
   explicit PlanRaster(const PlanGrid& grid)
@@ -64,9 +66,8 @@ class PlanRaster {
   void set(std::size_t row, std::size_t from, std::size_t to);
   void clear(std::size_t row, std::size_t from, std::size_t to);
   std::uint64_t count() const;
-  void fill();                              // sets all cells
-  void subtract(const PlanRaster& other);   // of the same grid
-  void intersect(const PlanRaster& other);  // likewise
+  void fill();                             // sets all cells
+  void subtract(const PlanRaster& other);  // of the same grid
   // Calls visit(column) for the set cells of a row, from west to east.
   template <class Visit>
   void for_each_in(std::size_t row, const Visit& visit) const {

@@ -2,7 +2,7 @@
 #include "io/report/area_section.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/area/voids_form.hpp"
+#include "io/area/area_check.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -296,8 +296,8 @@ void write_area_sheet(const AreaCheck& check, const AreaSheet& sheet, const Area
             ", by lacuna check</span></header>\n<div class=\"fields\">\n");
   for (const char* const field : {"Project", "Client", "Surveyed on", "Checked on", "Checked by", "Accepted"})
     out.write(std::string("<label>") + field + " <input></label>\n");
-  out.write("</div>\n<p class=\"answer" + std::string(check.answer() == AreaAnswer::kCovered ? "" : " no") +
-            "\">" + escaped(answer_of(check, sheet.unit)) + "</p>\n");
+  out.write("</div>\n<p class=\"answer" + std::string(check.is_covered() ? "" : " no") + "\">" +
+            escaped(answer_of(check, sheet.unit)) + "</p>\n");
   out.write(SheetMap(check, sheet.unit).print());
   out.write("<div class=\"figures\">" + description(figures_of(check, sheet, config)) + "</div>\n" +
             table_of(check, sheet.unit));

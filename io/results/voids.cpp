@@ -83,6 +83,7 @@ void write_json(const AreaCheck& check, const ScanFiles& scan, const AreaConfig&
   Json head = begin_json(kVoidsSchema);
   put_crs(scan, head);
   head["file"] = config.area.empty() ? Json() : Json(config.area);
+  head["left_out"] = check.is_outline ? Json(check.left_out) : Json();
   head["except"] = config.except.empty() ? Json() : Json(config.except);
   head["basis"] = Json::array();
   for (const auto& [thing, what] : check.basis) head["basis"].push_back({thing, what});

@@ -4,7 +4,6 @@
 
 #include "engine/export.hpp"
 #include "io/area/area_check.hpp"
-#include "io/area/voids_form.hpp"
 #include "io/files/result_folder.hpp"
 #include "io/options/options.hpp"
 #include "io/scan/scan_files.hpp"

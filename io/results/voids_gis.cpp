@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/results/voids_gis.hpp"
 
-#include "io/area/voids_form.hpp"
 #include "io/crs/gdal_session.hpp"
 
 #include <functional>

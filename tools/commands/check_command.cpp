@@ -52,18 +52,12 @@ void run_check(const CheckArguments& arguments) {
     check_not_input(out->results(), scan);
   }
   const std::unique_ptr<Progress> progress = arguments.run.show_progress();
-  Area area = area_or_outline(scan, config, *progress);
-  const double bay = area.bay;
-  const PlanGrid grid = area.grid;
-  const AreaCheck check = check_area(std::move(area), scan, config, *progress);
-  if (bay > 0)
-    spdlog::info("without --area, the area is the scan's own outline in plan, with bays up to {} wide",
-                 print_length(bay, scan.length_unit()));
+  const AreaCheck check = check_scan(scan, config, *progress);
   print_warnings(area_warnings(check, scan.length_unit()));
-  const Eigen::Vector2d size(static_cast<double>(grid.columns), static_cast<double>(grid.rows));
-  const Eigen::Vector2d min = grid.from_cells({0, 0}), max = grid.from_cells(size);
-  const Eigen::AlignedBox3d bounds(Eigen::Vector3d(min.x(), min.y(), 0),
-                                   Eigen::Vector3d(max.x(), max.y(), 0));
+  Eigen::AlignedBox3d bounds;
+  for (const AreaPolygon& polygon : check.polygons)
+    for (const Eigen::Vector2d& corner : polygon.outline.front())
+      bounds.extend(Eigen::Vector3d(corner.x(), corner.y(), 0));
   print_warnings(filter_warnings(scan, check.counts, bounds));
   const std::string_view unit = scan.length_unit();
   const std::string answer = print_answer(check, unit);
@@ -77,8 +71,8 @@ void run_check(const CheckArguments& arguments) {
     note_complete_results();
   }
   if (!arguments.run.quiet) std::cout << text;
-  if (check.answer() != AreaAnswer::kCovered)
-    throw AnswerIsNo{(bay > 0 ? "outline of the scan" : config.area.area) + ": " + answer,
+  if (!check.is_covered())
+    throw AnswerIsNo{(check.is_outline ? "outline of the scan" : config.area.area) + ": " + answer,
                      check.answer() == AreaAnswer::kVoids};
 }
 

@@ -3,7 +3,6 @@
 
 #include "engine/run/disk_space.hpp"
 #include "engine/run/machine_memory.hpp"
-#include "io/area/plan_estimate.hpp"
 #include "tools/console/area_text.hpp"
 #include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
@@ -12,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <utility>
 
 #include <spdlog/fmt/fmt.h>
@@ -114,16 +112,6 @@ std::string print_surface(const Summary& summary, double openings, std::string_v
   return text + (unit.empty() ? " (areas; unit not stated)" : "");
 }
 
-// Voids of a survey from above that are open to its border, or lie among stray points, have no loop. Returns
-// an empty text unless voids have more area than all holes.
-std::string print_plan(const Detection& detection, std::string_view unit) {
-  const std::optional<PlanEstimate> plan = estimate_plan(detection);
-  if (!plan || !(plan->uncovered > detection.summary.hole_area)) return "";
-  return "from above, about " + print_number(100 * plan->uncovered / plan->area) +
-         " % of it is uncovered, and the widest void has about " + print_length(plan->widest, unit) +
-         " (estimates); lacuna check shows them";
-}
-
 std::vector<std::pair<std::string, std::string>> findings(const ExplainedDetection& detection,
                                                           const ScanFiles& scan, std::string_view unit) {
   const Summary& summary = detection.summary;
@@ -185,8 +173,6 @@ std::string print_summary(const ExplainedDetection& detection, const ScanFiles& 
     facts.emplace_back("area", print_answer(*detection.area, unit));
     facts.emplace_back("", print_covered(*detection.area, unit));
   }
-  if (const std::string plan = detection.area ? "" : print_plan(detection, unit); !plan.empty())
-    facts.emplace_back("plan", plan);
   if (!causes.empty()) facts.emplace_back("causes", causes);
   if (summary.surface_area > 0)
     facts.emplace_back("surface", print_surface(summary, detection.opening_area().value_or(0), unit));

@@ -74,6 +74,15 @@ std::string print_reason(Undecided reason, const AreaCheck& check, std::string_v
       return "its polygons may lie off by " + print_length(check.area_off, unit) +
              ", more than half of the void size, as they are converted; in the system of the scan they are "
              "exact";
+    case Undecided::kSeveralParts:
+      return "the scan has " + print_count(check.polygons.size()) +
+             (check.polygons.size() > 1 ? " parts" : " large part and many small ones") +
+             ", and its outline leaves out " + tools::print_area(check.left_out, unit) +
+             " of their convex hull; --area states what is to be covered";
+    case Undecided::kBay:
+      return "the outline of the scan leaves out a bay that is wider than a void, and in all " +
+             tools::print_area(check.left_out, unit) +
+             " of its convex hull; --area states what is to be covered";
   }
   return "";
 }

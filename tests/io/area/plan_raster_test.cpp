@@ -102,7 +102,7 @@ TEST_CASE("a point clears the middles that are nearer than the radius, and no ot
   const PlanGrid grid = grid_of(131, 40);
   for (std::uint64_t drawn = 0; drawn < draws(50); ++drawn) {
     PlanRaster raster(grid);
-    for (std::size_t row = 0; row < grid.rows; ++row) raster.set(row, 0, grid.columns);
+    raster.fill();
     const Eigen::Vector2d point(draw(random, -8, 139), draw(random, -8, 48));
     const double radius = draw(random, 0.3, 9);
     clear_disc(point, radius, raster);
@@ -202,7 +202,7 @@ TEST_CASE("squares of the table are whole multiples of their edge, and sum up th
 TEST_CASE("the spacing around an outline is of the points near it") {
   const PlanGrid grid = grid_of(200, 200);
   PlanRaster inside(grid);
-  for (std::size_t row = 0; row < grid.rows; ++row) inside.set(row, 0, grid.columns);
+  inside.fill();
   PointDensity density(grid);
   for (std::size_t row = 0; row < grid.rows; row += 2) {
     for (std::size_t column = 0; column < grid.columns; column += 2) {
