@@ -18,7 +18,6 @@ int main(int argc, char** argv) {
   add_render_command(program);
   add_compare_command(program);
   add_stations_command(program);
-  add_find_stations_command(program);
   add_plan_command(program);
   add_work_command(program);
   add_finish_command(program);

@@ -162,9 +162,7 @@ std::vector<LidTriangle> triangulate(Points points, Polygon of, const std::vecto
 }
 
 LidMesh mesh_of(Points points, std::vector<LidTriangle> triangles) {
-  return {.vertices = {points.begin(), points.end()},
-          .loop_points = points.size(),
-          .triangles = std::move(triangles)};
+  return {.vertices = {points.begin(), points.end()}, .triangles = std::move(triangles)};
 }
 
 }  // namespace

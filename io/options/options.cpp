@@ -192,8 +192,7 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
       flag("output", "geojson", Changes::kNothingKept, &output.geojson,
            "Write loops.geojson too: the loops as GeoJSON, for GIS and the web."),
       flag("output", "lids", Changes::kNothingKept, &output.lids,
-           "Write lids.obj, lids.ply and lids.csv too: a triangulated lid for each hole, a preview of "
-           "filling."),
+           "Write lids.ply too: a triangulated lid for each hole, a preview of filling. holes.csv has its area."),
       flag("output", "polygons", Changes::kNothingKept, &output.polygons,
            "Loops as polygons seen from above: a second layer of the GeoPackage; in place of lines in the "
            "others.",

@@ -22,9 +22,10 @@ void append(std::string& line, double value) {
   if (std::isfinite(value)) append_shortest(line, value);
 }
 
-std::string table_header() {
+std::string table_header(bool has_lids) {
   std::string names = "id,kind";
   for (const LoopMeasure& measure : kLoopMeasures) names.append(",").append(measure.name);
+  if (has_lids) names += ",lid_area";
   return names + ",x,y,z,nx,ny,nz,cause,hidden_by_x,hidden_by_y,hidden_by_z\n";
 }
 
@@ -42,11 +43,11 @@ std::vector<std::size_t> by_size(const std::vector<LoopMeasures>& loops) {
 
 }  // namespace
 
-void write_table(const ExplainedDetection& detection, OutputFile& out) {
+void write_table(const ExplainedDetection& detection, const std::vector<LidMeasures>& lids, OutputFile& out) {
   constexpr int kDigits = 7, kDigitsOfCount = 16;
   const int decimals = place_decimals(detection.summary.median_distance);
   const auto place = [decimals](double value) { return reread(value, std::chars_format::fixed, decimals); };
-  out.write(table_header());
+  out.write(table_header(!lids.empty()));
   for (const std::size_t id : by_size(detection.loops)) {
     const ExplainedLoop loop = detection.loop(id);
     std::string line = std::to_string(id) + "," + name_of(loop.kind);
@@ -54,6 +55,7 @@ void write_table(const ExplainedDetection& detection, OutputFile& out) {
       const int digits = measure.is_count ? kDigitsOfCount : kDigits;
       append(line, reread(measure.of(loop), std::chars_format::general, digits));
     }
+    if (!lids.empty()) append(line, reread(lids[id].area, std::chars_format::general, kDigits));
     for (const double coordinate : loop.centroid) append(line, place(coordinate));
     for (const double component : loop.normal)
       append(line, reread(component, std::chars_format::general, kDigits));

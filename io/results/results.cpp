@@ -7,7 +7,6 @@
 #include "io/report/report.hpp"
 #include "io/report/scene.hpp"
 #include "io/results/gis_library.hpp"
-#include "io/results/lids.hpp"
 #include "io/results/local_coordinates.hpp"
 #include "io/results/points.hpp"
 #include "io/results/voids.hpp"
@@ -36,8 +35,8 @@ bool needs_gis_library(const FilesConfig& config) {
   return config.output.gpkg || config.output.geojson || config.output.coverage > 0 || has_area(config);
 }
 
-std::vector<ResultFile> results_of(const ExplainedDetection& detection, const ScanFiles& scan,
-                                   const FilesConfig& config) {
+std::vector<ResultFile> results_of(const ExplainedDetection& detection, const std::vector<LidMeasures>& lids,
+                                   const ScanFiles& scan, const FilesConfig& config) {
   const OutputConfig& output = config.output;
   return {{"loops.ply", true, [&](OutputFile& out) { write_loops(detection, scan, output, out); }},
           {"boundary.ply", true, [&](OutputFile& out) { write_boundary(detection, scan, output, out); }},
@@ -49,23 +48,13 @@ std::vector<ResultFile> results_of(const ExplainedDetection& detection, const Sc
            Writer::kLibrary},
           {"loops.geojson", output.geojson,
            [&](OutputFile& out) { write_loops_gis(detection, scan, output, GisFormat::kGeoJson, out); }},
-          {"lids.obj", output.lids, [&](OutputFile& out) { write_lids_obj(detection, out); }},
+          {"lids.ply", output.lids,
+           [&](OutputFile& out) { write_lids(lids, detection, scan, output, out); }},
           {"coverage.tif", output.coverage > 0,
            [&](OutputFile& out) { write_coverage(detection, scan, config, out); }, Writer::kLibrary},
-          {"holes.csv", true, [&](OutputFile& out) { write_table(detection, out); }},
+          {"holes.csv", true, [&](OutputFile& out) { write_table(detection, lids, out); }},
           {"run.json", true, [&](OutputFile& out) { write_run(detection, scan, config, out); }},
           {"holes.json", true, [&](OutputFile& out) { write_holes(detection, scan, config, out); }}};
-}
-
-// Results that are made of other ones, which are complete. `folder`: where these are.
-std::vector<ResultFile> results_of_results(const Detection& detection, const ScanFiles& scan,
-                                           const OutputConfig& output, const std::filesystem::path& folder) {
-  const std::filesystem::path lids = folder / "lids.obj";
-  return {
-      {"lids.ply", output.lids,
-       [&, lids](OutputFile& out) { write_lids_ply(lids, detection, scan, output, out); }},
-      {"lids.csv", output.lids, [lids](OutputFile& out) { write_lids_table(lids, out); }},
-      {"report.html", output.report, [folder](OutputFile& out) { write_report(read_scene(folder), out); }}};
 }
 
 }  // namespace
@@ -84,15 +73,19 @@ std::vector<std::filesystem::path> write_results(const ExplainedDetection& detec
     throw Error(config.area.area + ": the area was not checked; io::check_area does it");
 
   const TaskArena arena(static_cast<std::size_t>(config.run.threads));
-  arena.for_each(1, [&](std::size_t) { write_points(detection, scan, config, folder); });
+  std::vector<LidMeasures> lids;
+  arena.for_each(1, [&](std::size_t) {
+    write_points(detection, scan, config, folder);
+    if (config.output.lids) lids = measure_lids(detection);
+  });
   if (has_area(config)) add_voids(*detection.area, scan, config.area, folder);
-  const std::vector<ResultFile> results = results_of(detection, scan, config);
-  const auto write = [&](const ResultFile& file) {
-    if (file.is_wanted) folder.add(file.name, file.write, file.writer);
-  };
-  arena.for_each(results.size(), [&](std::size_t i) { write(results[i]); });
-  for (const ResultFile& file : results_of_results(detection, scan, config.output, folder.staged()))
-    write(file);
+  const std::vector<ResultFile> results = results_of(detection, lids, scan, config);
+  arena.for_each(results.size(), [&](std::size_t i) {
+    if (results[i].is_wanted) folder.add(results[i].name, results[i].write, results[i].writer);
+  });
+  if (config.output.report) {
+    folder.add("report.html", [&](OutputFile& out) { write_report(read_scene(folder.staged()), out); });
+  }
   scan.check_unchanged();
   return folder.commit();
 }

@@ -7,6 +7,7 @@
 #include "io/files/result_folder.hpp"
 #include "io/options/options.hpp"
 #include "io/ply/ply_header.hpp"
+#include "io/results/lids.hpp"
 #include "io/scan/scan_files.hpp"
 #include "io/stations/cause.hpp"
 
@@ -40,8 +41,9 @@ void write_holes(const ExplainedDetection& detection, const ScanFiles& scan, con
 // coordinate reference system and the unit, too. What depends on the answer belongs in holes.json.
 void write_run(const Detection& detection, const ScanFiles& scan, const FilesConfig& config, OutputFile& out);
 
-// holes.csv: one line for each loop, in order, with the ids of holes.json. What is not finite is empty.
-void write_table(const ExplainedDetection& detection, OutputFile& out);
+// holes.csv: one line for each loop, in order, with the ids of holes.json. What is not finite is empty. With
+// lids, there is a column lid_area.
+void write_table(const ExplainedDetection& detection, const std::vector<LidMeasures>& lids, OutputFile& out);
 
 // Names as CloudCompare ("scalar_", of which it shows the first one) and MeshLab (quality: the probability)
 // have them. Element vertex: x y z, scalar_loop (an index into the report's loops), scalar_id, scalar_outer

@@ -289,12 +289,12 @@ class Holes:
     def lids(self) -> dict[int, tuple[np.ndarray, np.ndarray]]:
         """Triangulated lids, by the id of their hole: vertices, m x 3, and triangles, t x 3 indices of vertices.
 
-        A hole that cannot be closed has none. Loaded results have lids where the run wrote lids.obj."""
+        A hole that cannot be closed has none. Loaded results have lids where the run wrote lids.ply."""
         if self._found is None:
-            return _read_lids(Path(self._folder, "lids.obj"))
+            return _read_lids(Path(self._folder, "lids.ply"))
         with tempfile.TemporaryDirectory(prefix="lacuna-") as folder:
             self.save(folder, lids=True)
-            return _read_lids(Path(folder, "lids.obj"))
+            return _read_lids(Path(folder, "lids.ply"))
 
     def report(self, file: Union[str, os.PathLike]) -> Path:
         """Writes the scan and its holes in 3D as one HTML file, for a browser. Returns its name.
@@ -344,18 +344,17 @@ class Holes:
 
 def _read_lids(file: Path) -> dict[int, tuple[np.ndarray, np.ndarray]]:
     try:
-        lines = file.read_text(encoding="utf-8").splitlines()
+        head, _, body = file.read_bytes().partition(b"end_header\n")
     except OSError as error:
         raise _core.Error(f"{file}: cannot be read: {error.strerror}; a run with lids=True writes it") from error
-    lids: dict[int, tuple[list[Any], list[Any]]] = {}
-    first = vertices = 1  # of the lid, and of the next one; the file counts from 1
-    for kind, *words in (line.split() for line in lines if line and line[0] in "ovf"):
-        if kind == "o":
-            lid = lids[int(words[0].removeprefix("hole_"))] = ([], [])
-            first = vertices
-        elif kind == "v":
-            lid[0].append([float(word) for word in words])
-            vertices += 1
-        else:
-            lid[1].append([int(word) - first for word in words])
-    return {hole: (np.array(points), np.array(triangles, np.int64).reshape(-1, 3)) for hole, (points, triangles) in lids.items()}
+    lines = head.decode().splitlines()
+    vertices, faces = (int(line.split()[2]) for line in lines if line.startswith("element"))
+    coordinate = "<f8" if "property double x" in lines else "<f4"
+    offset = next(([float(word) for word in line.split()[3:]] for line in lines if line.startswith("comment lacuna offset")), 0.0)
+    rows = np.frombuffer(body, np.dtype([("xyz", coordinate, 3), ("hole", "<i4")]), vertices)
+    triangles = np.frombuffer(body, np.dtype([("size", "u1"), ("corners", "<i4", 3)]), faces, rows.nbytes)["corners"]
+    holes = rows["hole"][triangles[:, 0]]
+    return {
+        int(hole): (rows["xyz"][rows["hole"] == hole].astype(np.float64) + offset, triangles[holes == hole].astype(np.int64) - first)
+        for hole, first in zip(*np.unique(rows["hole"], return_index=True))
+    }

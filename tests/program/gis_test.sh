@@ -273,7 +273,10 @@ END
 # Islands that are not reported are open, too.
 "$program" detect island.xyz --crs EPSG:25832 --out only "${formats[@]}" --polygons --lids --coverage 0.5 --holes-only --quiet
 cmp island/coverage.tif only/coverage.tif
-cut -d, -f2- island/lids.csv | cmp - <(cut -d, -f2- only/lids.csv)
+for run in island only; do
+  python3 -c 'import csv, sys; print(*sorted(row["lid_area"] for row in csv.DictReader(open(sys.argv[1])) if row["kind"] == "hole"))' \
+    "$run/holes.csv"
+done | uniq | wc -l | grep -qx 1
 ogr2ogr -f GeoJSON only.json only/loops.gpkg lacuna_areas -lco SIGNIFICANT_FIGURES=17
 ogr2ogr -f GeoJSON island.gpkg.json island/loops.gpkg lacuna_areas -lco SIGNIFICANT_FIGURES=17
 ogr2ogr -f GeoJSON island.geojson.json island/loops.geojson -t_srs EPSG:25832 -lco RFC7946=NO -lco SIGNIFICANT_FIGURES=17
@@ -303,8 +306,8 @@ ring = whole[hole["id"]] - whole[island["id"]]
 assert math.isclose(ring, math.pi * (24 ** 2 - 14 ** 2), rel_tol=0.1), ring
 assert math.isclose(hole["area"], ring * slope, rel_tol=1e-3)
 assert math.isclose(inner["area"], whole[inner["id"]] * slope, rel_tol=1e-3)
-with open("island/lids.csv", newline="") as file:
-    lids = {int(row["loop"]): float(row["lid_area"]) for row in csv.DictReader(file)}
+with open("island/holes.csv", newline="") as file:
+    lids = {int(row["id"]): float(row["lid_area"]) for row in csv.DictReader(file) if row["lid_area"]}
 assert math.isclose(lids[hole["id"]], hole["area"], rel_tol=1e-3), lids
 assert math.isclose(lids[inner["id"]], inner["area"], rel_tol=1e-3), lids
 for format in ("gpkg", "geojson"):

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loops and lids as OBJ, and lids as PLY and CSV: read back here, and compared with holes.json of the same
-// run.
+// Loops as OBJ, and lids as PLY: read back here, and compared with holes.json of the same run.
 #include "bench/evaluation/mesh_reader.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/support/clouds.hpp"
@@ -27,7 +26,6 @@ struct Object {
   std::string name;
   std::map<std::string, double> comments;
   std::vector<std::array<std::uint64_t, 2>> edges;  // count vertices from 0
-  std::vector<std::array<std::uint64_t, 3>> triangles;
 };
 
 struct Obj {
@@ -58,35 +56,29 @@ Obj read_obj(const fs::path& file) {
       words >> a >> b;
       CHECK_FALSE(words >> name);
       obj.objects.back().edges.push_back({a - 1, b - 1});
-    } else if (key == "f") {
-      std::uint64_t a = 0, b = 0, c = 0;
-      words >> a >> b >> c;
-      obj.objects.back().triangles.push_back({a - 1, b - 1, c - 1});
     }
   }
   return obj;
 }
 
-double area(const Obj& obj, const Object& object) {
-  double area = 0;
-  for (const auto& [a, b, c] : object.triangles) {
-    const Eigen::Vector3d& at = obj.vertices.at(a);
-    area += (obj.vertices.at(b) - at).cross(obj.vertices.at(c) - at).norm() / 2;
-  }
-  return area;
-}
-
-// The fields of each line but the first one, which is `head`.
-std::vector<Words> read_csv(const fs::path& file, const std::string& head) {
+// The fields of each line, by the names of the first one.
+std::vector<std::map<std::string, std::string>> read_csv(const fs::path& file) {
+  const auto fields = [](const std::string& line) {
+    std::istringstream text(line + ",");
+    Words words;
+    for (std::string field; std::getline(text, field, ',');) words.push_back(field);
+    return words;
+  };
   std::istringstream lines(read_file(file));
   std::string line;
   std::getline(lines, line);
-  CHECK(line == head);
-  std::vector<Words> rows;
+  const Words names = fields(line);
+  std::vector<std::map<std::string, std::string>> rows;
   while (std::getline(lines, line)) {
-    std::istringstream text(line + ",");
-    rows.emplace_back();
-    for (std::string field; std::getline(text, field, ',');) rows.back().push_back(field);
+    const Words words = fields(line);
+    REQUIRE(words.size() == names.size());
+    auto& row = rows.emplace_back();
+    for (std::size_t i = 0; i < names.size(); ++i) row[names[i]] = words[i];
   }
   return rows;
 }
@@ -128,66 +120,54 @@ TEST_CASE("OBJ has the loops and measures of holes.json, with all digits on Eart
   CHECK(first == obj.vertices.size());
 }
 
-TEST_CASE("each hole has its lid in OBJ, PLY and CSV, with all digits on Earth, and outer curves have none",
-          "[results]") {
+TEST_CASE("each hole has its lid between the points of its loop, with all digits on Earth", "[results]") {
   const ScratchFolder scratch;
   const std::string scan = write_earth_sheet(scratch);
   const fs::path out = detect(scan, scratch / "out", {"--lids"});
   const json loops = read_json(out / "holes.json").at("loops");
-  const Obj obj = read_obj(out / "lids.obj");
-  const std::vector<Words> rows = read_csv(out / "lids.csv", "loop,triangles,lid_area,reason");
   const Table ply = read_table(out / "lids.ply");
   CHECK(ply.names == Words{"x", "y", "z", "scalar_loop"});
-
-  std::size_t at = 0, first = 0;
-  std::vector<std::array<std::uint64_t, 3>> triangles;
+  std::map<std::size_t, double> areas;
+  for (const auto& [a, b, c] : evaluation::read_triangles(out / "lids.ply")) {
+    const auto at = [&](std::uint64_t i) { return Eigen::Vector3d(ply.rows.at(i).data()); };
+    CHECK(ply.rows[a][3] == ply.rows[b][3]);
+    areas[static_cast<std::size_t>(ply.rows[a][3])] += (at(b) - at(a)).cross(at(c) - at(a)).norm() / 2;
+  }
+  CHECK(areas.size() == 4);
+  std::size_t next = 0;
   for (std::size_t id = 0; id < loops.size(); ++id) {
     if (loops[id].at("kind") != "hole") continue;
-    REQUIRE(at < std::min(rows.size(), obj.objects.size()));
-    const Object& lid = obj.objects[at];
-    const Words& row = rows[at++];
-    CHECK(lid.name == "hole_" + std::to_string(id));
-    CHECK(row[0] == std::to_string(id));
-    CHECK(row[1] == std::to_string(lid.triangles.size()));
-    CHECK(std::stod(row[2]) == Approx(area(obj, lid)).epsilon(1e-6));
-    CHECK(std::stod(row[2]) == Approx(loops[id].at("area").get<double>()).epsilon(0.1));  // it is flat
-    CHECK(row[3].empty());
-    const std::vector<Eigen::Vector3d> places = coordinates(loops[id]);
-    for (std::size_t i = 0; i < places.size(); ++i) CHECK(obj.vertices.at(first + i) == places[i]);
-    first += (lid.triangles.size() + 2 + places.size()) / 2;  // by Euler's formula
-    for (const auto& triangle : lid.triangles) {
-      triangles.push_back(triangle);
-      for (const std::uint64_t corner : triangle) CHECK(ply.rows.at(corner)[3] == static_cast<double>(id));
+    for (const Eigen::Vector3d& place : coordinates(loops[id])) {
+      CHECK(Eigen::Vector3d(ply.rows.at(next).data()) == place);
+      CHECK(ply.rows[next++][3] == static_cast<double>(id));
     }
   }
-  CHECK(at == 4);
-  CHECK(at == rows.size());
-  CHECK(at == obj.objects.size());
-  CHECK(first == obj.vertices.size());
-  REQUIRE(ply.rows.size() == obj.vertices.size());
-  for (std::size_t i = 0; i < ply.rows.size(); ++i)
-    CHECK(Eigen::Map<const Eigen::Vector3d>(ply.rows[i].data()) == obj.vertices[i]);
-  CHECK(evaluation::read_triangles(out / "lids.ply") == triangles);
-  // meshio 5 reads no faces with more than their list.
+  CHECK(next == ply.rows.size());
+  for (const auto& row : read_csv(out / "holes.csv")) {
+    const std::size_t id = std::stoul(row.at("id"));
+    CHECK(row.at("lid_area").empty() == (loops[id].at("kind") == "outer"));
+    if (row.at("lid_area").empty()) continue;
+    CHECK(std::stod(row.at("lid_area")) == Approx(areas.at(id)).epsilon(1e-6));
+    CHECK(areas.at(id) == Approx(loops[id].at("area").get<double>()).epsilon(0.1));
+  }
+  // meshio 5 reads no faces with more.
   CHECK_THAT(read_file(out / "lids.ply"), Contains("property list uchar int vertex_indices\nend_header"));
 
   // Relative to the offset that the header states, which the reader adds.
   detect(scan, out, {"--lids", "--local-coordinates"});
   CHECK_THAT(read_file(out / "lids.ply").substr(0, 200), Contains("\ncomment lacuna offset "));
   const Table local = read_table(out / "lids.ply");
-  REQUIRE(local.rows.size() == obj.vertices.size());
+  REQUIRE(local.rows.size() == ply.rows.size());
   for (std::size_t i = 0; i < local.rows.size(); ++i)
-    CHECK((Eigen::Map<const Eigen::Vector3d>(local.rows[i].data()) - obj.vertices[i]).norm() < 1e-4);
+    CHECK((Eigen::Vector3d(local.rows[i].data()) - Eigen::Vector3d(ply.rows[i].data())).norm() < 1e-4);
 }
 
 TEST_CASE("a scan without holes has empty lids and an empty OBJ", "[results]") {
   const ScratchFolder scratch;
   const std::string scan = scratch.write("few.xyz", "0 0 0\n1 0 0\n0 1 0\n");
   const fs::path out = detect(scan, scratch / "out", {"--lids", "--obj"});
-  CHECK(read_obj(out / "lids.obj").objects.empty());
   CHECK(read_obj(out / "loops.obj").objects.empty());
   CHECK(evaluation::read_triangles(out / "lids.ply").empty());
-  CHECK(read_csv(out / "lids.csv", "loop,triangles,lid_area,reason").empty());
 }
 
 }  // namespace lacuna::test

@@ -306,7 +306,7 @@ TEST_CASE("a config file's value without effect has its warning, unless it is th
 }
 
 constexpr const char* kCommands[] = {"detect",  "info",     "check",         "report", "render",
-                                     "compare", "stations", "find-stations", "plan",   "work",
+                                     "compare", "stations", "plan",   "work",
                                      "finish",  "status",   "clean"};
 
 // The options that --help-all shows.
@@ -412,7 +412,7 @@ TEST_CASE("each command refuses the parameters that it does not offer, and a run
     CHECK_THAT(help, Contains(option));
 }
 
-TEST_CASE("each parameter that info, check or find-stations offers changes what it does", "[.slow]") {
+TEST_CASE("each parameter that info or check offers changes what it does", "[.slow]") {
   const Sweep sweep;
   const Words all = {"plain.txt", "origin.txt", "withheld.txt", "noise.las"};
   // Options that a parameter needs, and other files that it changes.
@@ -428,10 +428,9 @@ TEST_CASE("each parameter that info, check or find-stations offers changes what 
                                                           {"classes", sweep.file("water.geojson")},
                                                           {"scratch", sweep.file("plain.txt")}};
   // They divide the work, or bound its memory.
-  const std::set<std::string> silent = {"check --threads", "find-stations --threads",
-                                        "find-stations --memory-limit"};
+  const std::set<std::string> silent = {"check --threads"};
   std::map<std::tuple<std::string, Words, Words>, std::string> plain;
-  for (const std::string command : {"info", "check", "find-stations"}) {
+  for (const std::string command : {"info", "check"}) {
     const std::set<std::string> offered = offered_by(command);
     io::FilesConfig config;
     for (const Parameter& parameter : parameters(config)) {

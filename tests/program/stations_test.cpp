@@ -173,25 +173,6 @@ TEST_CASE("without a way to degrees, next_stations.geojson has the coordinates o
   CHECK_THAT(run.err, Contains("lacuna_gis.so is missing"));
 }
 
-TEST_CASE("find-stations lists stations that detect reads, and says which files have none", "[program]") {
-  const ScratchFolder scratch;
-  const std::string scan = synth("scan", scratch / "plant.ply",
-                                 {"--scene", "plant", "--stations", "2", "--points", "100000"}),
-                    list = (scratch / "list.txt").string();
-  const std::string flat = scratch.write("flat.xyz", "1 2 3\n2 2 3\n");
-  const ProgramResult found = run_program({"find-stations", scan, flat});
-  CHECK(found.exit_code == 0);
-  CHECK_THAT(found.out, Contains("\nplant_0 ") && Contains(" plant.ply 0\n") && Contains("\nplant_1 "));
-  CHECK_THAT(found.out, Contains("# no station: ") && Contains("flat.xyz: it has too few jumps in range"));
-  std::ofstream(list) << found.out;
-  const std::string out = (scratch / "out").string();
-  detect(scan, out, {"--stations", list});
-  const json stations = read_json(fs::path(out) / "holes.json").at("stations");
-  REQUIRE(stations.size() == 2);
-  CHECK(stations[0].at("certainty") > 0.99);
-  check_failure(run_program({"find-stations", flat}), 1, "no station was found");
-}
-
 TEST_CASE("a trajectory is one station with the length of its path", "[program]") {
   const ScratchFolder scratch;
   const std::string scan = synth("scan", scratch / "street.ply",

@@ -17,7 +17,7 @@ void check_every_tiling(const std::string& scan, const fs::path& folder, const W
   };
   const fs::path one = detect("one", {"--tile-points", "1000000", "--threads", "1"});
   CHECK(read_json(one / "holes.json").at("loops").size() > 3);
-  for (const char* name : {"points.ply", "lids.obj", "lids.csv", "loops.obj"}) CHECK(fs::exists(one / name));
+  for (const char* name : {"points.ply", "lids.ply", "loops.obj"}) CHECK(fs::exists(one / name));
   for (const Words& more : {Words{"--tile-points", "500", "--threads", "8", "--memory-limit", "64MiB"},
                             {"--tile-points", "5000", "--threads", "2"},
                             {}}) {

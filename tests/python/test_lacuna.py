@@ -372,7 +372,7 @@ class Files(Folder):
         holes.save(self.folder / "with", lids=True)
         np.testing.assert_array_equal(lacuna.load(self.folder / "with").lids()[hole][0], vertices)
         holes.save(self.folder / "without")
-        with self.assertRaisesRegex(lacuna.Error, "lids.obj: cannot be read.*lids=True"):
+        with self.assertRaisesRegex(lacuna.Error, "lids.ply: cannot be read.*lids=True"):
             lacuna.load(self.folder / "without").lids()
 
     def test_one_hole_is_no_holes(self):

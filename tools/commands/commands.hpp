@@ -19,7 +19,6 @@ void add_compare_command(const Command& program);
 
 // These find places for scanners: the next ones, and the past ones.
 void add_stations_command(const Command& program);
-void add_find_stations_command(const Command& program);
 
 // Runs that go on from a workspace.
 void add_status_command(const Command& program);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/lids/make_lid.hpp"
 
-#include "io/lids/refine.hpp"
 #include "io/lids/triangulate_polygon.hpp"
 #include "tests/io/lids/drawn_loops.hpp"
 #include "tests/io/lids/watertight.hpp"
@@ -37,24 +36,11 @@ Loop wavy_hole(int points) {
   return loop;
 }
 
-// The hole x^2 + y^2 < 1 of z = (x^2 - y^2) / 2.
-Loop hole_in_saddle(int points) {
-  Loop loop;
-  for (int i = 0; i < points; ++i) {
-    const double turn = 2 * kPi * i / points;
-    const Eigen::Vector3d surface(std::cos(turn), std::sin(turn), std::cos(2 * turn));
-    loop.push_back(test::loop_point(static_cast<std::uint64_t>(i),
-                                    {std::cos(turn), std::sin(turn), std::cos(2 * turn) / 2},
-                                    surface.cast<float>()));
-  }
-  return loop;
-}
-
 Lid made(const Loop& loop) {
   Lid lid = make_lid(loop);
   CHECK(lid.left_out == "");
   CHECK(is_disc_on_loop(lid.mesh));
-  REQUIRE(lid.mesh.loop_points == loop.size());
+  REQUIRE(lid.mesh.vertices.size() == loop.size());
   for (std::size_t i = 0; i < loop.size(); ++i) CHECK(lid.mesh.vertices[i] == loop[i].position());
   return lid;
 }
@@ -71,7 +57,6 @@ TEST_CASE("the lid of a plane polygon lies in its plane and has exactly its area
        {with_points({{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {0, 1, 0}}, 11), with_points(test::shape_of_l(), 9),
         with_points(test::comb(), 7), with_points(test::comb(), 60), star}) {
     const Lid lid = made(hole_in_plane(polygon));
-    CHECK(lid.mesh.vertices.size() > polygon.size());
     CHECK(lid.area == Approx(test::plane_area(polygon)).epsilon(1e-11));
     double off = 0, turned = 0;
     for (const Eigen::Vector3d& vertex : lid.mesh.vertices) off = std::max(off, std::abs(vertex.z()));
@@ -80,36 +65,6 @@ TEST_CASE("the lid of a plane polygon lies in its plane and has exactly its area
     CHECK(off < 1e-12);
     CHECK(turned >= 0);  // all have the side of the loop
   }
-}
-
-TEST_CASE("the lid of a sphere's hole is near the cap: 1 % of its area to 30 degrees, 3 at 45, 9 at 60") {
-  const auto ratio = [](double degrees) {
-    const double angle = degrees * kPi / 180;
-    return made(hole_in_sphere(angle, 120)).area / (2 * kPi * (1 - std::cos(angle)));
-  };
-  CHECK(ratio(10) == Approx(1).margin(0.01));
-  CHECK(ratio(30) == Approx(1).margin(0.01));
-  CHECK(ratio(45) == Approx(1).margin(0.03));
-  CHECK(ratio(60) == Approx(1).margin(0.09));
-}
-
-TEST_CASE("the lid of half a sphere is the membrane of its circle, not a cap") {
-  // The regular polygon with 120 corners in the circle.
-  CHECK(made(hole_in_sphere(kPi / 2, 120)).area == Approx(60 * std::sin(2 * kPi / 120)).epsilon(1e-9));
-}
-
-TEST_CASE("where the direction of the surface is not known, the lid is the membrane") {
-  for (const float unknown : {0.0f, std::numeric_limits<float>::infinity()}) {
-    Loop loop = hole_in_sphere(0.5, 120);
-    for (LoopPoint& point : loop) point.surface.fill(unknown);
-    const double r = std::sin(0.5);
-    CHECK(made(loop).area == Approx(60 * r * r * std::sin(2 * kPi / 120)).epsilon(1e-9));
-  }
-}
-
-TEST_CASE("the lid of a saddle's hole is the saddle, within 1 % of its area") {
-  const double saddle = 2 * kPi / 3 * (std::pow(2, 1.5) - 1);
-  CHECK(made(hole_in_saddle(100)).area == Approx(saddle).epsilon(0.01));
 }
 
 TEST_CASE("a lid has the side of its loop, in either direction") {
@@ -164,15 +119,6 @@ TEST_CASE(
   CHECK(make_lid(hole_in_plane(square_at(0, 0, 10, 4)), many).left_out == "more than 30 islands in it");
 }
 
-TEST_CASE("a lid between a sphere's hole and an island in it follows the sphere") {
-  Loop island = hole_in_sphere(0.3, 60);
-  for (LoopPoint& point : island) test::surface_of(point) *= -1;  // it is inside
-  const Lid lid = make_lid(hole_in_sphere(0.7, 140), std::span(&island, 1));
-  REQUIRE(lid.left_out == "");
-  CHECK(test::is_surface_on_loops(lid.mesh, 2));
-  CHECK(lid.area == Approx(2 * kPi * (std::cos(0.3) - std::cos(0.7))).epsilon(0.03));
-}
-
 TEST_CASE("equal loops have equal lids, to the last bit") {
   const Lid a = make_lid(wavy_hole(300)), b = make_lid(wavy_hole(300));
   CHECK(a.mesh.vertices == b.mesh.vertices);
@@ -180,13 +126,26 @@ TEST_CASE("equal loops have equal lids, to the last bit") {
   CHECK(a.area == b.area);
 }
 
-TEST_CASE("a loop that crosses itself in its plane has no lid, and the reason says so") {
+TEST_CASE("a loop that crosses itself has a lid that crosses itself, of the loop's points") {
   const Line bow = {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}};
-  const Line eight = {{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {-1, 3, 0}};
-  for (const Line& line : {bow, eight, with_points(bow, 10), with_points(eight, 10)}) {
-    const Lid lid = make_lid(hole_in_plane(line));
-    CHECK(lid.left_out == "the loop crosses itself, and its lid does");
-    CHECK(lid.mesh.triangles.empty());
+  for (const Line& line : {bow, with_points(bow, 10)}) CHECK(made(hole_in_plane(line)).area > 0);
+}
+
+TEST_CASE("islands that touch each other and their hole have a lid that is a surface, or a reason") {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Random random(seed);
+    const auto square_at = [&](double x, double y, double half) {
+      return hole_in_plane(with_points(
+          {{x - half, y - half, 0}, {x + half, y - half, 0}, {x + half, y + half, 0}, {x - half, y + half, 0}},
+          static_cast<int>(random.whole(1, 3))));
+    };
+    std::vector<Loop> islands;
+    for (int i = 0; i < 4; ++i)
+      islands.push_back(square_at(random.uniform(-1, 1), random.uniform(-1, 1), 0.5));
+    const Lid lid = make_lid(square_at(0, 0, 1), islands);
+    INFO("seed " << seed);
+    CHECK(lid.mesh.triangles.empty() == !lid.left_out.empty());
+    if (lid.left_out.empty()) CHECK(test::is_surface_on_loops(lid.mesh, 5));
   }
 }
 
@@ -198,25 +157,8 @@ TEST_CASE("loops that are too short, too long or in one line have no lid, and th
   CHECK(make_lid(hole_in_sphere(1, kMostLoopPoints + 1)).left_out == "more than 5000 points");
 }
 
-TEST_CASE("the longest loop that may have a lid has one, with a bounded number of vertices") {
-  const Lid lid = made(hole_in_sphere(0.5, kMostLoopPoints));
-  CHECK(lid.mesh.vertices.size() <= kMostLoopPoints + kMostInnerVertices);
-  CHECK(lid.area == Approx(2 * kPi * (1 - std::cos(0.5))).epsilon(0.02));
-}
-
-TEST_CASE("the size of a hole does not matter, from 1e-150 to 1e150") {
-  const Loop loop = wavy_hole(60);
-  const double area = made(loop).area;
-  for (const double size : {1e-150, 1e150}) {
-    Loop scaled = loop;
-    for (LoopPoint& point : scaled) test::move_to(point, size * point.position());
-    CHECK(made(scaled).area / size / size == Approx(area).epsilon(1e-9));
-  }
-}
-
-TEST_CASE("any loop has a lid that is a disc, or a reason") {
+TEST_CASE("any loop has a lid that is a disc") {
   const std::uint64_t loops = draws(40);
-  std::uint64_t lids = 0;
   for (std::uint64_t seed = 0; seed < loops; ++seed) {
     Random random(seed);
     const auto n = random.whole(3, 60);
@@ -229,17 +171,9 @@ TEST_CASE("any loop has a lid that is a disc, or a reason") {
       loop.push_back(test::loop_point(static_cast<std::uint64_t>(i), (at * steps).array().round() / steps,
                                       random.direction().cast<float>()));
     }
-    const Lid lid = make_lid(loop);
     INFO("seed " << seed << ", " << n << " points");
-    if (!lid.left_out.empty()) {
-      CHECK(lid.mesh.triangles.empty());
-      continue;
-    }
-    ++lids;
-    CHECK(is_disc_on_loop(lid.mesh));
-    CHECK(std::isfinite(lid.area));
+    CHECK(std::isfinite(made(loop).area));
   }
-  CHECK(lids > 3 * loops / 10);
 }
 
 }  // namespace lacuna

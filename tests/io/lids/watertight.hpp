@@ -22,14 +22,13 @@ inline bool is_surface_on_loops(const io::LidMesh& mesh, std::size_t loops) {
   std::size_t edges = 0;
   for (const auto& [a, b] : directed) {
     const bool is_of_loop = directed.count({b, a}) == 0;
-    if (is_of_loop && (a >= mesh.loop_points || b >= mesh.loop_points || !left.insert(a).second))
-      return false;
+    if (is_of_loop && !left.insert(a).second) return false;
     // Points of one loop are in its order.
-    if (is_of_loop && loops == 1 && b != (a + 1) % mesh.loop_points) return false;
+    if (is_of_loop && loops == 1 && b != (a + 1) % mesh.vertices.size()) return false;
     if (is_of_loop || a < b) ++edges;
   }
   const std::size_t vertices = mesh.vertices.size(), faces = mesh.triangles.size();
-  return left.size() == mesh.loop_points && used.size() == vertices && *used.rbegin() + 1 == vertices &&
+  return left.size() == mesh.vertices.size() && used.size() == vertices && *used.rbegin() + 1 == vertices &&
          vertices + faces + loops == edges + 2;
 }
 
