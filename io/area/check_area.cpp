@@ -472,7 +472,7 @@ CopyDistance copy_distance_of(const ScanFiles& scan, double void_size, double ar
   return {with_time, std::clamp(std::sqrt(area / all) / kOfSpacing, least, std::max(with_time, least))};
 }
 
-// The cells over the area in half of the memory, and the edge of its table.
+// Throws `Error` where the cells over the area, or its table, do not fit in memory.
 void lay_cells(Area& area, double void_size, const Eigen::AlignedBox2d& bounds, const FilesConfig& config) {
   const auto limit = static_cast<double>(Memory::share(config.run.memory_limit).limit);
   area.grid = grid_over(bounds, void_size, area.exceptions.empty() ? 3 : 4,
