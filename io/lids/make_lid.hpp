@@ -29,8 +29,8 @@ struct Lid {
 // Its triangles run in the loop's direction, so its side is the side of the loop's normal. A lid crosses
 // itself where its loop does.
 //
-// There is no lid of too many points, fewer than three, or all in one line, and none if an edge would have
-// more than two triangles, as bridges to islands can make one. Equal loops give equal lids. Cost: the sum of
+// There is no lid of too many points, fewer than three, or all in one line. There is none, either, if an edge
+// would have more than two triangles, as bridges to islands can make one. Equal loops give equal lids. Cost: the sum of
 // the steps' costs, below 1 s for kMostLoopPoints.
 Lid make_lid(const Loop& loop, std::span<const Loop> islands = {});
 
