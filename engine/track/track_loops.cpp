@@ -74,9 +74,9 @@ std::vector<double> ranks_of(std::span<const TrackedLoop> loops) {
 }
 
 // Goes down from the highest rank. A loop is chosen unless a chosen loop is at the same place. At the same
-// place are loops that run along half of it, and loops that run along loops of the same hole. Of two loops of
-// different kinds that both begin at its level or a finer one, each is a curve of its own, though a coarse
-// cell holds both.
+// place are loops that run along half of it, and loops that run along loops of the same hole. A coarse
+// cell may hold an opening and the curve around it. So a loop of the other kind that begins at its level, or a
+// finer one, is a curve of its own.
 std::vector<std::uint32_t> choose(std::span<const NearLoops> pairs, std::span<const TrackedLoop> loops) {
   const std::vector<double> ranks = ranks_of(loops);
   struct Neighbour {

@@ -7,6 +7,7 @@
 #include "tests/support/point_tree.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -555,14 +556,17 @@ struct Gap {
 // The ids that the points of a level have in the input.
 using Names = std::vector<PointId>;
 
-double weight(PointId id, double r) {
-  std::uint64_t mixed = (value(id) + 1) * 0x9e3779b97f4a7c15;
-  mixed ^= mixed >> 29;
+double weight(const Vector3d& place, double r) {
+  std::uint64_t mixed = 0;
+  for (const double coordinate : place) {
+    mixed = (mixed + std::bit_cast<std::uint64_t>(coordinate + 0.)) * 0x9e3779b97f4a7c15;
+    mixed ^= mixed >> 29;
+  }
   mixed *= 0xbf58476d1ce4e5b9;
   return 1e-4 * (static_cast<double>(mixed >> 40) / 0x1p24) * r * r;
 }
 
-Star star_of(const Positions& positions, const Detection& result, const Names& names, PointId id) {
+Star star_of(const Positions& positions, const Detection& result, PointId id) {
   const Point& p = result.points[value(id)];
   if (!p.normal || p.neighbours.empty()) return {};
   const Vector3d u = p.normal->unitOrthogonal(), v = p.normal->cross(u);
@@ -575,8 +579,8 @@ Star star_of(const Positions& positions, const Detection& result, const Names& n
     const Point& q = result.points[value(other)];
     closeness += 1 / q.mean_distance;
     const Vector3d d = (positions[value(other)] - positions[value(id)]) + (shift(q) - shift(p));
-    const double power = d.squaredNorm() + weight(names[value(id)], p.mean_distance) -
-                         weight(names[value(other)], q.mean_distance);
+    const double power = d.squaredNorm() + weight(positions[value(id)], p.mean_distance) -
+                         weight(positions[value(other)], q.mean_distance);
     if (power > 0) seen.emplace_back(other, Eigen::Vector2d(d.dot(u), d.dot(v)) / power);
   }
 
@@ -617,9 +621,8 @@ double median(std::vector<double> numbers) {
 // Stars of points and of their neighbours, found when they are first needed.
 class Stars {
  public:
-  Stars(const Positions& positions, const TangentialConfig& config, const Detection& result,
-        const Names& names)
-      : positions_(positions), config_(config), result_(result), names_(names) {}
+  Stars(const Positions& positions, const TangentialConfig& config, const Detection& result)
+      : positions_(positions), config_(config), result_(result) {}
 
   // Measured by the circumradii of its own and its neighbours' stars.
   const Star& operator[](PointId p) {
@@ -631,7 +634,7 @@ class Stars {
  private:
   const Star& found(PointId p) {
     const auto [at, is_new] = found_.try_emplace(p);
-    if (is_new) at->second = star_of(positions_, result_, names_, p);
+    if (is_new) at->second = star_of(positions_, result_, p);
     return at->second;
   }
 
@@ -679,7 +682,6 @@ class Stars {
   const Positions& positions_;
   const TangentialConfig& config_;
   const Detection& result_;
-  const Names& names_;
   std::map<PointId, Star> found_, measured_;
 };
 
@@ -755,19 +757,20 @@ struct CurvePoint {
   Evidence evidence;
 };
 
-// Returns the way to write a closed curve whose points come first.
-std::vector<CurvePoint> first_way(std::vector<CurvePoint> rim) {
-  const auto ids = [](const std::vector<CurvePoint>& way) {
-    std::vector<PointId> ids;
-    for (const CurvePoint& p : way) ids.push_back(p.point);
-    return ids;
+// Returns the way to write a closed curve whose keys come first.
+template <class KeyOf>
+std::vector<CurvePoint> first_way(std::vector<CurvePoint> rim, const KeyOf& key_of) {
+  const auto keys = [&](const std::vector<CurvePoint>& way) {
+    std::vector<decltype(key_of(way.front().point))> keys;
+    for (const CurvePoint& p : way) keys.push_back(key_of(p.point));
+    return keys;
   };
   std::vector<CurvePoint> best = rim;
   for (const bool turned : {false, true}) {
     if (turned) std::reverse(rim.begin(), rim.end());
     for (std::size_t i = 0; i < rim.size(); ++i) {
       std::rotate(rim.begin(), rim.begin() + 1, rim.end());
-      if (ids(rim) < ids(best)) best = rim;
+      if (keys(rim) < keys(best)) best = rim;
     }
   }
   return best;
@@ -848,9 +851,13 @@ void find_curves(const Positions& positions, const Detection& result, const Tang
       g = at.at({next, rim.back().point});  // curves are closed
     } while (g != start);
     if (rim.size() < least) continue;
-    for (const std::vector<CurvePoint>& curve : simple_curves(first_way(rim))) {
+    const auto place_of = [&](PointId p) {
+      const Vector3d& place = positions[value(p)];
+      return std::array{place.x(), place.y(), place.z()};
+    };
+    for (const std::vector<CurvePoint>& curve : simple_curves(first_way(rim, place_of))) {
       if (curve.size() < least) continue;
-      FoundLoop loop = loop_of(first_way(curve), config);
+      FoundLoop loop = loop_of(first_way(curve, [](PointId p) { return p; }), config);
       if (loop.clearness < 0.5 || loop.surface < 0.3) continue;
       loop.scale = scale;
       loops.push_back(loop);
@@ -869,7 +876,7 @@ struct Level {
 
 // The loops of a level, of which `result` has the evaluated points.
 Loops loops_of(const Level& level, std::size_t number, const Config& config, Detection& result) {
-  Stars stars(level.positions, config.tangential, result, level.names);
+  Stars stars(level.positions, config.tangential, result);
   const std::set<PointId> rough = rough_points(result, config, stars);
   std::size_t coarse_edges = 0;
   Loops loops;

@@ -143,7 +143,7 @@ class TileStarFinder {
         __builtin_prefetch(&points_.positions[ahead]);
       }
       const LocalIndex p = without_site_[i];
-      sites_[p] = site_of(points_.positions[p], points_.ids[p], evaluations_[p]);
+      sites_[p] = site_of(points_.positions[p], evaluations_[p]);
     }
   }
 

@@ -89,7 +89,12 @@ void follow_wedges(std::span<const Wedge> wedges, std::span<const WedgePartners>
   }
 }
 
-void normalise(std::span<const CurveStep> curve, std::span<CurveStep> turned, Scratch& scratch) {
+namespace {
+
+// Writes the closed curve by the way whose keys come first. key_of(step): an id, or a place.
+template <class KeyOf>
+void write_first_way(std::span<const CurveStep> curve, std::span<CurveStep> turned, Scratch& scratch,
+                     const KeyOf& key_of) {
   struct Way {
     std::size_t start;
     bool forwards;
@@ -101,16 +106,16 @@ void normalise(std::span<const CurveStep> curve, std::span<CurveStep> turned, Sc
   };
   const auto comes_first = [&](const Way& a, const Way& b) {
     for (std::size_t i = 0; i < count; ++i) {
-      const PointId of_a = at(a, i).id, of_b = at(b, i).id;
+      const auto of_a = key_of(at(a, i)), of_b = key_of(at(b, i));
       if (of_a != of_b) return of_a < of_b;
     }
     return false;
   };
-  PointId least = curve.front().id;
-  scratch.for_each(curve, [&](const CurveStep& p) { least = std::min(least, p.id); });
+  auto least = key_of(curve.front());
+  scratch.for_each(curve, [&](const CurveStep& p) { least = std::min(least, key_of(p)); });
   std::optional<Way> best;
   for (std::size_t start = 0; start < count; ++start) {
-    if (at({start, true}, 0).id != least) continue;
+    if (key_of(at({start, true}, 0)) != least) continue;
     for (const bool forwards : {true, false}) {
       const Way way{start, forwards};
       if (!best || comes_first(way, *best)) best = way;
@@ -119,15 +124,22 @@ void normalise(std::span<const CurveStep> curve, std::span<CurveStep> turned, Sc
   for (std::size_t i = 0; i < count; ++i) turned[i] = at(*best, i);
 }
 
-void split_at_pinches(std::span<const CurveStep> curve, Scratch& scratch,
+}  // namespace
+
+void normalise(std::span<const CurveStep> curve, std::span<CurveStep> turned, Scratch& scratch) {
+  write_first_way(curve, turned, scratch, [](const CurveStep& step) { return step.id; });
+}
+
+void split_at_pinches(std::span<const CurveStep> curve, const PlaceOfStep& place_of_step, Scratch& scratch,
                       const std::function<void(std::span<const CurveStep>)>& visit) {
   const std::span<CurveStep> whole = scratch.array<CurveStep>(curve.size());
-  normalise(curve, whole, scratch);
   const std::span<const PointId> repeated = repeated_points(curve, scratch);
   if (repeated.empty()) {
+    normalise(curve, whole, scratch);
     visit(whole);
     return;
   }
+  write_first_way(curve, whole, scratch, place_of_step);
   // For each repeated point, this is 1 + its place on the path, or 0 if it is not on the path.
   const std::span<std::uint32_t> places = scratch.array<std::uint32_t>(repeated.size());
   const auto place_of = [&](const CurveStep& p) -> std::uint32_t* {
@@ -184,7 +196,11 @@ void find_loops_along(std::span<const CurveStep> curve, Scale scale, const Wedge
                       const std::function<void(std::span<const CurveStep>, const LoopEvidence&)>& visit) {
   const auto least = static_cast<std::size_t>(config.min_curve);
   if (curve.size() < least) return;
-  split_at_pinches(curve, scratch, [&](std::span<const CurveStep> simple) {
+  const auto place_of = [&](const CurveStep& step) {
+    const CurvePoint point = data.point(step.wedge);
+    return std::array{point.x, point.y, point.z};
+  };
+  split_at_pinches(curve, place_of, scratch, [&](std::span<const CurveStep> simple) {
     if (simple.size() < least) return;
     const LoopEvidence evidence = evidence_of(simple, scale, data, config, scratch);
     if (evidence.may_be_hole()) visit(simple, evidence);

@@ -51,9 +51,10 @@ void follow_wedges(std::span<const Wedge> wedges, std::span<const WedgePartners>
 void normalise(std::span<const CurveStep> curve, std::span<CurveStep> turned, Scratch& scratch);
 
 // Calls visit(curve) for curves that pass each point once. A curve passes a point twice where two holes
-// touch, and is split there. When the curve comes back to a point, the part in between is a curve. All curves
-// are normalised.
-void split_at_pinches(std::span<const CurveStep> curve, Scratch& scratch,
+// touch, and is split there. When the curve comes back to a point, the part in between is a curve. The curve
+// is passed from the place that comes first, so the parts do not depend on ids. All parts are normalised.
+using PlaceOfStep = std::function<std::array<double, 3>(const CurveStep&)>;
+void split_at_pinches(std::span<const CurveStep> curve, const PlaceOfStep& place_of_step, Scratch& scratch,
                       const std::function<void(std::span<const CurveStep>)>& visit);
 
 // Returns the evidence that a curve bounds a hole (method.md, C.6). Where a scan is thin by chance, the

@@ -4,6 +4,7 @@
 #include "engine/boundary/tangential/star-inl.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace lacuna::tangential {
@@ -12,10 +13,14 @@ namespace {
 // The unit is r^2: far above rounding, far below the precision of a scanner.
 constexpr double kWeights = 1e-4;
 
-// Returns a number in [0, 1) that looks random.
-double random_share(PointId id) {
-  std::uint64_t mixed = (value(id) + 1) * 0x9e3779b97f4a7c15;
-  mixed ^= mixed >> 29;
+// Returns a number in [0, 1) that looks random. It is one of the place, so it does not change with the order of
+// the points.
+double random_share(const Eigen::Vector3d& place) {
+  std::uint64_t mixed = 0;
+  for (const double coordinate : place) {
+    mixed = (mixed + std::bit_cast<std::uint64_t>(coordinate + 0.)) * 0x9e3779b97f4a7c15;  // -0 is 0
+    mixed ^= mixed >> 29;
+  }
   mixed *= 0xbf58476d1ce4e5b9;
   return static_cast<double>(mixed >> 40) * 0x1p-24;
 }
@@ -85,7 +90,7 @@ std::vector<View> hull_of(std::vector<View> views) {
 
 }  // namespace
 
-Site site_of(const Eigen::Vector3d& position, PointId id, const Evaluation& evaluation) {
+Site site_of(const Eigen::Vector3d& position, const Evaluation& evaluation) {
   const double r = evaluation.mean_distance;
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
   if (evaluation.normal.allFinite())
@@ -93,7 +98,7 @@ Site site_of(const Eigen::Vector3d& position, PointId id, const Evaluation& eval
   return {{position.x(), position.y(), position.z()},
           {shift.x(), shift.y(), shift.z()},
           1 / r,
-          kWeights * random_share(id) * r * r};
+          kWeights * random_share(position) * r * r};
 }
 
 ExactStar find_star_exactly(std::span<const Site> sites, const StarQuery& query) {

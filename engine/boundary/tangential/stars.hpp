@@ -27,7 +27,7 @@
 
 namespace lacuna::tangential {
 
-Site site_of(const Eigen::Vector3d& position, PointId id, const Evaluation& evaluation);
+Site site_of(const Eigen::Vector3d& position, const Evaluation& evaluation);
 
 // A point whose star is to be found, and its neighbours, by their places among the sites.
 struct StarQuery {

@@ -171,7 +171,7 @@ void TileBoundary::emit_belt(TileOutput& output) const {
   for (LocalIndex p = 0; p < tile_.points.owned; ++p) {
     if (!is_around[p]) continue;
     owned.push_back(p);
-    sites.push_back(site_of(tile_.points.positions[p], tile_.points.ids[p], tile_.evaluations[p]));
+    sites.push_back(site_of(tile_.points.positions[p], tile_.evaluations[p]));
     samples.push_back({found_.samplings[p], radii(p), tile_.evaluations[p].surface_share});
   }
   output.add(kSampled, std::move(owned));

@@ -37,9 +37,9 @@ class Drawn {
                                   .spacing = 1,
                                   .sampling_gap = 0.5,
                                   .is_coarse = loop.is_coarse,
+                                  .kind = loop.kind,
                                   .width = 8,
                                   .compactness = 1 / (2 * std::numbers::pi),
-                                  .kind = loop.kind,
                                   .prominence = 8};
       level.loops.add(static_cast<std::uint64_t>(count), evidence, [&](std::uint64_t i) {
         const double angle = 2 * std::numbers::pi * static_cast<double>(i) / count;

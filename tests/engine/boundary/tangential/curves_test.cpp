@@ -60,7 +60,8 @@ std::vector<std::vector<CurveStep>> split(const std::vector<CurveStep>& curve,
   const ScratchFolder folder;
   Scratch scratch(folder.path(), budget);
   std::vector<std::vector<CurveStep>> curves;
-  split_at_pinches(curve, scratch, [&](std::span<const CurveStep> simple) {
+  const auto by_id = [](const CurveStep& step) { return std::array{static_cast<double>(value(step.id)), 0., 0.}; };
+  split_at_pinches(curve, by_id, scratch, [&](std::span<const CurveStep> simple) {
     curves.emplace_back(simple.begin(), simple.end());
   });
   return curves;
