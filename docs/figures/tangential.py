@@ -2,6 +2,7 @@
 """Part C of docs/method.md, plainly and in memory, for the figures."""
 
 import math
+import struct
 from dataclasses import dataclass, field
 
 from common import add, dot, evaluate, frame, neighbourhoods, sub
@@ -13,10 +14,12 @@ MAX_RADIUS, HOLE_RADIUS, MOST_RADIUS = 1.5, 0.85, 0.5
 COARSE_BOUND, CLEAR_RADIUS, ADDED_LENGTH, MIN_CURVE = 2, 2.5, 4, 8
 
 
-def hash_share(identity):
+def hash_share(place):
     """A number in [0, 1) that looks random: the weights' share."""
-    mixed = (identity + 1) * 0x9E3779B97F4A7C15 % 2**64
-    mixed ^= mixed >> 29
+    mixed = 0
+    for coordinate in place:
+        mixed = (mixed + struct.unpack("<Q", struct.pack("<d", coordinate + 0.0))[0]) * 0x9E3779B97F4A7C15 % 2**64
+        mixed ^= mixed >> 29
     mixed = mixed * 0xBF58476D1CE4E5B9 % 2**64
     return (mixed >> 40) / 2**24
 
@@ -74,18 +77,18 @@ def turn(a, b, c):
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
-def site(points, names, evaluations, p):
+def site(points, evaluations, p):
     e = evaluations[p]
-    return add(points[p], e.normal, dot(e.normal, e.mean)), 1e-4 * hash_share(names[p]) * e.r**2
+    return add(points[p], e.normal, dot(e.normal, e.mean)), 1e-6 * hash_share(points[p]) * e.r**2
 
 
-def star_of(points, names, evaluations, p, neighbours):
-    position, weight = site(points, names, evaluations, p)
+def star_of(points, evaluations, p, neighbours):
+    position, weight = site(points, evaluations, p)
     u, v = frame(evaluations[p].normal)
     star = Star()
     star.distance = (len(neighbours) + 1) / sum(1 / evaluations[q].r for q in [p, *neighbours])
     for q in neighbours:
-        other, other_weight = site(points, names, evaluations, q)
+        other, other_weight = site(points, evaluations, q)
         d = sub(other, position)
         power = dot(d, d) + weight - other_weight
         if power > 0:
@@ -129,21 +132,26 @@ def sampling_radius(circles, bound):
     return (steps[len(steps) * 9 // 10] + 1) / 64 * bound if steps else bound
 
 
+def first_way(curve, key):
+    """The way to write a closed curve whose keys come first."""
+    keys = [key(w) for w in curve]
+    ways = [way[i:] + way[:i] for way in (list(zip(keys, curve)), list(zip(keys, curve))[::-1])
+            for i, (own, _) in enumerate(way) if own == min(keys)]
+    return [w for _, w in min(ways, key=lambda way: [own for own, _ in way])]
+
+
 def normalised(curve):
-    """The way to write a closed curve whose ids come first."""
-    least = min(w.point for w in curve)
-    ways = [way[i:] + way[:i] for way in (curve, curve[::-1]) for i, w in enumerate(way) if w.point == least]
-    return min(ways, key=points_of)
+    return first_way(curve, lambda w: w.point)
 
 
 def points_of(curve):
     return [w.point for w in curve]
 
 
-def simple_curves(curve):
+def simple_curves(curve, points):
     """Splits a curve where it passes a point twice."""
     path, parts = [], []
-    for w in normalised(curve):
+    for w in first_way(curve, lambda w: tuple(points[w.point])):
         passed = points_of(path)
         if w.point in passed:
             begin = passed.index(w.point)
@@ -171,7 +179,7 @@ class Surface:
         self.names = names or range(len(points))  # ids in the input, ascending
         self.nearest, self.around = neighbourhoods(points, k)
         self.evaluations = [evaluate(points, p, self.around[p], weights) for p in range(len(points))]
-        self.stars = [star_of(points, self.names, self.evaluations, p, self.around[p]) for p in range(len(points))]
+        self.stars = [star_of(points, self.evaluations, p, self.around[p]) for p in range(len(points))]
         set_bounds(self.stars, self.around)
         self.kept = [[{frozenset((a, b)) for _, a, b in s.triangles(scale)} for s in self.stars] for scale in SCALES]
         self.seeds = {p for p, e in enumerate(self.evaluations) if is_seed(e)}
@@ -232,5 +240,5 @@ class Surface:
                 came, leave = w.point, w.last if came == w.first else w.first
                 w = at[leave, came]
             if len(curve) >= MIN_CURVE:
-                curves += [c for c in simple_curves(curve) if len(c) >= MIN_CURVE]
+                curves += [c for c in simple_curves(curve, self.points) if len(c) >= MIN_CURVE]
         return sorted(curves, key=lambda c: (c[0].point, len(c), points_of(c)))

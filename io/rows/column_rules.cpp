@@ -153,12 +153,17 @@ bool is_share(const SampledRows& rows, std::size_t column) {
 }
 
 // Whether the first columns, one or three, are from 0 to 1, as intensities and colours are, and none of the
-// three behind them is.
+// three behind them is. One of these goes beyond 10: normals and features behind points of a unit cube do not.
 bool begins_with_shares(const SampledRows& rows, std::size_t count) {
+  constexpr double kFar = 10;
   for (std::size_t column = 0; column < count + 3; ++column) {
     if (column >= rows.columns || is_share(rows, column) != (column < count)) return false;
   }
-  return true;
+  for (std::size_t row = 0; row < rows.rows(); ++row) {
+    for (std::size_t column = count; column < count + 3; ++column)
+      if (std::abs(rows.at(row, column)) > kFar) return true;
+  }
+  return false;
 }
 
 // Whether all values of the first column have as many decimals, and those of the next three another number.

@@ -216,7 +216,7 @@ TEST_CASE("results replace earlier results alone, and all of them") {
   const Words plain = {"detect", scan, "--out", out.string(), "--quiet"};
   REQUIRE(run_program(with(plain, {"--points", "--points-format", "ply", "--lids", "--obj", "--report"}))
               .exit_code == 0);
-  CHECK(count_entries(out) == 12);
+  CHECK(count_entries(out) == 10);
   CHECK(run_program(plain).exit_code == 0);
   CHECK(count_entries(out) == 6);
   scratch.write("out/notes.txt", "mine");

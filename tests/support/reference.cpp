@@ -563,7 +563,7 @@ double weight(const Vector3d& place, double r) {
     mixed ^= mixed >> 29;
   }
   mixed *= 0xbf58476d1ce4e5b9;
-  return 1e-4 * (static_cast<double>(mixed >> 40) / 0x1p24) * r * r;
+  return 1e-6 * (static_cast<double>(mixed >> 40) / 0x1p24) * r * r;
 }
 
 Star star_of(const Positions& positions, const Detection& result, PointId id) {

@@ -11,7 +11,7 @@ namespace lacuna::tangential {
 namespace {
 
 // The unit is r^2: far above rounding, far below the precision of a scanner.
-constexpr double kWeights = 1e-4;
+constexpr double kWeights = 1e-6;
 
 // Returns a number in [0, 1) that looks random. It is one of the place, so it does not change with the order of
 // the points.

@@ -80,7 +80,7 @@ TEST_CASE("a first column that counts the rows, and whole numbers before decimal
                   "the first column has whole numbers alone"},
                  {rows(60, [&](int i) { return "42." + number(i + 10) + " " + place(i); }),
                   "never falls from row to row"},
-                 {rows(60, [&](int i) { return "42." + number(i / 7) + " " + place(i); }),
+                 {rows(60, [&](int i) { return "42." + number(i / 6) + " " + place(i); }),
                   "never falls from row to row"},
                  {rows(60,
                        [&](int i) {
