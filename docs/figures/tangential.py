@@ -17,11 +17,13 @@ COARSE_BOUND, CLEAR_RADIUS, ADDED_LENGTH, MIN_CURVE = 2, 2.5, 4, 8
 def hash_share(place):
     """A number in [0, 1) that looks random: the weights' share."""
     mixed = 0
-    for coordinate in place:
-        mixed = (mixed + struct.unpack("<Q", struct.pack("<d", coordinate + 0.0))[0]) * 0x9E3779B97F4A7C15 % 2**64
-        mixed ^= mixed >> 29
-    mixed = mixed * 0xBF58476D1CE4E5B9 % 2**64
-    return (mixed >> 40) / 2**24
+    for coordinate in place:  # SplitMix64
+        mixed ^= struct.unpack("<Q", struct.pack("<d", coordinate + 0.0))[0]
+        mixed = (mixed + 0x9E3779B97F4A7C15) % 2**64
+        mixed = (mixed ^ mixed >> 30) * 0xBF58476D1CE4E5B9 % 2**64
+        mixed = (mixed ^ mixed >> 27) * 0x94D049BB133111EB % 2**64
+        mixed ^= mixed >> 31
+    return (mixed >> 11) / 2**53
 
 
 @dataclass
@@ -79,7 +81,7 @@ def turn(a, b, c):
 
 def site(points, evaluations, p):
     e = evaluations[p]
-    return add(points[p], e.normal, dot(e.normal, e.mean)), 1e-6 * hash_share(points[p]) * e.r**2
+    return add(points[p], e.normal, dot(e.normal, e.mean)), 1e-5 * hash_share(points[p]) * e.r**2
 
 
 def star_of(points, evaluations, p, neighbours):

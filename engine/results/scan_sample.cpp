@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/results/scan_sample.hpp"
 
+#include "engine/model/mixed.hpp"
 #include "engine/store/column_writer.hpp"
 #include "engine/store/sorted_runs.hpp"
 
@@ -15,13 +16,9 @@ namespace {
 
 constexpr double kBoundaryWeight = 3;  // added to a weight of 1 at the probability 1
 
-// Returns a number that is uniform in (0, 1), by the mixer of SplitMix64 (Steele, Lea, Flood, 2014).
+// Returns a number that is uniform in (0, 1).
 double drawn_from(PointId id) {
-  std::uint64_t bits = value(id) + 0x9e3779b97f4a7c15;
-  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9;
-  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111eb;
-  bits ^= bits >> 31;
-  return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
+  return (static_cast<double>(mixed(value(id)) >> 11) + 0.5) * 0x1p-53;
 }
 
 double key_of(PointId id, const Evaluation& e) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/area/repeated_points.hpp"
 
+#include "engine/model/mixed.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -14,13 +16,6 @@ constexpr unsigned kStepBits = 8;                   // of a place along an axis,
 constexpr int kSteps = 1 << kStepBits, kNear = 32;  // of a cell, and of the distance of copies
 constexpr int kSame = 1;                            // apart by rounding alone
 constexpr unsigned kPlaceBits = 3 * kStepBits;
-
-std::uint64_t mixed(std::uint64_t bits) {  // splitmix64: Steele, Lea, Flood 2014
-  bits += 0x9e3779b97f4a7c15;
-  bits = (bits ^ bits >> 30) * 0xbf58476d1ce4e5b9;
-  bits = (bits ^ bits >> 27) * 0x94d049bb133111eb;
-  return bits ^ bits >> 31;
-}
 
 std::uint64_t hash_of(const Eigen::Array3d& cell, double time) {
   std::uint64_t hash = std::bit_cast<std::uint64_t>(time);

@@ -2,6 +2,7 @@
 #include "tests/support/reference.hpp"
 
 #include "engine/model/length_bins.hpp"
+#include "engine/model/mixed.hpp"
 #include "engine/run/error.hpp"
 #include "engine/simd/maths.hpp"
 #include "tests/support/point_tree.hpp"
@@ -557,13 +558,9 @@ struct Gap {
 using Names = std::vector<PointId>;
 
 double weight(const Vector3d& place, double r) {
-  std::uint64_t mixed = 0;
-  for (const double coordinate : place) {
-    mixed = (mixed + std::bit_cast<std::uint64_t>(coordinate + 0.)) * 0x9e3779b97f4a7c15;
-    mixed ^= mixed >> 29;
-  }
-  mixed *= 0xbf58476d1ce4e5b9;
-  return 1e-6 * (static_cast<double>(mixed >> 40) / 0x1p24) * r * r;
+  std::uint64_t hash = 0;
+  for (const double coordinate : place) hash = mixed(hash ^ std::bit_cast<std::uint64_t>(coordinate + 0.));
+  return 1e-5 * (static_cast<double>(hash >> 11) / 0x1p53) * r * r;
 }
 
 Star star_of(const Positions& positions, const Detection& result, PointId id) {
@@ -853,7 +850,7 @@ void find_curves(const Positions& positions, const Detection& result, const Tang
     if (rim.size() < least) continue;
     const auto place_of = [&](PointId p) {
       const Vector3d& place = positions[value(p)];
-      return std::array{place.x(), place.y(), place.z()};
+      return std::array{-place.x(), -place.y(), -place.z()};
     };
     for (const std::vector<CurvePoint>& curve : simple_curves(first_way(rim, place_of))) {
       if (curve.size() < least) continue;
@@ -1152,9 +1149,11 @@ Tracked track(const Loops& loops, const std::vector<double>& edges, const std::v
   const std::size_t count = loops.size();
   std::vector<std::vector<float>> near(count,
                                        std::vector<float>(count, 0));  // share of the first, near the second
-  std::vector<bool> has_chance;
-  for (const FoundLoop& loop : loops)
-    has_chance.push_back(loop.log_odds + 2 * (shape_of(loop).is_hole ? 0.7 : 1.1) > -4);
+  std::vector<bool> has_chance, is_hole;
+  for (const FoundLoop& loop : loops) {
+    is_hole.push_back(shape_of(loop).is_hole);
+    has_chance.push_back(loop.log_odds + 2 * (is_hole.back() ? 0.7 : 1.1) > -4);
+  }
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = a + 1; b < count; ++b) {
       if (!has_chance[a] || !has_chance[b]) continue;
@@ -1175,9 +1174,19 @@ Tracked track(const Loops& loops, const std::vector<double>& edges, const std::v
       if (loops[a].level != loops[b].level && is_same(a, b)) last[a] = std::max(last[a], last[b]);
     const double ratio = edges[last[a]] / loops[a].spacing;
     odds[a] = loops[a].log_odds +
-              (shape_of(loops[a]).is_hole ? 0.7 : 1.1) * (ratio > 1 ? std::min(octaves(ratio), 2.) : 0);
+              (is_hole[a] ? 0.7 : 1.1) * (ratio > 1 ? std::min(octaves(ratio), 2.) : 0);
     ranks[a] = std::min(odds[a], 4.) -
                0.8 * (static_cast<double>(loops[a].level) + 0.5 * double(loops[a].scale == 1));
+  }
+
+  // The first level at which loops of its own kind run along it.
+  std::vector<std::size_t> first(count);
+  for (std::size_t a = 0; a < count; ++a) {
+    first[a] = loops[a].level;
+    for (std::size_t b = 0; b < a; ++b) {
+      const bool is_track = loops[a].level != loops[b].level && is_same(a, b);
+      if (is_track && is_hole[a] == is_hole[b]) first[a] = std::min(first[a], first[b]);
+    }
   }
 
   std::vector<std::size_t> order(count);
@@ -1196,6 +1205,7 @@ Tracked track(const Loops& loops, const std::vector<double>& edges, const std::v
       for (std::size_t other = 0; other < count; ++other) {
         if (other == at || chosen.contains(other) || place.contains(other)) continue;
         if (near[at][other] < 0.5f && near[other][at] < 0.5f) continue;
+        if (at != i && is_hole[other] != is_hole[i] && first[other] <= loops[i].level) continue;
         place.insert(other);
         covered.insert(other);
         if (is_same(at, other)) ahead.push_back(other);

@@ -198,7 +198,7 @@ void find_loops_along(std::span<const CurveStep> curve, Scale scale, const Wedge
   if (curve.size() < least) return;
   const auto place_of = [&](const CurveStep& step) {
     const CurvePoint point = data.point(step.wedge);
-    return std::array{point.x, point.y, point.z};
+    return std::array{-point.x, -point.y, -point.z};
   };
   split_at_pinches(curve, place_of, scratch, [&](std::span<const CurveStep> simple) {
     if (simple.size() < least) return;

@@ -52,7 +52,7 @@ void normalise(std::span<const CurveStep> curve, std::span<CurveStep> turned, Sc
 
 // Calls visit(curve) for curves that pass each point once. A curve passes a point twice where two holes
 // touch, and is split there. When the curve comes back to a point, the part in between is a curve. The curve
-// is passed from the place that comes first, so the parts do not depend on ids. All parts are normalised.
+// is passed from the place that comes last, so the parts do not depend on ids. All parts are normalised.
 using PlaceOfStep = std::function<std::array<double, 3>(const CurveStep&)>;
 void split_at_pinches(std::span<const CurveStep> curve, const PlaceOfStep& place_of_step, Scratch& scratch,
                       const std::function<void(std::span<const CurveStep>)>& visit);

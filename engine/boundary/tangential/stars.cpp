@@ -2,6 +2,7 @@
 #include "engine/boundary/tangential/stars.hpp"
 
 #include "engine/boundary/tangential/star-inl.hpp"
+#include "engine/model/mixed.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -11,18 +12,15 @@ namespace lacuna::tangential {
 namespace {
 
 // The unit is r^2: far above rounding, far below the precision of a scanner.
-constexpr double kWeights = 1e-6;
+constexpr double kWeights = 1e-5;
 
 // Returns a number in [0, 1) that looks random. It is one of the place, so it does not change with the order of
 // the points.
 double random_share(const Eigen::Vector3d& place) {
-  std::uint64_t mixed = 0;
-  for (const double coordinate : place) {
-    mixed = (mixed + std::bit_cast<std::uint64_t>(coordinate + 0.)) * 0x9e3779b97f4a7c15;  // -0 is 0
-    mixed ^= mixed >> 29;
-  }
-  mixed *= 0xbf58476d1ce4e5b9;
-  return static_cast<double>(mixed >> 40) * 0x1p-24;
+  std::uint64_t hash = 0;
+  for (const double coordinate : place)
+    hash = mixed(hash ^ std::bit_cast<std::uint64_t>(coordinate + 0.));  // -0 is 0
+  return static_cast<double>(hash >> 11) * 0x1p-53;
 }
 
 // These are the kernel's formulas, for one point.
