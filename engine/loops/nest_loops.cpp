@@ -89,8 +89,14 @@ bool may_be_around(const LoopMeasures& loop, const LoopMeasures& other) {
   return loop.area > other.area && std::abs(loop.normal.dot(other.normal)) >= kLeastCosine;
 }
 
+// A loop inside another one, or around it.
+struct Nested {
+  std::size_t loop;
+  double height;  // mean height of the inner one's samples over the nearest edge, up or down
+};
+
 // Returns the loops of `others` that are inside the polygon.
-std::vector<std::size_t> loops_inside(const MeasuredLoops& loops, std::size_t polygon,
+std::vector<Nested> loops_inside(const MeasuredLoops& loops, std::size_t polygon,
                                       std::span<const std::size_t> others,
                                       std::span<const LoopSample> samples) {
   const LoopPlane plane = plane_of(loops.measures[polygon]);
@@ -100,24 +106,25 @@ std::vector<std::size_t> loops_inside(const MeasuredLoops& loops, std::size_t po
       inside.push_back({plane(Eigen::Vector3d(sample.point[0], sample.point[1], sample.point[2])), loop});
   }
   compare_edges(loops.loops, polygon, plane, inside);
-  std::vector<std::size_t> found;
-  for (const Inside& sample : inside) {
-    if (sample.is_inside && sample.is_near()) found.push_back(sample.loop);
-  }
-  std::sort(found.begin(), found.end());
+  std::erase_if(inside, [](const Inside& sample) { return !sample.is_inside || !sample.is_near(); });
+  const auto order = [](const Inside& sample) { return std::tuple(sample.loop, sample.at.y(), sample.at.x()); };
+  std::sort(inside.begin(), inside.end(),
+            [&](const Inside& a, const Inside& b) { return order(a) < order(b); });
   constexpr double kLeastFraction = 0.9;
-  std::vector<std::size_t> most;
-  for (auto first = found.begin(); first != found.end();) {
-    const auto last = std::upper_bound(first, found.end(), *first);
-    if (static_cast<double>(last - first) >=
-        kLeastFraction * static_cast<double>(sample_count(loops.measures[*first])))
-      most.push_back(*first);
-    first = last;
+  std::vector<Nested> most;
+  for (auto first = inside.begin(); first != inside.end();) {
+    const std::size_t loop = first->loop;
+    double count = 0, heights = 0;
+    for (; first != inside.end() && first->loop == loop; ++first, ++count)
+      heights += std::abs(first->at.z() - first->height);
+    if (count >= kLeastFraction * static_cast<double>(sample_count(loops.measures[loop])))
+      most.push_back({loop, heights / count});
   }
   return most;
 }
 
-// Returns for each loop the smallest loop around it; -1 without one.
+// Returns for each loop the smallest loop around it; -1 without one. Another sheet's loop may be smaller: a
+// larger one counts where it is half as far up or down.
 std::vector<std::int64_t> find_around(const MeasuredLoops& loops, const Spill& spill,
                                       const Workers& workers) {
   const std::vector<LoopMeasures>& measures = loops.measures;
@@ -133,18 +140,26 @@ std::vector<std::int64_t> find_around(const MeasuredLoops& loops, const Spill& s
     return std::pair(measures[a].area, a) < std::pair(measures[b].area, b);
   });
   std::vector<std::int64_t> around(measures.size(), -1);
+  std::vector<double> heights(measures.size(), std::numeric_limits<double>::infinity());
+  const auto is_of_its_sheet = [&](std::size_t loop) {
+    constexpr double kMostSpacings = 2;
+    return heights[loop] * static_cast<double>(measures[loop].points) <= kMostSpacings * measures[loop].perimeter;
+  };
   std::vector<std::size_t> others;
   for (const std::size_t polygon : by_area) {
     const auto compare = [&] {
       if (others.empty()) return;
-      for (const std::size_t loop : loops_inside(loops, polygon, others, samples))
-        around[loop] = static_cast<std::int64_t>(polygon);
+      for (const auto& [inner, height] : loops_inside(loops, polygon, others, samples)) {
+        if (!(height < heights[inner] / 2)) continue;
+        around[inner] = static_cast<std::int64_t>(polygon);
+        heights[inner] = height;
+      }
       others.clear();
       scratch.trim();
     };
     const LoopMeasures& loop = measures[polygon];
     centroids.for_each_near(loop.centroid, loop.diameter, [&](std::size_t other) {
-      if (around[other] >= 0 || !may_be_around(loop, measures[other])) return;
+      if (is_of_its_sheet(other) || !may_be_around(loop, measures[other])) return;
       others.push_back(other);
       if (others.size() == most) compare();
     });

@@ -163,7 +163,7 @@ Eigen::Vector3d across(const Eigen::Vector3d& normal) {
 // A loop in its plane, with its surroundings: as wide as the loop.
 struct FlatLoop {
   LoopPlane plane;
-  double width;  // of the surroundings, and the largest height over the loop that counts
+  double width;  // of the surroundings, and the largest height of their points over the loop
   Eigen::AlignedBox3d box = {};
 
   FlatLoop(std::span<const LoopPoint> loop, const LoopShape& shape, Scratch& scratch)
@@ -204,6 +204,8 @@ void mark_within(std::span<const LoopPoint> loop, const LoopPlane& plane, const 
 double prominence(const TileStore& points, std::span<const LoopPoint> loop, const LoopShape& shape,
                   double spacing, Scratch& scratch) {
   constexpr double kGap = 0.9;  // of the pixels around the hole are nearer to a point than its gap
+  // Within the hole, points count up to this part of the width: a surface that lies higher or lower is another.
+  constexpr double kSheet = 0.2;
   if (!(shape.area > 0) || !std::isfinite(shape.area)) return 0;
   const FlatLoop flat(loop, shape, scratch);
   const Raster raster(flat.flat_box(), spacing);
@@ -223,7 +225,9 @@ double prominence(const TileStore& points, std::span<const LoopPoint> loop, cons
   for_each_point_near(points, flat.box_in_space(raster.edge), [&](const Eigen::Vector3d& point) {
     const Eigen::Vector3d at = flat.plane(point);
     const std::uint32_t pixel = raster.pixel_at(at);
-    if (pixel != kNowhere && std::abs(at.z() - height[to_loop[pixel]]) <= flat.width) is_sampled[pixel] = 1;
+    if (pixel == kNowhere) return;
+    const double most = is_within[pixel] != 0 ? kSheet * flat.width : flat.width;
+    if (std::abs(at.z() - height[to_loop[pixel]]) <= most) is_sampled[pixel] = 1;
   });
 
   const std::span<const std::uint32_t> to_sample = nearest_marked(raster, is_sampled, scratch);

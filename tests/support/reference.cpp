@@ -1105,7 +1105,10 @@ double prominence(const FoundLoop& loop, const Shape& shape, const Positions& po
     if (((at.head<2>() - corner).array() < 0).any() ||
         ((at.head<2>() - corner).array() / edge >= count.cast<double>().array()).any())
       continue;
-    if (std::abs(at.z() - heights.at(nearest(pixel_of(at), heights))) <= width) sampled.insert(pixel_of(at));
+    const Pixel pixel = pixel_of(at);
+    const Eigen::Vector2d middle = corner + edge * Eigen::Vector2d(pixel.second + 0.5, pixel.first + 0.5);
+    const double most = is_within(rim, middle.x(), middle.y()) ? 0.2 * width : width;
+    if (std::abs(at.z() - heights.at(nearest(pixel, heights))) <= most) sampled.insert(pixel);
   }
   int deepest = 0;
   std::vector<int> around;

@@ -81,6 +81,13 @@ TEST_CASE("a surface steeply above a hole is no island, a low one is") {
   CHECK(parents(nested({hole, square(4.9, kOuter)})) == Parents{-1, 0});
 }
 
+TEST_CASE("the parent of a hole lies in the same sheet, though another sheet's curve is smaller") {
+  const DrawnLoop hole = square(2, kHole, {0, 0, 0}, 9), outer = square(12, kOuter);
+  CHECK(parents(nested({outer, square(9, kOuter, {0, 0, 3}), hole})) == Parents{-1, -1, 0});
+  CHECK(parents(nested({square(12, kOuter, {0, 0, 2}), square(9, kOuter, {0, 0, 3}), hole})) ==
+        Parents{-1, -1, 1});  // both are far
+}
+
 TEST_CASE("an upright loop is not inside a level one") {
   DrawnLoop upright = square(1, kOuter);
   for (Vector3d& point : upright.points) point = {point.x(), 0, point.y()};
