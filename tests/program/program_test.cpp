@@ -94,7 +94,7 @@ TEST_CASE("help shows the options that people use, --help-all every one, and ver
 TEST_CASE("wrong usage has exit code 2 and one line that names it") {
   const ScratchFolder scratch;
   const std::string config = scratch.write("c.toml", "[criteria]\nsigmas = 1\n"),
-                    scan = scratch.write("scan.ply", ply(plane(3)));
+                    scan = scratch.write("scan.ply", ascii_ply("1 2 3\n"));
   const auto check = [](const std::vector<Words>& commands, const auto& run) {
     for (Words words : commands) {
       const std::string part = words.back();

@@ -433,7 +433,7 @@ TEST_CASE("points of E57 that take no bytes are refused beyond 64 values in a by
   CHECK(table.rows.back() == Row{7, 3.5, 7, 0});
   scan.fields[0].count = 10'000;
   CHECK_THAT(folder.error({scan}), Contains("10000 points of 0 bits; the file holds at most"));
-  scan.fields[0].count = 100'000;
+  scan.fields[0].count = 90'000;
   CHECK_THAT(folder.error(std::vector<E57TestScan>(200, scan)), Contains("at most 64 in a byte are read"));
   scan.fields[0].count = 10'000;
   for (int i = 0; i < 200; ++i) scan.fields.push_back(same("same" + std::to_string(i)));
