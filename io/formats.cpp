@@ -3,6 +3,7 @@
 
 #include "io/e57/e57_reader.hpp"
 #include "io/files/input_file.hpp"
+#include "io/files/little_endian.hpp"
 #include "io/files/property_name.hpp"
 #include "io/las/las_reader.hpp"
 #include "io/mesh/obj_reader.hpp"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 
 namespace lacuna::io {
@@ -71,10 +73,6 @@ constexpr std::array kOtherFormats = {
     OtherFormat{"# vtk DataFile"sv, "VTK", "ParaView exports it as PLY"},
     OtherFormat{"<VTKFile"sv, "VTK XML", "ParaView exports it as PLY"},
     OtherFormat{"CCB2"sv, "CloudCompare's BIN", "CloudCompare saves it as PLY or LAS"},
-    OtherFormat{"OFF\n"sv, "OFF", kMeshLab},
-    OtherFormat{"COFF\n"sv, "OFF", kMeshLab},
-    OtherFormat{"NOFF\n"sv, "OFF", kMeshLab},
-    OtherFormat{"CNOFF\n"sv, "OFF", kMeshLab},
     OtherFormat{"BPF!"sv, "BPF", kConvert},
     OtherFormat{"FASTBIN"sv, "FBI of TerraScan", kConvert},
     OtherFormat{"CXYZ"sv, "BIN of TerraScan", kConvert, 12},
@@ -100,11 +98,17 @@ struct NamedFormat {
   std::string_view way_out;
 };
 
-constexpr std::string_view kFromReCap = "Autodesk ReCap exports it as E57";
+constexpr std::string_view kFromReCap = "Autodesk ReCap exports it as E57",
+                           kFromMaker = "the scanner's program exports it as E57";
 
 constexpr std::array kNamedFormats = {
     NamedFormat{".rcp", "", "a project of Autodesk ReCap", kFromReCap},
     NamedFormat{".rcs", "", "a scan of Autodesk ReCap", kFromReCap},
+    NamedFormat{".fls", "", "a scan of FARO", kFromMaker},
+    NamedFormat{".rxp", "", "a scan of RIEGL", kFromMaker},
+    NamedFormat{".rdbx", "", "a scan of RIEGL", kFromMaker},
+    NamedFormat{".zfs", "", "a scan of Zoller + Froehlich", kFromMaker},
+    NamedFormat{".qi", "", "QFIT", kConvert},
     NamedFormat{".npz", kZip, "an archive of NumPy", kTakesArrays},
     NamedFormat{".slpk", kZip, "a scene layer package", "ArcGIS Pro exports its points as LAS"},
 };
@@ -126,6 +130,19 @@ std::array<std::string, 2> first_words(std::string_view text) {
   return words;
 }
 
+// Whether these are records of 17 numbers, the first of which is a time that goes on by up to a second.
+bool looks_like_sbet(std::string_view bytes) {
+  constexpr std::size_t kRecord = 17 * sizeof(double);
+  if (bytes.size() < 3 * kRecord) return false;
+  const auto time = [&](std::size_t i) {
+    return load<double>(std::as_bytes(std::span(bytes)).data() + i * kRecord);
+  };
+  const auto goes_on = [&](std::size_t i) {
+    return time(i + 1) - time(i) > 1e-6 && time(i + 1) - time(i) <= 1;
+  };
+  return time(0) >= 1 && goes_on(0) && goes_on(1);
+}
+
 // Names a format that is not read, and a way out.
 std::optional<std::string> describe_other_format(const std::filesystem::path& file,
                                                  std::string_view first_bytes) {
@@ -135,6 +152,11 @@ std::optional<std::string> describe_other_format(const std::filesystem::path& fi
       return describe(format.name, format.way_out);
   }
   const auto [first, second] = first_words(first_bytes);
+  if (looks_like_sbet(first_bytes))
+    return describe("a trajectory (SBET)", "--stations takes it as text, with the columns time, x, y and z");
+  if (first.ends_with("off") && first.size() <= 5) return describe("OFF", kMeshLab);  // and NOFF, STOFF
+  if (first == "ply" && first_bytes.find("\nelement vertex_position ") != first_bytes.npos)
+    return describe("PLY of displaz", kExportPoints);
   if (first == "ncols" || first == "nrows") return describe("a grid of Esri (ASC)", kGridToText);
   if ((first == "0" && second == "section") ||
       (first == "999" && first_bytes.find("\nSECTION") != first_bytes.npos))

@@ -80,6 +80,9 @@ SetAside::SetAside(const TilePlan& plan, const Eigen::AlignedBox3d& bounds, std:
   for (const CountedCell& cell : plan.heavy)
     curves_.emplace_back(plan.grid.box(cell.coord, cell.coord).intersection(bounds));
   if (plan.far_points > 0) curves_.emplace_back(bounds);
+  std::uint64_t points = 0;
+  for (std::size_t group = 0; group < plan.groups(); ++group) points += plan.group_points(group);
+  sort_.reserve(points);  // growth would hold them twice
 }
 
 void SetAside::add(std::uint32_t group, const ScanPoint& point, const PlainNormal& normal) {

@@ -35,6 +35,8 @@ void check_config(const Config& config) {
   if (neighbourhood.eps > 0 && neighbourhood.eps_fraction > 0) {
     throw Error("eps and eps_fraction are both set; allowed: at most one of them above 0");
   }
+  if (config.scale.every_point && config.scale.resolution > 0)
+    throw Error("every_point and resolution are both set; allowed: at most one of them");
   if (std::all_of(weights.begin(), weights.end(), [](double weight) { return weight == 0; })) {
     std::string names;
     for (std::size_t i = 0; i < weights.size(); ++i) {

@@ -148,7 +148,7 @@ constexpr std::uint64_t kMostValuesInAByte = 64;
 
 // Adds the values of a scan to the values of the scans before.
 void count_values(const Xml& xml, pugi::xml_node points, const E57Scan& scan, std::uint64_t& values) {
-  values += scan.records * scan.fields.size();  // below 2^63: of at most 2^15 fields and 8 records in a byte
+  values += scan.records * scan.fields.size();  // below 2^63: of at most 2^15 fields and a record in a byte
   if (values / kMostValuesInAByte <= xml.pages.size()) return;
   xml.fail(points, "the scans up to here have " + std::to_string(values) + " values, in a file of " +
                        std::to_string(xml.pages.size()) + " bytes; at most " +
@@ -174,7 +174,9 @@ E57Scan read_scan(const Xml& xml, pugi::xml_node node, std::uint64_t& values) {
     scan.fields.push_back(read_field(xml, field));
     bits += scan.fields.back().bits;
   }
-  const std::uint64_t most = xml.pages.size() * 8 / std::max<std::uint64_t>(bits, 1);
+  // Positions of less than a byte have fewer than 256 places, so more points would be copies that cost
+  // memory.
+  const std::uint64_t most = xml.pages.size() * 8 / std::max<std::uint64_t>(bits, 8);
   if (scan.records > most) {
     xml.fail(points, std::to_string(scan.records) + " points of " + std::to_string(bits) +
                          " bits; the file holds at most " + std::to_string(most));

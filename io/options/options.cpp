@@ -192,7 +192,8 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
       flag("output", "geojson", Changes::kNothingKept, &output.geojson,
            "Write loops.geojson too: the loops as GeoJSON, for GIS and the web."),
       flag("output", "lids", Changes::kNothingKept, &output.lids,
-           "Write lids.ply too: a triangulated lid for each hole, a preview of filling. holes.csv has its area."),
+           "Write lids.ply too: a triangulated lid for each hole, a preview of filling. holes.csv has its "
+           "area."),
       flag("output", "polygons", Changes::kNothingKept, &output.polygons,
            "Loops as polygons seen from above: a second layer of the GeoPackage; in place of lines in the "
            "others.",
@@ -207,10 +208,7 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
       flag("output", "local_coordinates", Changes::kNothingKept, &output.local_coordinates,
            "Coordinates of PLY files are 32-bit floats relative to an offset, which their headers state."),
       flag("output", "report", Changes::kNothingKept, &output.report,
-           "Write report.html too: the scan and its holes in 3D, for a browser; of a check, one sheet with "
-           "its "
-           "answer "
-           "and a map."),
+           "Write report.html too: the scan and its holes in 3D, for a browser."),
   };
 }
 

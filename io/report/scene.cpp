@@ -66,7 +66,7 @@ ExplainedLoop measures_of(const Json& record) {
 }
 
 // The head of holes.json and the measures of all loops; one loop is in memory at a time, without its points.
-void read_holes(const fs::path& file, Scene& scene) {
+void read_holes(const fs::path& file, std::size_t most, Scene& scene) {
   if (!fs::exists(file)) throw Error(file.string() + ": is not there; the folder of a lacuna detect has it");
   bool is_in_loops = false;
   const auto keep = [&](int depth, Event event, Json& parsed) {
@@ -74,6 +74,9 @@ void read_holes(const fs::path& file, Scene& scene) {
     if (!is_in_loops) return true;
     if (depth == 3 && event == Event::key) return parsed != "ids" && parsed != "coordinates";
     if (depth != 2 || event != Event::object_end) return true;
+    if (scene.loops.ids.size() == most)
+      throw Error(file.string() + ": more than the " + std::to_string(most) +
+                  " loops that fit in the memory limit; --memory-limit states a larger one");
     scene.loops.ids.push_back(parsed.at("id").get<std::uint64_t>());
     scene.loops.measures.push_back(measures_of(parsed));
     return false;
@@ -256,11 +259,19 @@ float typical_spacing(const Scene& scene) {
 
 }  // namespace
 
+SceneLimits limits_within(std::uint64_t memory) {
+  constexpr std::size_t kPosition = 120, kLoop = 3 * sizeof(ExplainedLoop);  // bytes, while arrays grow
+  SceneLimits limits;
+  limits.positions = std::min<std::size_t>(limits.positions, memory / kPosition);
+  limits.all_loops = memory / 2 / kLoop;
+  return limits;
+}
+
 Scene read_scene(const fs::path& folder, const SceneLimits& limits) {
   if (!fs::is_directory(folder))
     throw Error(folder.string() + ": not a folder; allowed: a folder with results of lacuna detect");
   Scene scene;
-  read_holes(folder / "holes.json", scene);
+  read_holes(folder / "holes.json", limits.all_loops, scene);
   if (const fs::path run = folder / "run.json"; fs::exists(run)) scene.run = read_json(run, kResultOfDetect);
   scene.area = read_area_section(folder);
   read_loops(folder / "loops.ply", limits, scene);

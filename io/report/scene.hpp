@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -63,7 +64,11 @@ struct Scene {
 struct SceneLimits {
   std::size_t positions = 1'000'000;  // points and vertices of loops together; a quarter at most of loops
   std::size_t loops = 10'000;
+  std::size_t all_loops = std::numeric_limits<std::size_t>::max();  // of the run; more are an error
 };
+
+// Returns limits by which a scene fits in so many bytes, most of which are for reading.
+SceneLimits limits_within(std::uint64_t memory);
 
 // Reads holes.json, run.json, sample.ply and loops.ply of `folder`. Without a sample.ply, the scene has loops
 // alone. Beyond the limits, points are left out evenly, and loops with the smallest perimeters. Loops are in

@@ -22,6 +22,9 @@ ScanFiles::ScanFiles(std::vector<ScanInput> inputs, InputConfig config, std::uin
     : config_(std::move(config)), memory_(memory), stated_(read_stated_crs(config_)) {
   for (ScanInput& input : inputs) add_file(std::move(input));
   common_ = choose_systems(config_, stated_, files_);
+  const auto is_text = [](const ScanFile& file) { return file.format == Format::kText; };
+  if (!config_.columns.empty() && std::ranges::none_of(files_, is_text))
+    throw UsageError("--columns: names columns of text, and no file of the scan is text");
 }
 
 void ScanFiles::add_file(ScanInput input) {

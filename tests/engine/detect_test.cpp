@@ -454,19 +454,6 @@ TEST_CASE("the order of the points changes no probability, no coherence and no e
     CHECK(there.summary.counts.boundary_edges == here.summary.counts.boundary_edges);
     CHECK(there.summary.counts.components == here.summary.counts.components);
     CHECK(there.summary.mean_edge_length == here.summary.mean_edge_length);
-    // Here every loop is the only one of its component: the search finds it from wherever it starts.
-    const auto points_on = [](const Detected& detected, auto&& original) {
-      std::vector<std::vector<std::uint64_t>> loops;
-      for (const auto& loop : detected.loop_ids()) {
-        loops.emplace_back();
-        for (const PointId id : loop) loops.back().push_back(original(value(id)));
-        std::sort(loops.back().begin(), loops.back().end());
-      }
-      std::sort(loops.begin(), loops.end());
-      return loops;
-    };
-    CHECK(points_on(there, [&](std::uint64_t id) { return order[id]; }) ==
-          points_on(here, [](std::uint64_t id) { return id; }));
   }
 }
 

@@ -3,6 +3,7 @@
 #include "engine/config/config.hpp"
 #include "tests/support/drawn_files.hpp"
 #include "tests/support/hostile.hpp"
+#include "tests/support/json.hpp"
 #include "tests/support/las_file.hpp"
 #include "tests/support/laz_data.hpp"
 #include "tests/support/run_program.hpp"
@@ -57,6 +58,21 @@ TEST_CASE("range images of stations stay within the memory limit, with the same 
              {"detect", scan, "--out", limited, "--quiet", "--stations", stations, "--threads", "2"});
   detect(scan, scratch / "free", {"--stations", stations});
   CHECK((read_file(scratch / "limited/holes.json") == read_file(scratch / "free/holes.json")));
+}
+
+TEST_CASE("a picture stays within the memory limit, and loops that do not fit are refused") {
+  const ScratchFolder scratch;
+  const std::string scan = write_scan(scratch, plane(600).punched({300, 300}, 250).jittered(0.2, 1)),
+                    out = detect(scan, scratch / "out", {"--sample-points", "1000000"}).string();
+  const Words render = {"render", out, "--out", (scratch / "a.png").string()};
+  run_within("64MiB", with(render, {"--size", "6000x4000"}));
+  nlohmann::json holes = read_json(out + "/holes.json");
+  nlohmann::json& loops = holes["loops"];
+  for (const char* key : {"ids", "coordinates"}) loops[0].erase(key);
+  for (int i = 0; i < 30'000; ++i) loops.push_back(loops[0]);
+  scratch.write("out/holes.json", holes.dump());
+  check_failure(run_within("64MiB", render, 1), 1,
+                "loops that fit in the memory limit; --memory-limit states");
 }
 
 TEST_CASE("the check of an area stays within the memory limit") {

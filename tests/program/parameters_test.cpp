@@ -273,9 +273,9 @@ TEST_CASE("each option without effect has its warning, each other none") {
     for (const Parameter& parameter : parameters(config)) {
       const bool is_flag = std::holds_alternative<bool*>(parameter.value);
       // The files that the last one changes are wanted.
-      const std::set<std::string_view> left_out = {"method",        "points",       "columns",  "eps",
-                                                   "max_perimeter", "max_area",     "polygons", "unit_z",
-                                                   "area",          "points_format"};
+      const std::set<std::string_view> left_out = {"method",        "points",        "columns",   "eps",
+                                                   "max_perimeter", "max_area",      "polygons",  "unit_z",
+                                                   "area",          "points_format", "resolution"};
       if (parameter.is_constant || parameter.section == "run" || left_out.contains(parameter.key)) continue;
       options.push_back(parameter.option());
       if (!is_flag) options.emplace_back(other_value(parameter.key));
@@ -305,9 +305,8 @@ TEST_CASE("a config file's value without effect has its warning, unless it is th
   CHECK(runs.warnings({"--config", runs.write(print_config(io::FilesConfig{}))}).empty());
 }
 
-constexpr const char* kCommands[] = {"detect",  "info",     "check",         "report", "render",
-                                     "compare", "stations", "plan",   "work",
-                                     "finish",  "status",   "clean"};
+constexpr const char* kCommands[] = {"detect",   "info", "check", "report", "render", "compare",
+                                     "stations", "plan", "work",  "finish", "status", "clean"};
 
 // The options that --help-all shows.
 std::set<std::string> offered_by(const std::string& command) {
@@ -399,14 +398,16 @@ TEST_CASE("each command refuses the parameters that it does not offer, and a run
     for (const char* command : {"detect", "plan"}) CHECK(offered[command].contains(option));
     const bool is_of_process = parameter.changes == Changes::kProcess;
     for (const char* command : {"work", "finish"}) CHECK(offered[command].contains(option) == is_of_process);
-    for (const char* command : {"report", "render", "stations", "status", "clean"})
+    for (const char* command : {"report", "stations", "status", "clean"})
       CHECK_FALSE(offered[command].contains(option));
+    CHECK(offered["render"].contains(option) == (option == "--memory-limit"));
     CHECK(offered["compare"].contains(option) == (option == "--report"));  // its own, of both results
     while (offered[kCommands[next % std::size(kCommands)]].contains(option)) ++next;
     const std::string command = kCommands[next++ % std::size(kCommands)];
     check_failure(run_program({command, option}), 2, "unknown option " + option);
   }
   const std::string help = run_program({"check", "--help"}).out;
+  CHECK_THAT(help, Contains("too: one sheet with the answer and a map"));
   for (const char* option :
        {"--area", "--void-rule", "--except", "--classes", "--area-tile", "--where", "--out"})
     CHECK_THAT(help, Contains(option));

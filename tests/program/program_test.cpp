@@ -93,7 +93,8 @@ TEST_CASE("help shows the options that people use, --help-all every one, and ver
 
 TEST_CASE("wrong usage has exit code 2 and one line that names it") {
   const ScratchFolder scratch;
-  const std::string config = scratch.write("c.toml", "[criteria]\nsigmas = 1\n");
+  const std::string config = scratch.write("c.toml", "[criteria]\nsigmas = 1\n"),
+                    scan = scratch.write("scan.ply", ascii_ply("1 2 3\n"));
   const auto check = [](const std::vector<Words>& commands, const auto& run) {
     for (Words words : commands) {
       const std::string part = words.back();
@@ -103,38 +104,50 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
     }
   };
   // The last word is a part of the message.
-  check({{config, config + ": a file; allowed: a command before it, such as lacuna detect " + config},
-         {"detetc", "unknown command \"detetc\" (did you mean \"detect\"?); allowed: detect"},
-         {"help", "surfac", "unknown command \"surfac\"; allowed: detect"},
-         {"detect", "SCAN"},
-         {"detect", "a.ply", "--out"},
-         {"detect", "a.ply", "--out", "", "--out"},
-         {"detect", "a.ply", "--out", "d", "--k", "0", "k = 0"},
-         {"detect", "a.ply", "--out", "d", "--workspace", "d", "; allowed: another one for --workspace"},
-         {"detect", "a.ply", "--out", "d", "--scratch", "d/in", "; allowed: another one for --scratch"},
-         {"detect", "a.ply", "--out", "d", "--k", "3", "--k", "4", "--k"},
-         {"detect", "a.ply", "--out", "d", "--progress", "2", "bar, plain, json, none"},
-         {"detect", "a.ply", "--min-hol", "3", "(did you mean \"--min-hole\"?) (see lacuna detect --help)"},
-         {"detect", "a.ply", "--mem", "1GiB", "--mem (did you mean \"--memory-limit\"?)"},
-         {"detect", "a.ply", "--out", "d", "--colour=3", "unknown option --colour (see"},
-         {"detect", "a.ply", "-o", "d", "unknown option -o (did you mean \"--out\"?)"},
-         {"detect", "a.ply", "--output", "d", "unknown option --output (did you mean \"--out\"?)"},
-         {"detect", "-i", "a.ply", "unknown option -i; the names of inputs need no option"},
-         {"check", "a.ply", "--points",
-          "unknown option --points; lacuna detect has it (see lacuna check --help)"},
-         {"version", "unknown command \"version\" (did you mean \"--version\"?)"},
-         {"--v", "unknown option --v (did you mean \"--version\"?)"},
-         {"detect", "--version", "unknown option --version; it has no command before it: lacuna --version"},
-         {"info", "a.ply", "-o", "unknown option -o; the names of files need no option"},
-         {"check", "a.laz", "--class", "2", "\"--classes\"?); --where 'Classification == 2' chooses points"},
-         {"detect", "a.laz", "--classification", "2", "; --where 'Classification == 2' chooses points"},
-         {"detect", "--print-config", "--config", config, "c.toml:2: unknown key \"sigmas\""},
-         {"detect", "--print-config", "--config", "aerail",
-          "(did you mean \"aerial\"?); allowed: a TOML file, or one of these: aerial"},
-         {"detect", "--print-config", "--config", "no.toml", "no.toml: cannot be opened"},
-         {"info", "SCAN"},
-         {"render", "d", "--out", "x.jpg", "allowed: a name that ends in .png"}},
-        [](const Words& words) { return run_program(words); });
+  check(
+      {{config, config + ": a file; allowed: a command before it, such as lacuna detect " + config},
+       {"detetc", "unknown command \"detetc\" (did you mean \"detect\"?); allowed: detect"},
+       {"help", "surfac", "unknown command \"surfac\"; allowed: detect"},
+       {"detect", "SCAN"},
+       {"detect", "a.ply", "--out"},
+       {"detect", "a.ply", "--out", "", "--out"},
+       {"detect", "a.ply", "--out", "d", "--k", "0", "k = 0"},
+       {"detect", "a.ply", "--out", "d", "--workspace", "d", "; allowed: another one for --workspace"},
+       {"detect", "a.ply", "--out", "d", "--scratch", "d/in", "; allowed: another one for --scratch"},
+       {"detect", "a.ply", "--out", "d", "--k", "3", "--k", "4", "--k is given more than once (see"},
+       {"detect", "a.ply", "--out", "d", "--coverage", "--coverage lacks a value (see"},
+       {"detect", "a.ply", "--out", "d", "--bounds", "1", "bounds has 1 number; allowed: 4 (min x y, max"},
+       {"detect", "a.ply", "--pose", "a.xf", "unknown option --pose; a list of files has poses"},
+       {"detect", "a.ply", "--out", "d", "--every-point", "--resolution", "1",
+        "every_point and resolution are both set; allowed: at most one of them"},
+       {"detect", scan, "--out", "d", "--columns", "x,y,z", "--columns: names columns of text, and no file"},
+       {"check", "a.ply", "--area", "a.gpkg", "--void-rule is required for an area; allowed: a length"},
+       {"stations", "d", "--count", "0",
+        "--count: 0 is not possible; allowed: a whole number from 1 to 1000"},
+       {"work", "d", "--step", "bucket", "--task", "x", "--task: x is not possible; allowed: a whole number"},
+       {"report", "d", "x", "error: not expected: x (see lacuna report --help)"},
+       {"detect", "a.ply", "--out", "d", "--progress", "2", "bar, plain, json, none"},
+       {"detect", "a.ply", "--min-hol", "3", "(did you mean \"--min-hole\"?) (see lacuna detect --help)"},
+       {"detect", "a.ply", "--mem", "1GiB", "--mem (did you mean \"--memory-limit\"?)"},
+       {"detect", "a.ply", "--out", "d", "--colour=3", "unknown option --colour (see"},
+       {"detect", "a.ply", "-o", "d", "unknown option -o (did you mean \"--out\"?)"},
+       {"detect", "a.ply", "--output", "d", "unknown option --output (did you mean \"--out\"?)"},
+       {"detect", "-i", "a.ply", "unknown option -i; the names of inputs need no option"},
+       {"check", "a.ply", "--points",
+        "unknown option --points; lacuna detect has it (see lacuna check --help)"},
+       {"version", "unknown command \"version\" (did you mean \"--version\"?)"},
+       {"--v", "unknown option --v (did you mean \"--version\"?)"},
+       {"detect", "--version", "unknown option --version; it has no command before it: lacuna --version"},
+       {"info", "a.ply", "-o", "unknown option -o; the names of files need no option"},
+       {"check", "a.laz", "--class", "2", "\"--classes\"?); --where 'Classification == 2' chooses points"},
+       {"detect", "a.laz", "--classification", "2", "; --where 'Classification == 2' chooses points"},
+       {"detect", "--print-config", "--config", config, "c.toml:2: unknown key \"sigmas\""},
+       {"detect", "--print-config", "--config", "aerail",
+        "(did you mean \"aerial\"?); allowed: a TOML file, or one of these: aerial"},
+       {"detect", "--print-config", "--config", "no.toml", "no.toml: cannot be opened"},
+       {"info", "SCAN"},
+       {"render", "d", "--out", "x.jpg", "allowed: a name that ends in .png"}},
+      [](const Words& words) { return run_program(words); });
   check({{"synth", "sculpture", "surface, scan"},
          {"synth", "surfac", "(did you mean \"surface\"?)"},
          {"synth", "surface", "d.ply", "--kind", "bottle", "torus"},
@@ -195,7 +208,7 @@ TEST_CASE("the command line overrides the config file, and the file the defaults
 TEST_CASE("a run creates its folder, prints what it found unless it is quiet, and leaves nothing else") {
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.txt", sheet(40));
-  const fs::path out = scratch / "new/folder";
+  const fs::path out = scratch / "new/folder", picture = scratch / "pictures/new/a.png";
   const ProgramResult result =
       run_program({"detect", scan, "--out", out.string(), "--scratch", (scratch / "temporary").string()});
   INFO(result.err);
@@ -207,6 +220,11 @@ TEST_CASE("a run creates its folder, prints what it found unless it is quiet, an
   CHECK_FALSE(fs::exists(scratch / "temporary"));  // made for the run, empty after it
   const ProgramResult quiet = run_program({"detect", scan, "--out", out.string(), "--quiet"});
   CHECK((quiet.exit_code == 0 && quiet.out.empty() && quiet.err.empty()));
+  for (const bool has_results : {false, true}) {
+    const std::string results = has_results ? out.string() : "none";
+    CHECK((run_program({"render", results, "--out", picture.string()}).exit_code == 0) == has_results);
+    CHECK(fs::exists(scratch / "pictures") == has_results);
+  }
 }
 
 TEST_CASE("results replace earlier results alone, and all of them") {

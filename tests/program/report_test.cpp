@@ -328,13 +328,5 @@ TEST_CASE("each hole of a room and of a hollow body is seen in its own picture")
   CHECK_THAT(drawn({"--hide-above", "9"}), !Contains("left out"));
 }
 
-TEST_CASE("large pictures stay within 400 MiB") {
-  const Made made(sheet());
-  const auto run = run_program({"render", made.out().string(), "--out",
-                                (made.scratch() / "large.png").string(), "--size", "5000x5000"});
-  CHECK(run.exit_code == 0);
-  CHECK(run.peak_memory < std::uint64_t{400} << 20);
-}
-
 }  // namespace
 }  // namespace lacuna::test

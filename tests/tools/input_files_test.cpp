@@ -46,7 +46,8 @@ TEST_CASE("a folder stands for its scans by name, a list for the files in it, al
   CHECK(files_of({in}) == Paths{a, broken});  // b.xyz is text in a folder of binary scans
   CHECK(files_of({b, in / "deeper", "missing.ply"}) == Paths{b, in / "deeper" / "d.xyz", "missing.ply"});
 
-  const auto list = scratch.write("list.txt", "# two\r\nin/b.xyz\r\n\nin/deeper/d.xyz\n");
+  // With a byte order mark, and quotes as some programs write them.
+  const auto list = scratch.write("list.txt", "\xef\xbb\xbf# two\r\nin/b.xyz\r\n\n\"in/deeper/d.xyz\"\n");
   CHECK(files_of({as_list(list)}) == Paths{scratch / "in/b.xyz", scratch / "in/deeper/d.xyz"});
 }
 
@@ -96,7 +97,7 @@ TEST_CASE("a pose follows a name in a list, as numbers or as the file that holds
   const ScratchFolder scratch;
   scratch.write("turned.xf", "0 -1 0 1\n1 0 0 2\n0 0 1 3\n0 0 0 1\n");
   const auto list =
-      scratch.write("list.txt", "a b.xyz pose=turned.xf\nc.xyz\tpose=4 5 6 0 0 0 1\nd.xyz\npose=e.xyz\n");
+      scratch.write("list.txt", "\"a b.xyz\" pose=turned.xf\nc.xyz\tpose=4 5 6 0 0 0 1\nd.xyz\npose=e.xyz\n");
   const std::vector<ScanInput> inputs = expand_inputs({as_list(list)});
   REQUIRE(inputs.size() == 4);
   CHECK(inputs[0].name == scratch / "a b.xyz");
@@ -133,7 +134,11 @@ TEST_CASE("a folder without a scan, an empty list and one that is missing are er
   fs::create_directory(scratch / "none");
   CHECK_THROWS_WITH(expand_inputs({scratch / "none"}), Contains("none: no scan file in this folder"));
   check_list_refused("# nothing\n", "names no file");
-  CHECK_THROWS_WITH(expand_inputs({"@missing.txt"}), Contains("missing.txt: cannot be opened"));
+  for (const auto& [given, reason] :
+       {std::pair{"@missing.txt", "missing.txt: cannot be opened"},
+        {"", "a scan without a name; allowed: files, folders and @LIST"},
+        {"s*.laz", "s*.laz: no file of this name; a pattern works without quotes"}})
+    CHECK_THROWS_WITH(expand_inputs({given}), Contains(reason));
 }
 
 // An EPT folder of tiles of two points, each in its file of the hierarchy.

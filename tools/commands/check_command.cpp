@@ -83,6 +83,8 @@ void add_check_command(const Command& program) {
       program.add_command("check", "Check whether a scan covers an area, without finding its loops");
   const auto arguments = std::make_shared<CheckArguments>(command);
   add_scans(command, arguments->scans).required();
+  command.option("--report")
+      .help("Write report.html too: one sheet with the answer and a map, for acceptance.");
   command.runs([arguments] { run_check(*arguments); });
 }
 

@@ -8,6 +8,8 @@
 #include "io/files/number.hpp"
 #include "io/formats.hpp"
 #include "io/loops/json.hpp"
+#include "io/rows/scan_reader.hpp"
+#include "io/rows/vectors.hpp"
 #include "io/scan/scan_files.hpp"
 #include "io/stations/station_views.hpp"
 #include "tools/commands/commands.hpp"
@@ -16,7 +18,6 @@
 #include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
 #include "tools/console/visible_text.hpp"
-#include "tools/run/attribute_counts.hpp"
 #include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
 #include "tools/run/parameter_options.hpp"
@@ -24,11 +25,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <iostream>
 #include <iterator>
+#include <limits>
+#include <map>
 #include <memory>
 #include <numbers>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <spdlog/spdlog.h>
 
@@ -46,6 +54,80 @@ struct InfoArguments {
   bool json = false;
   ParameterOptions parameters;
 };
+
+struct AttributeCounts {
+  std::uint64_t rows = 0;
+  std::map<int, std::uint64_t> classes;  // empty if the file has no property classification
+  bool has_returns = false;
+  std::uint64_t only = 0, first = 0, later = 0;  // of pulses with one return, and with several
+};
+
+// ASPRS LAS 1.4 R15, table 17.
+std::string_view name_of_class(int number) {
+  constexpr std::string_view kNames[] = {"never classified",
+                                         "unclassified",
+                                         "ground",
+                                         "low vegetation",
+                                         "medium vegetation",
+                                         "high vegetation",
+                                         "building",
+                                         "low point",
+                                         "",
+                                         "water",
+                                         "rail",
+                                         "road",
+                                         "",
+                                         "wire guard",
+                                         "wire conductor",
+                                         "transmission tower",
+                                         "wire connector",
+                                         "bridge deck",
+                                         "high noise"};
+  const bool is_known = number >= 0 && number < std::ssize(kNames);
+  return is_known ? kNames[number] : std::string_view();
+}
+
+// Counts the points of a file by class and kind of return.
+AttributeCounts count_attributes(ScanReader& reader, std::size_t rows_at_a_time) {
+  AttributeCounts counts;
+  const RowLayout& layout = reader.layout();
+  const Property* const class_of = layout.find("classification");
+  const Property* const number = layout.find("return_number");
+  const Property* const number_of = layout.find("number_of_returns");
+  counts.has_returns = number != nullptr && number_of != nullptr;
+  std::vector<double> values, more;
+  for (RowBatch rows; reader.next(rows, rows_at_a_time);) {
+    counts.rows += rows.count;
+    if (class_of != nullptr) {
+      load_column(rows, layout.stride, *class_of, values);
+      for (const double value : values) {
+        if (std::abs(value) <= std::numeric_limits<int>::max()) ++counts.classes[static_cast<int>(value)];
+      }
+    }
+    if (!counts.has_returns) continue;
+    load_column(rows, layout.stride, *number, values);
+    load_column(rows, layout.stride, *number_of, more);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      ++(more[i] <= 1 ? counts.only : values[i] <= 1 ? counts.first : counts.later);
+  }
+  return counts;
+}
+
+// Returns "2 ground 83,412 · 5 high vegetation 20,110", by class.
+std::string print_classes(const AttributeCounts& counts) {
+  std::string text;
+  for (const auto& [number, count] : counts.classes) {
+    const std::string_view name = name_of_class(number);
+    text += (text.empty() ? "" : " · ") + std::to_string(number) + (name.empty() ? "" : " ") +
+            std::string(name) + " " + print_count(count);
+  }
+  return text;
+}
+
+std::string print_returns(const AttributeCounts& counts) {
+  return print_count(counts.only) + " only, " + print_count(counts.first) + " first of several, " +
+         print_count(counts.later) + " later";
+}
 
 struct FileInfo {
   fs::path file;

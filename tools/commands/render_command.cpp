@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "engine/run/memory.hpp"
 #include "io/files/new_file.hpp"
 #include "io/files/number.hpp"
 #include "io/report/render.hpp"
@@ -8,6 +9,7 @@
 #include "tools/console/command_line.hpp"
 #include "tools/console/visible_text.hpp"
 #include "tools/run/folders.hpp"
+#include "tools/run/parameter_options.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +29,10 @@ namespace {
 constexpr std::size_t kLeastSide = 16, kMostSide = 16384;  // pixels
 
 struct RenderArguments {
+  explicit RenderArguments(const Command& command)
+      : process(command, {.common = {"memory_limit"}, .rare = {}, .has_config_file = false}) {}
+
+  ParameterOptions process;
   std::filesystem::path folder, out;
   std::string view = "oblique", size = "1600x1000";
   std::optional<double> most_height;
@@ -55,11 +61,13 @@ std::optional<double> roof_before(std::optional<std::size_t> loop, const Scene& 
 
 void run_render(const RenderArguments& arguments) {
   const auto [width, height] = parse_size(arguments.size);
+  const std::uint64_t memory = Memory::share(arguments.process.start().run.memory_limit).work;
   const Overwrite overwrite = arguments.overwrite ? Overwrite::kAny : Overwrite::kOwn;
+  const MadeFolder parent(std::filesystem::absolute(arguments.out).parent_path());
   check_output(arguments.out, picture_mark(), overwrite);
   if (arguments.most_height && !std::isfinite(*arguments.most_height))
     throw WrongOption("--hide-above", "a finite height is allowed");
-  Scene scene = read_scene(arguments.folder);
+  Scene scene = read_scene(arguments.folder, limits_within(memory));
   const std::optional<double> most_height =
       arguments.most_height ? arguments.most_height : roof_before(loop_of_view(scene, arguments.view), scene);
   if (most_height) hide_above(scene, *most_height);
@@ -68,7 +76,9 @@ void run_render(const RenderArguments& arguments) {
   NewFile out(arguments.out, picture_mark(), overwrite);
   PngWriter png(size, out.content());
   const PictureStyle style{.as_it_came = arguments.as_it_came, .has_ids = !arguments.without_ids};
-  render(scene, view, size, style, [&](std::span<const Colour> row) { png.write(row); });
+  render(
+      scene, view, size, style, [&](std::span<const Colour> row) { png.write(row); },
+      std::min<std::uint64_t>(kBandBytes, memory / 2));
   png.finish();
   out.commit();
   std::cout << "written: " << visible(arguments.out.string()) << "\n";
@@ -85,7 +95,7 @@ void run_render(const RenderArguments& arguments) {
 void add_render_command(const Command& program) {
   const Command command =
       program.add_command("render", "Draw the scan and its holes as a PNG, without a browser");
-  const auto arguments = std::make_shared<RenderArguments>();
+  const auto arguments = std::make_shared<RenderArguments>(command);
   add_results_folder(command, arguments->folder);
   command.add_option("--out", arguments->out, "Picture to write, in PNG; its name ends in .png")
       .type("FILE")

@@ -15,6 +15,7 @@
 #include "tools/run/input_files.hpp"
 #include "tools/run/signals.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -71,13 +72,15 @@ void run_plan(const PlanArguments& arguments) {
   const fs::path workspace = config.run.workspace;
   if (workspace.empty()) throw WrongOption("--workspace is required");
   require_outside_results(workspace, "", "--workspace");
-  constexpr std::uint64_t kMemoryOfTask = std::uint64_t{4} << 30;
-  if (config.run.memory_limit == 0) config.run.memory_limit = kMemoryOfTask;
   const ScanFiles scan = open_inputs(expand_inputs(arguments.scans, config), config);
-  config.run.note = print_config(config);
-  const KeptFolder folder(workspace);
   const std::vector<std::uint64_t> rows = estimated_rows(scan);
   const std::uint64_t points = std::accumulate(rows.begin(), rows.end(), std::uint64_t{0});
+  // Runs without a limit take 120 to 350 bytes a point at most (README); with one, the rest is on disk.
+  constexpr std::uint64_t kBytesOfPoint = 256, kLeast = 256 << 20, kMost = std::uint64_t{4} << 30;
+  if (config.run.memory_limit == 0)
+    config.run.memory_limit = std::clamp(points * kBytesOfPoint, kLeast, kMost);
+  config.run.note = print_config(config);
+  const KeptFolder folder(workspace);
   ScanPass pass(scan);
   print_plan(arguments, plan(pass, config, arguments.tasks, points), config.run.memory_limit);
 }
@@ -154,7 +157,7 @@ void add_work_command(const Command& program) {
   command.add_option("--step", arguments->step, "Name of the step, such as evaluate-0")
       .required()
       .type("STEP");
-  command.add_option("--task", arguments->task, "Number of the task, from 0 on").type("I");
+  command.add_option("--task", arguments->task, "Number of the task, from 0 on").whole_number().type("I");
   command.runs([arguments] { run_work(*arguments); });
 }
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <optional>
 
 #include <CLI/CLI.hpp>
@@ -219,6 +220,11 @@ const Option& Option::section(const std::string& name) const {
   return *this;
 }
 
+const Option& Option::help(const std::string& text) const {
+  option_->description(text);
+  return *this;
+}
+
 const Option& Option::show_default() const {
   option_->capture_default_str();
   return *this;
@@ -251,15 +257,11 @@ const Option& Option::rare() const {
   return *this;
 }
 
-const Option& Option::whole_number() const {
-  option_->check(allowing("a whole number, 0 or more", [](const std::string& text) {
-    return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-  }));
-  return *this;
-}
-
 const Option& Option::whole_number(std::size_t least, std::size_t most) const {
-  const std::string range = "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+  const bool is_bounded = most < std::numeric_limits<std::size_t>::max();
+  const std::string range =
+      is_bounded ? "a whole number from " + std::to_string(least) + " to " + std::to_string(most)
+                 : "a whole number, " + std::to_string(least) + " or more";
   option_->check(allowing(range, [least, most](const std::string& text) {
     std::size_t value = 0;
     return io::parse_number(text, value) && value >= least && value <= most;
@@ -368,17 +370,14 @@ void CommandLine::run(std::vector<std::string> arguments) {
     throw UsageError(text.substr(0, text.find(':')) +
                      (text.find("At Most") != text.npos ? " is given more than once" : " lacks a value") +
                      usage_hint(*app_, arguments));
+  } catch (const CLI::ExtrasError& error) {
+    const std::string text = error.what();
+    throw UsageError("not expected:" + text.substr(text.find(':') + 1) + usage_hint(*app_, arguments));
   } catch (const CLI::Error& error) {
     throw UsageError(error.what() + usage_hint(*app_, arguments));
   } catch (const WrongOption& error) {
     throw UsageError(error.what() + usage_hint(*app_, arguments));
   }
-}
-
-bool CommandLine::has_option(const std::string& name) const {
-  return std::ranges::any_of(app_->get_subcommands(), [&](const CLI::App* command) {
-    return command->get_option_no_throw(name) != nullptr;
-  });
 }
 
 }  // namespace lacuna::tools

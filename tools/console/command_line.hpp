@@ -35,6 +35,7 @@ class Option {
   const Option& required() const;
   const Option& type(const std::string& name) const;     // "DIR": what it takes, for the help
   const Option& section(const std::string& name) const;  // of --help-all
+  const Option& help(const std::string& text) const;     // in place of the earlier one
   const Option& show_default() const;                    // the variable's value at this moment
   // The default as the config file has it. An empty one is not shown.
   const Option& show_default(const std::string& text) const;
@@ -44,8 +45,8 @@ class Option {
   const Option& rare() const;             // only --help-all shows it
 
   // These restrict the values. An error names the restriction.
-  const Option& whole_number() const;  // CLI11 alone makes a number near 2^64 of -1
-  const Option& whole_number(std::size_t least, std::size_t most) const;
+  // CLI11 alone makes a number near 2^64 of -1.
+  const Option& whole_number(std::size_t least = 0, std::size_t most = -1) const;
   const Option& real_number() const;
   const Option& name_ending_in(const std::string& ending) const;  // also in upper case
 
@@ -97,9 +98,6 @@ class CommandLine {
   // Runs the command that the arguments name, or prints help. `help COMMAND` is the same as `COMMAND --help`.
   // Throws `UsageError` if the arguments are not possible, and any error that the command throws.
   void run(std::vector<std::string> arguments);
-
-  // Whether the command that `run` began has an option of this name.
-  bool has_option(const std::string& name) const;
 
  private:
   std::unique_ptr<CLI::App> app_;

@@ -1,19 +1,76 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/run/parameter_options.hpp"
 
+#include "engine/config/config.hpp"
 #include "engine/run/error.hpp"
+#include "engine/run/memory.hpp"
+#include "engine/run/words.hpp"
 #include "tools/console/terminal.hpp"
-#include "tools/run/config_files.hpp"
-#include "tools/run/own_process.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
 #include <variant>
+#include <vector>
+
+#include <link.h>
+#include <malloc.h>
+#include <sys/mman.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
 
 namespace lacuna::tools {
 using namespace io;
 
 namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> config_folders() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (error) return {};
+  const fs::path folder = program.parent_path();
+  std::vector<fs::path> folders = {folder.parent_path() / "share/lacuna/configs",
+                                   folder / "share/lacuna/configs"};
+  if (fs::exists(folder / "CMakeCache.txt", error)) folders.push_back(folder.parent_path() / "configs");
+  return folders;
+}
+
+[[noreturn]] void fail_unknown(const std::string& name, const std::vector<fs::path>& folders) {
+  std::set<std::string> names;
+  for (const fs::path& folder : folders) {
+    std::error_code error;  // a folder that is missing has no config
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+      if (entry.path().extension() == ".toml") names.insert(entry.path().stem().string());
+    }
+  }
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  throw Error("--config " + name + ": no file and no installed config has this name" +
+              suggestion(name, known) + "; allowed: a TOML file" +
+              (known.empty() ? "; no config is installed" : ", or one of these: " + listed(known)));
+}
+
+// Returns `given` itself if it names an existing file, or has a slash or the ending .toml. Else returns
+// NAME.toml from the first of two folders that has it. The first is share/lacuna/configs of the prefix that
+// the program is installed in. The second is the source's configs, for a program in a build folder within.
+// Throws `Error`, which lists the names that exist, if neither folder has the file.
+fs::path find_config(const std::string& given) {
+  std::error_code error;
+  const bool is_file = given.find('/') != given.npos || given.ends_with(".toml") || fs::exists(given, error);
+  if (is_file) return given;
+  const std::vector<fs::path> folders = config_folders();
+  for (const fs::path& folder : folders) {
+    const fs::path file = folder / (given + ".toml");
+    if (fs::exists(file, error)) return file;
+  }
+  fail_unknown(given, folders);
+}
 
 bool is_named(const Parameter& parameter, const std::vector<std::string_view>& names) {
   return std::ranges::any_of(
@@ -48,6 +105,48 @@ struct TypeName {
 std::string type_name(const Parameter& parameter) {
   return parameter.key == "workspace" || parameter.key == "scratch" ? "DIR"
                                                                     : std::visit(TypeName{}, parameter.value);
+}
+
+constexpr std::uint64_t kMiB = 1 << 20;
+
+// Gives back the tables of symbols that the dynamic linker has read: 20 MiB, since OpenVDB is linked. The
+// system reads them again if they are needed.
+void release_symbol_tables() {
+  const auto release = [](dl_phdr_info* library, std::size_t, void*) {
+    const std::uintptr_t page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+    for (int i = 0; i < library->dlpi_phnum; ++i) {
+      const auto& segment = library->dlpi_phdr[i];
+      if (segment.p_type != PT_LOAD || segment.p_flags != PF_R) continue;  // neither code nor data
+      const std::uintptr_t begin = (library->dlpi_addr + segment.p_vaddr) / page * page;
+      ::madvise(reinterpret_cast<void*>(begin),
+                library->dlpi_addr + segment.p_vaddr + segment.p_memsz - begin, MADV_DONTNEED);
+    }
+    return 0;
+  };
+  ::dl_iterate_phdr(release, nullptr);
+}
+
+// Large arrays come from the system and go back to it; small ones share few arenas. Without this, memory that
+// threads free stays with them, and the process grows beyond its limit. If the limit is far, memory is kept
+// and used again, because the system has to clear fresh pages. Within 64 MiB, the least limit, the process
+// keeps next to no memory.
+void set_up_allocator(std::uint64_t limit) {
+  ::mallopt(M_MMAP_THRESHOLD, static_cast<int>(std::clamp(limit / 64, kMiB, 32 * kMiB)));
+  ::mallopt(M_TRIM_THRESHOLD,
+            static_cast<int>(std::clamp((std::max(limit, 64 * kMiB) - 56 * kMiB) / 8, kMiB, 512 * kMiB)));
+  // An arena keeps up to several MiB that nobody uses.
+  ::mallopt(M_ARENA_MAX, static_cast<int>(std::clamp<std::uint64_t>(limit / (32 * kMiB), 1, 4)));
+}
+
+// Sets the allocator up, gives back the memory of the start, and allows more threads than there are cores.
+// The library makes no such setting, since it may run in the process of another program. Call it once.
+void prepare_process(const RunConfig& config) {
+  set_up_allocator(Memory::share(config.memory_limit).limit);
+  release_symbol_tables();
+  if (config.threads > 0) {
+    static const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                             static_cast<std::size_t>(config.threads));
+  }
 }
 
 }  // namespace

@@ -139,10 +139,7 @@ int run_program(const std::string& name, CommandLine& line, int argc, char** arg
   } catch (const Error& error) {
     return fail(one_line(error.what()), kFailed);
   } catch (const std::bad_alloc&) {
-    const bool can_take_less = line.has_option("--memory-limit");
-    return fail(std::string("out of memory") +
-                    (can_take_less ? "; a lower --memory-limit or smaller --tile-points may help" : ""),
-                kFailed);
+    return fail("out of memory; a lower --memory-limit may help, of commands that have it", kFailed);
   } catch (const std::filesystem::filesystem_error& error) {  // such as a name that is too long
     return fail(one_line(error.path1().string() + ": " + error.code().message()), kFailed);
   } catch (const std::exception& error) {
