@@ -352,7 +352,7 @@ python3 - <<'END'
 with open("date.xyz", "w") as text:
     for line in open("none.xyz"):
         x, y, z = map(float, line.split())
-        print(f"{x + 319_595:.3f} {y + 2_718_500:.3f} {z:.3f}", file=text)
+        print(f"{x + 319_450:.3f} {y + 2_718_000:.3f} {z:.3f}", file=text)
 END
 for options in "" "--polygons"; do
   "$program" detect date.xyz --crs EPSG:32760 --out date --geojson --quiet $options
