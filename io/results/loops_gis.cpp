@@ -19,12 +19,6 @@ namespace {
 
 using Geometry = std::unique_ptr<OGRGeometry>;
 
-std::vector<const char*> layer_options(GisFormat format) {
-  if (format == GisFormat::kGeoPackage) return {"DESCRIPTION=loops of lacuna detect"};
-  // With digits behind the point instead, GDAL takes zeros before the last one for a rounding error.
-  return {"RFC7946=NO", "SIGNIFICANT_FIGURES=17"};
-}
-
 // Lets longitudes of a ring go on beyond 180 degrees, from one near `x`. False if it is around a pole.
 bool unroll(OGRLinearRing& ring, double x) {
   for (int i = 0; i < ring.getNumPoints(); ++i) {
@@ -143,7 +137,12 @@ class LoopsWriter {
 
   void create_layer(const char* name, bool is_of_polygons) {
     CPLStringList options;
-    for (const char* const option : layer_options(task_.format)) options.AddString(option);
+    if (task_.format == GisFormat::kGeoPackage) {
+      options.AddString("DESCRIPTION=loops of lacuna detect");
+    } else {  // with digits behind the point instead, GDAL takes zeros before the last one for an error
+      options.AddString("RFC7946=NO");
+      options.AddString("SIGNIFICANT_FIGURES=17");
+    }
     OGRwkbGeometryType type = is_of_polygons ? wkbPolygon25D : wkbLineString25D;
     if (has_several_parts(is_of_polygons)) type = OGR_GT_GetCollection(type);
     OGRLayer* const layer =

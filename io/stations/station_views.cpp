@@ -45,8 +45,8 @@ void fill_between_rays(StationView& view) {
   if (view.left_out) view.left_out->fill(std::size_t{1} << coarser);
 }
 
-// Returns the range of a twentieth of the rays or more, if ranges beside it have a tenth of that or less;
-// else 0. The counts are of ranges in steps of a thousandth, by the first bits of their numbers.
+// Returns the range of a twentieth of the rays or more, and ten times as many as next to it; else 0. The
+// counts are of ranges in steps of a thousandth, by the first bits of their numbers.
 double one_range_of(const std::map<std::uint32_t, std::size_t>& counts) {
   constexpr std::size_t kLeastShare = 20, kBeside = 10;
   std::size_t all = 0;

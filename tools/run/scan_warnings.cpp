@@ -427,8 +427,8 @@ double degrees_of(const StationSummary& station) {
   return std::max(2 * 180 / std::numbers::pi * station.spread, 0.01);
 }
 
-// A path whose rows are not all of it or whose times are coarse, rays of one range, and a station that is far
-// off, though the scan itself states it.
+// A path whose rows are not all of it, or whose times are coarse. A station with rays of one range, and one
+// that is far off, though the scan itself states it.
 void warn_of_path(const StationSummary& station, std::vector<std::string>& warnings) {
   constexpr std::uint64_t kFewRays = 100;
   constexpr double kFarOff = 0.01;  // radians; no scanner has so narrow a view
