@@ -4,6 +4,8 @@
 #include "tests/support/drawn_files.hpp"
 #include "tests/support/e57_encoder.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 namespace lacuna::io {
 namespace {
 
