@@ -160,8 +160,7 @@ double PathView::certainty() const {
   return static_cast<double>(placed_ - conflicts_) / static_cast<double>(points_);
 }
 
-// Returns the step of the points' times if the scanner moves farther in it than two sections; else 0. Times
-// of profiles, which lie closer, are no steps.
+// Returns the step of the points' times if the scanner moves farther in it than two sections; else 0.
 double PathView::coarse_step() const {
   const double speed = path_.length() / (path_.last_time() - path_.first_time());
   return time_step_ * speed > 2 * section_ ? time_step_ : 0;
