@@ -47,7 +47,11 @@ void write_loops_gis(const ExplainedDetection& detection, const ScanFiles& scan,
                .out = gis_output(scan, out),
                .take = {}};
   if (is_geojson) task.take = [&](std::string_view text) { out.write(text); };
-  switch (write(task)) {
+  const GisWritten written = write(task);
+  if (written.without_polygon > 0)
+    spdlog::warn("{}: loops that have no valid polygon seen from above: {} of {}", out.path().string(),
+                 written.without_polygon, detection.loops.size());
+  switch (written.crs) {
     case GisCrs::kWritten:
       if (is_geojson && !detection.loops.empty())
         warn_of_accuracy(scan.common_crs(), detection.loops.front().centroid, out.path());

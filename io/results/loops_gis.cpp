@@ -17,10 +17,45 @@
 namespace lacuna::io {
 namespace {
 
-std::vector<const char*> layer_options(GisFormat format) {
-  if (format == GisFormat::kGeoPackage) return {"DESCRIPTION=loops of lacuna detect"};
-  // With digits behind the point instead, GDAL takes zeros before the last one for a rounding error.
-  return {"RFC7946=NO", "SIGNIFICANT_FIGURES=17"};
+using Geometry = std::unique_ptr<OGRGeometry>;
+
+// Lets longitudes of a ring go on beyond 180 degrees, from one near `x`. False if it is around a pole.
+bool unroll(OGRLinearRing& ring, double x) {
+  for (int i = 0; i < ring.getNumPoints(); ++i) {
+    x = ring.getX(i) + 360 * std::round((x - ring.getX(i)) / 360);
+    ring.setPoint(i, x, ring.getY(i), ring.getZ(i));
+  }
+  return std::abs(x - ring.getX(0)) < 180;
+}
+
+// Cuts a shape in degrees into several where it crosses the antimeridian, a step of more than 180 degrees.
+Geometry cut_at_antimeridian(const OGRGeometry& shape) {
+  char wrap[] = "WRAPDATELINE=YES", each[] = "DATELINEOFFSET=180";
+  char* options[] = {wrap, each, nullptr};
+  return Geometry(OGRGeometryFactory::transformWithOptions(&shape, nullptr, options));
+}
+
+// Returns what a polygon covers, as polygons that cross neither themselves nor each other; null if nothing.
+Geometry make_valid(Geometry polygon) {
+  constexpr int kMostTries = 3;  // a mended polygon can need it again
+  const GdalFailures reasons;    // of no interest
+  const char* const options[] = {"METHOD=STRUCTURE", "KEEP_COLLAPSED=NO", nullptr};  // no lines or points
+  for (int tries = 0; polygon && !polygon->IsEmpty() && tries <= kMostTries; ++tries) {
+    if (polygon->IsValid()) return polygon;
+    polygon.reset(polygon->MakeValid(options));
+  }
+  return nullptr;
+}
+
+// RFC 7946 wants outlines counter-clockwise and inner rings clockwise. GEOS leaves rings open in z.
+void finish(OGRPolygon& polygon) {
+  for (OGRLinearRing* const ring : polygon) {
+    OGRPoint first;
+    ring->getPoint(0, &first);
+    ring->setPoint(ring->getNumPoints() - 1, &first);
+    const bool is_inner = ring != polygon.getExteriorRing();
+    if ((ring->isClockwise() != 0) != is_inner) ring->reverseWindingOrder();
+  }
 }
 
 struct Layer {
@@ -33,11 +68,11 @@ class LoopsWriter {
  public:
   explicit LoopsWriter(const GisTask& task) : task_(task) {}
 
-  GisCrs write() {
-    GisCrs result = set_crs();
+  GisWritten write() {
+    result_.crs = set_crs();
     const bool is_geojson = task_.format == GisFormat::kGeoJson;
-    if (result == GisCrs::kWritten && (is_geojson || crs_.IsGeocentric() != 0) && !convert())
-      result = GisCrs::kNotConverted;
+    if (result_.crs == GisCrs::kWritten && (is_geojson || crs_.IsGeocentric() != 0) && !convert())
+      result_.crs = GisCrs::kNotConverted;
     create();
     for (std::size_t id = 0; id < task_.detection.loops.size(); ++id) {
       const ReportedLoop loop = task_.detection.read_loop(id);
@@ -46,7 +81,7 @@ class LoopsWriter {
     if (has_transaction_) require(dataset_->CommitTransaction() == OGRERR_NONE);
     dataset_.reset();
     require(true);
-    return result;
+    return result_;
   }
 
  private:
@@ -102,10 +137,16 @@ class LoopsWriter {
 
   void create_layer(const char* name, bool is_of_polygons) {
     CPLStringList options;
-    for (const char* const option : layer_options(task_.format)) options.AddString(option);
+    if (task_.format == GisFormat::kGeoPackage) {
+      options.AddString("DESCRIPTION=loops of lacuna detect");
+    } else {  // with digits behind the point instead, GDAL takes zeros before the last one for an error
+      options.AddString("RFC7946=NO");
+      options.AddString("SIGNIFICANT_FIGURES=17");
+    }
+    OGRwkbGeometryType type = is_of_polygons ? wkbPolygon25D : wkbLineString25D;
+    if (has_several_parts(is_of_polygons)) type = OGR_GT_GetCollection(type);
     OGRLayer* const layer =
-        dataset_->CreateLayer(name, crs_.IsEmpty() ? nullptr : &crs_,
-                              is_of_polygons ? wkbPolygon25D : wkbLineString25D, options.List());
+        dataset_->CreateLayer(name, crs_.IsEmpty() ? nullptr : &crs_, type, options.List());
     require(layer != nullptr);
     layers_.push_back({layer, is_of_polygons});
     add_field("id", OFTInteger64);
@@ -114,6 +155,16 @@ class LoopsWriter {
     add_field("unit", OFTString);
     for (const LoopMeasure& measure : kLoopMeasures)
       add_field(std::string(measure.name), measure.is_count ? OFTInteger64 : OFTReal);
+  }
+
+  // Whether a loop has several shapes in the layer: the type of a GeoPackage's layer holds for all.
+  bool has_several_parts(bool is_of_polygons) const {
+    if (task_.format == GisFormat::kGeoJson || !(is_of_polygons || conversion_.plan)) return false;
+    for (std::size_t id = 0; id < task_.detection.loops.size(); ++id) {
+      const Geometry shape = shape_of(id, task_.detection.read_points(id), is_of_polygons);
+      if (shape && OGR_GT_IsSubClassOf(shape->getGeometryType(), wkbGeometryCollection)) return true;
+    }
+    return false;
   }
 
   void add_field(const std::string& name, OGRFieldType type) {
@@ -139,28 +190,46 @@ class LoopsWriter {
         set_field(feature, field++, value);
       }
     }
-    auto line = line_of(loop.points);
-    require(line != nullptr);
-    feature.SetGeometryDirectly(layer.is_of_polygons ? polygon_of(id, *line).release() : line.release());
+    Geometry shape = shape_of(id, loop.points, layer.is_of_polygons);
+    result_.without_polygon += shape == nullptr ? 1 : 0;
+    const OGRwkbGeometryType type = layer.layer->GetGeomType();
+    if (shape && OGR_GT_IsSubClassOf(type, wkbGeometryCollection))
+      shape.reset(OGRGeometryFactory::forceTo(shape.release(), type));
+    feature.SetGeometryDirectly(shape.release());
     require(layer.layer->CreateFeature(&feature) == OGRERR_NONE);
   }
 
-  // RFC 7946 wants the outline counter-clockwise and inner rings clockwise.
-  std::unique_ptr<OGRGeometry> polygon_of(std::size_t id, const OGRLineString& line) {
+  // Returns what a layer has of a loop; null for a polygon that covers nothing, or is around a pole.
+  Geometry shape_of(std::size_t id, const Loop& loop, bool is_polygon) const {
+    auto line = line_of(loop);
+    require(line != nullptr);
+    Geometry shape = is_polygon ? polygon_of(id, *line) : Geometry(std::move(line));
+    if (shape && conversion_.plan) shape = cut_at_antimeridian(*shape);
+    if (shape && is_polygon) {
+      if (wkbFlatten(shape->getGeometryType()) == wkbPolygon)
+        finish(*shape->toPolygon());
+      else
+        for (OGRPolygon* const part : *shape->toMultiPolygon()) finish(*part);
+    }
+    return shape;
+  }
+
+  Geometry polygon_of(std::size_t id, const OGRLineString& line) const {
     auto polygon = std::make_unique<OGRPolygon>();
-    const auto add = [&](const OGRLineString& points, bool is_clockwise) {
+    bool has_inside = true;
+    const auto add = [&](const OGRLineString& points) {
       auto ring = std::make_unique<OGRLinearRing>();
       ring->addSubLineString(&points);
-      if ((ring->isClockwise() != 0) != is_clockwise) ring->reverseWindingOrder();
+      if (conversion_.plan) has_inside = unroll(*ring, line.getX(0)) && has_inside;
       polygon->addRingDirectly(ring.release());
     };
-    add(line, false);
+    add(line);
     for (const InnerRing& inner : task_.detection.inner_rings_of(id)) {
       const auto ring = line_of(task_.detection.read_points(inner.loop));
       require(ring != nullptr);
-      add(*ring, true);
+      add(*ring);
     }
-    return polygon;
+    return has_inside ? make_valid(std::move(polygon)) : nullptr;
   }
 
   // Returns a closed line; null if a point of it cannot be converted.
@@ -181,18 +250,19 @@ class LoopsWriter {
   OGRSpatialReference crs_;
   DegreesConversion conversion_;  // of a GeoJSON
   bool has_crs_ = false, has_transaction_ = false;
+  GisWritten result_;
   Dataset dataset_;
   std::vector<Layer> layers_;
 };
 
 }  // namespace
 
-extern "C" GisCrs lacuna_write_loops_gis(const GisTask& task) {
+extern "C" GisWritten lacuna_write_loops_gis(const GisTask& task) {
   const GeoPackageSettings settings;
   if (task.format != GisFormat::kGeoJson) return LoopsWriter(task).write();
   const GdalTextSink sink(task.take);
   LoopsWriter writer(task);
-  GisCrs result = GisCrs::kNone;
+  GisWritten result;
   try {
     result = writer.write();
   } catch (const Error&) {

@@ -38,6 +38,11 @@ enum class GisCrs : std::uint8_t {
   kNotConverted,   // a GeoJSON with the coordinates of the scan, though these are not longitude and latitude
 };
 
+struct GisWritten {
+  GisCrs crs = GisCrs::kNone;
+  std::size_t without_polygon = 0;  // loops that cover nothing, seen from above
+};
+
 // Writes the loops in order, each a closed line with z. Fields are id, kind, unit and the measures, empty if
 // a measure is not finite. With polygons, a GeoPackage has these in a layer of their own, and GeoJSON
 // has polygons in place of lines. A hole has its islands as inner rings, an outer curve its holes. The
@@ -45,7 +50,7 @@ enum class GisCrs : std::uint8_t {
 // WGS 84 if the system is known, as RFC 7946 demands. There z is in metres; for geocentric scans it is the
 // ellipsoidal height. Holds one polygon in memory. Equal loops give equal bytes. Throws `Error` with
 // GDAL's text.
-using WriteLoopsGis = GisCrs(const GisTask& task);
+using WriteLoopsGis = GisWritten(const GisTask& task);
 
 // In lacuna_gis.so:
 inline constexpr const char* kWriteLoopsGis = "lacuna_write_loops_gis";

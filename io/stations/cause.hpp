@@ -69,12 +69,14 @@ struct StationSummary {
   Trajectory::LeftOut left_out;    // rows of that path
   std::uint64_t points = 0;
   std::uint64_t untimed = 0;       // further points, which have no time of the path
+  double coarse_step = 0;          // of its times, if too wide for the path; infinite: there is one time
   double certainty = 0;            // share of points that fit it: seen from there, and at its times
   double spread = 0;               // RaySpread::angle
   double lowest = 0, highest = 0;  // sines of the elevations of its points
   double turn = 0;                 // share of a whole turn with points
   double step = 0;                 // mean angle between rays, radians
   double farthest = 0;             // range
+  double one_range = 0;            // that many rays have, to a thousandth, as without a return; 0: none
 
   // Below it, the station did not measure its points, and takes no part in causes.
   static constexpr double kLeastCertain = 0.98;

@@ -20,7 +20,8 @@ constexpr double kFinest = 0.02;           // metres, of a section
 constexpr double kMostSections = 1 << 18;  // each takes 104 bytes of memory
 constexpr double kSections = 100;          // in the mean range
 constexpr double kChord = 0.5;             // metres before and after a place, for its axes
-constexpr std::size_t kFiner = 8;          // parts of a cell's edge in which ranges are compared
+constexpr double kOffset = 0.382;          // of borders of sections: scanners turn at whole lengths
+constexpr std::size_t kFiner = 9;          // parts of a cell's edge in which ranges are compared
 constexpr std::uint32_t kParts = kFiner * kFiner;
 constexpr std::uint32_t kCells = 6 * PathView::kEdge * PathView::kEdge;
 constexpr std::uint32_t kGroup = 8;  // sections: profiles lie closer than a 12th of the range
@@ -54,14 +55,17 @@ void PathView::begin() {
   spread_ = {};
   field_ = FieldOfView(Eigen::Vector3d::UnitZ());
   points_ = placed_ = range_sum_ = 0;
-  first_time_ = std::numeric_limits<double>::infinity();
+  first_time_ = time_step_ = std::numeric_limits<double>::infinity();
   last_time_ = -first_time_;
+  previous_time_ = std::numeric_limits<double>::quiet_NaN();
   farthest_ = 0;
 }
 
 void PathView::add(double time, const Eigen::Vector3d& position, bool is_kept) {
   if (!position.allFinite()) return;
   ++points_;
+  if (time != previous_time_) time_step_ = std::fmin(time_step_, std::fabs(time - previous_time_));
+  previous_time_ = time;
   first_time_ = std::fmin(first_time_, time);
   last_time_ = std::fmax(last_time_, time);
   const std::optional<double> length = path_.length_at(time);
@@ -69,10 +73,10 @@ void PathView::add(double time, const Eigen::Vector3d& position, bool is_kept) {
   const Eigen::Vector3d arm = position - path_.place_at(*length);
   const double range = arm.norm();
   if (!(range > 0)) return;
-  const auto section = static_cast<std::uint32_t>(*length / finest_);
+  const auto section = static_cast<std::uint32_t>(*length / finest_ + kOffset);
   if (section != last_section_) {
     last_section_ = section;
-    last_axes_ = path_.axes_at((section + 0.5) * finest_, chord_);
+    last_axes_ = path_.axes_at((section + 0.5 - kOffset) * finest_, chord_);
   }
   const Eigen::Vector3d in_axes = last_axes_ * arm;
   swept_.add(in_axes);
@@ -103,7 +107,7 @@ void PathView::complete() {
   rays_.reset();
   store(sections);
   for (std::size_t i = 0; i + 1 < first_.size(); ++i) {
-    const double middle = (static_cast<double>(i) + 0.5) * section_;
+    const double middle = (static_cast<double>(i) + 0.5) * section_ - kOffset * finest_;
     eyes_.push_back(path_.place_at(middle));
     axes_.push_back(path_.axes_at(middle, chord_));
   }
@@ -142,6 +146,7 @@ StationSummary PathView::summary() const {
           .left_out = path_.left_out(),
           .points = placed_,
           .untimed = points_ - placed_,
+          .coarse_step = coarse_step(),
           .certainty = certainty(),
           .spread = spread_.angle(),
           .lowest = field_.lowest(),
@@ -151,8 +156,14 @@ StationSummary PathView::summary() const {
 }
 
 double PathView::certainty() const {
-  if (spread_.is_narrow()) return 0;
+  if (spread_.is_narrow() || std::isinf(time_step_)) return 0;
   return static_cast<double>(placed_ - conflicts_) / static_cast<double>(points_);
+}
+
+// Returns the step of the points' times if the scanner moves farther in it than two sections; else 0.
+double PathView::coarse_step() const {
+  const double speed = path_.length() / (path_.last_time() - path_.first_time());
+  return time_step_ * speed > 2 * section_ ? time_step_ : 0;
 }
 
 std::vector<std::uint32_t> PathView::sections_near(const Eigen::AlignedBox3d& box, double range) const {

@@ -33,7 +33,9 @@ struct Aim {
 
 class PathView {
  public:
-  static constexpr std::size_t kEdge = 128;  // of direction cells: 0.9 degrees
+  // Direction cells are 0.9 degrees wide. They are odd in number, so that none ends right across the path,
+  // where many rays are.
+  static constexpr std::size_t kEdge = 127;
 
   // `stated`: the file of the trajectory, for errors. `metre`: in units of the scan. Takes some 20 bytes for
   // each point in files in `folder`, and `memory` bytes.
@@ -46,7 +48,8 @@ class PathView {
   void complete();
 
   StationSummary summary() const;
-  // Returns the share of points with a time of the path. Other points were measured from unknown places.
+  // Returns the share of points with a time of the path. Other points were measured from unknown places, and
+  // so were all points with one time.
   double certainty() const;
   double farthest() const { return farthest_; }
   // Sections from which a part of the box is within range. A section is a hundredth of the mean range long.
@@ -76,6 +79,7 @@ class PathView {
   };
 
   void store(Rays& rays);
+  double coarse_step() const;
   double range_near(std::uint32_t section, std::size_t cell, bool is_left_out, std::ptrdiff_t& least) const;
 
   Trajectory path_;
@@ -93,6 +97,7 @@ class PathView {
   std::uint64_t conflicts_ = 0;            // placed points that lie behind others by a tenth of their range
   std::uint64_t range_sum_ = 0;            // of the placed points, in finest sections
   double first_time_ = 0, last_time_ = 0;  // of points
+  double previous_time_ = 0, time_step_ = 0;  // of the last point; least difference, infinite for one time
   double farthest_ = 0;
   std::vector<std::uint64_t> first_;  // entry of each section, and the number of all
   std::unique_ptr<Entry[], Unmap> entries_{nullptr, Unmap{0}};

@@ -9,6 +9,7 @@
 #include "io/stations/list_lines.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -18,6 +19,7 @@ namespace {
 
 constexpr std::size_t kNoted = 1024;   // rows, after which memory is checked
 constexpr double kLeastFilled = 0.85;  // of the quarters of cells with returns
+constexpr int kBitsOfStep = 13;        // of a float, within a thousandth of it
 
 const Property* time_of(const RowLayout& layout) {
   std::vector<std::string> names;
@@ -43,16 +45,38 @@ void fill_between_rays(StationView& view) {
   if (view.left_out) view.left_out->fill(std::size_t{1} << coarser);
 }
 
+// Returns the range of a twentieth of the rays or more, and ten times as many as next to it; else 0. The
+// counts are of ranges in steps of a thousandth, by the first bits of their numbers.
+double one_range_of(const std::map<std::uint32_t, std::size_t>& counts) {
+  constexpr std::size_t kLeastShare = 20, kBeside = 10;
+  std::size_t all = 0;
+  for (const auto& [step, count] : counts) all += count;
+  const auto count_in = [&](std::uint32_t from, std::uint32_t to) {
+    std::size_t sum = 0;
+    for (auto at = counts.lower_bound(from); at != counts.end() && at->first < to; ++at) sum += at->second;
+    return sum;
+  };
+  for (const auto& [step, count] : counts) {
+    const std::size_t here = count_in(step, step + 2);  // a range near the end of a step is in two
+    if (kLeastShare * here >= all && kBeside * (count_in(step - 2, step + 4) - here) <= here)
+      return std::bit_cast<float>((step + 1) << kBitsOfStep);
+  }
+  return 0;
+}
+
 // Every fourth cell of each row and column counts: 0.4 degrees are enough.
 void find_field(StationView& view) {
+  std::map<std::uint32_t, std::size_t> counts;
   constexpr std::size_t kEdge = RangeImage::kEdge, kStep = 4;
   const std::span<const float> ranges = view.ranges.cells();
   for (std::size_t row = 0; row < 6 * kEdge; row += kStep) {
     for (std::size_t cell = row * kEdge; cell < (row + 1) * kEdge; cell += kStep) {
+      if (ranges[cell] > 0) ++counts[std::bit_cast<std::uint32_t>(ranges[cell]) >> kBitsOfStep];
       if (ranges[cell] > 0 || (view.left_out && view.left_out->cells()[cell] > 0))
         view.field.add(direction_of(cell, kEdge));
     }
   }
+  view.one_range = one_range_of(counts);
 }
 
 StationSummary summary_of(const StationView& view) {
@@ -66,7 +90,8 @@ StationSummary summary_of(const StationView& view) {
           .highest = view.points > 0 ? view.field.highest() : 0,
           .turn = view.field.turn(),
           .step = view.step,
-          .farthest = view.farthest};
+          .farthest = view.farthest,
+          .one_range = view.one_range};
 }
 
 }  // namespace

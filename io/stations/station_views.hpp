@@ -29,6 +29,7 @@ struct StationView {
   std::uint64_t conflicts = 0;  // at ranges that differ by a tenth from others in their directions
   double farthest = 0;          // range of a point
   double step = 0;              // mean angle between rays, radians
+  double one_range = 0;         // StationSummary::one_range
   RaySpread spread;
   FieldOfView field{station.axis};
   RangeImage ranges;                   // of points that take part

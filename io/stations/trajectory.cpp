@@ -16,7 +16,7 @@
 namespace lacuna::io {
 namespace {
 
-constexpr std::size_t kSweptEdge = 64;        // cells of 1.8 degrees
+constexpr std::size_t kSweptEdge = 63;        // cells of 1.8 degrees; odd, as PathView::kEdge
 constexpr double kPause = 10;                 // median intervals
 constexpr std::uint64_t kBytesPerLine = 100;  // while a file is read
 constexpr double kLatest = 1e20;              // time that is allowed: nanoseconds since 1970 are 2e18

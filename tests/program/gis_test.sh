@@ -323,6 +323,57 @@ cells = sum(float(line.split()[2]) for line in Path("island.holes.xyz").read_tex
 assert math.isclose(0.25 * cells, ring + whole[inner["id"]], rel_tol=0.01), cells
 END
 
+# Walls seen from above: polygons that cross themselves are mended, and those without an area are counted.
+python3 - <<'END'
+import random
+
+draw = random.Random(7)
+with open("walls.xyz", "w") as text:
+    for x, rough in ((0, 0.05), (50, 0)):
+        for i in range(60):
+            for j in range(40):
+                if not (20 <= i < 40 and 15 <= j < 28):
+                    print(x + draw.uniform(-rough, rough), i + draw.uniform(-0.2, 0.2), j + draw.uniform(-0.2, 0.2), file=text)
+END
+"$program" detect walls.xyz --out walls "${formats[@]}" --polygons --quiet 2>walls.txt
+grep -qx "lacuna: warning: walls/loops.gpkg: loops that have no valid polygon seen from above: 2 of 4" walls.txt
+[[ $(wc -l <walls.txt) == 3 ]]
+for layer in "walls/loops.gpkg lacuna_areas" "walls/loops.geojson lacuna_loops"; do
+  read -r file name <<<"$layer"
+  ogrinfo -al -geom=NO -dialect SQLite "$file" -sql "SELECT ST_IsValid($([[ $name == *areas ]] && echo geom || echo geometry)) AS v FROM $name" \
+    >valid.txt 2>&1
+  if grep -qi "warning" valid.txt; then exit 1; fi
+  [[ $(grep -c "v (.*) = 1" valid.txt) == 2 && $(grep -c "v (.*) = -1" valid.txt) == 2 ]]  # -1: none
+done
+ogrinfo -so walls/loops.gpkg lacuna_areas | grep -q "Geometry: 3D Multi Polygon"
+
+# At the antimeridian, shapes in degrees are cut (RFC 7946, 3.1.9).
+python3 - <<'END'
+with open("date.xyz", "w") as text:
+    for line in open("none.xyz"):
+        x, y, z = map(float, line.split())
+        print(f"{x + 319_450:.3f} {y + 2_718_000:.3f} {z:.3f}", file=text)
+END
+for options in "" "--polygons"; do
+  "$program" detect date.xyz --crs EPSG:32760 --out date --geojson --quiet $options
+  mv date/loops.geojson "date$options.json"
+done
+python3 - <<'END'
+import json
+from pathlib import Path
+
+for file, type in (("date.json", "LineString"), ("date--polygons.json", "Polygon")):
+    shapes = [feature["geometry"] for feature in json.loads(Path(file).read_text())["features"]]
+    assert "Multi" + type in {shape["type"] for shape in shapes} <= {type, "Multi" + type}, file
+    for shape in shapes:
+        parts = shape["coordinates"] if shape["type"].startswith("Multi") else [shape["coordinates"]]
+        for part in parts:
+            for line in part if type == "Polygon" else [part]:
+                longitudes = [point[0] for point in line]
+                assert min(abs(x) for x in longitudes) > 179.9 and max(longitudes) - min(longitudes) < 0.1, longitudes
+                assert type != "Polygon" or line[0] == line[-1]
+END
+
 # A folder with a file that Lacuna did not write.
 mkdir others
 ogr2ogr -f GPKG others/loops.gpkg utm/loops.geojson -nln mine

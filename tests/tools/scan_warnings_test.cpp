@@ -174,6 +174,18 @@ TEST_CASE("stations and paths that do not count are warnings that say why and wh
   station.left_out = {1, 5008.5};
   CHECK_THAT(warning(), Contains("trajectory one: 1 row is left out, at time 5008.5: "));
   station.left_out = {};
+  station.coarse_step = 0.03125;
+  CHECK_THAT(warning(), Contains("trajectory one: times of points are in steps of 0.031"));
+  station.coarse_step = std::numeric_limits<double>::infinity();
+  station.certainty = 0;
+  CHECK_THAT(only(station_warnings({station})), Contains("does not count: all of its points have one time"));
+  station.coarse_step = 0;
+  station.one_range = 0.9;
+  station.farthest = 3;
+  station.certainty = 1;
+  CHECK_THAT(only(station_warnings({station})), Contains("many rays end 0.9 from it") &&
+                                                    Contains("--leave-out=-0.91,-0.91,-0.91,0.91,0.91,0.91 drops"));
+  station.one_range = 0;
   station.certainty = 0.46;
   station.untimed = 11;
   CHECK_THAT(warning(), Contains("55 % of the points have no time of the path"));

@@ -427,7 +427,8 @@ double degrees_of(const StationSummary& station) {
   return std::max(2 * 180 / std::numbers::pi * station.spread, 0.01);
 }
 
-// A path whose rows are not all of it, and a station that is far off, though the scan itself states it.
+// A path whose rows are not all of it, or whose times are coarse. A station with rays of one range, and one
+// that is far off, though the scan itself states it.
 void warn_of_path(const StationSummary& station, std::vector<std::string>& warnings) {
   constexpr std::uint64_t kFewRays = 100;
   constexpr double kFarOff = 0.01;  // radians; no scanner has so narrow a view
@@ -438,6 +439,20 @@ void warn_of_path(const StationSummary& station, std::vector<std::string>& warni
                     "of the others leads there",
                     visible(station.name), counted(rows, "row is", "rows are"), station.left_out.time,
                     rows == 1 ? "" : " and later"));
+  if (station.coarse_step > 0 && std::isfinite(station.coarse_step))
+    warnings.push_back(
+        fmt::format("trajectory {}: times of points are in steps of {:.2g}, and its scanner moves on in one; "
+                    "causes of holes "
+                    "are less sure; times with more digits, as in 64 bits, help",
+                    visible(station.name), station.coarse_step));
+  if (const double range = station.one_range; range > 0)
+    warnings.push_back(
+        fmt::format("station {}: many rays end {:.3g} from it, as some scanners write rays without return; ",
+                    visible(station.name), range) +
+        (range > 0.99 * station.farthest
+             ? "--bounds leaves them out"
+             : "they hide what is behind; --leave-out=" +
+                   print_bounds({station.place, station.place}, 1.01 * range) + " drops a box around it"));
   const bool is_refused = station.certainty < StationView::kLeastCertain;
   if (station.path > 0 || station.points < kFewRays || is_refused || !(station.spread < kFarOff)) return;
   warnings.push_back(fmt::format(
@@ -486,6 +501,8 @@ std::vector<std::string> station_warnings(const std::vector<StationSummary>& sta
           "{:.3g} % of the points have no time of the path; it must cover their times without gaps, in their "
           "clock",
           100 * (1 - timed));
+    } else if (std::isinf(station.coarse_step)) {
+      line += "all of its points have one time, and its scanner moves";
     } else {
       if (station.certainty > 0)
         line += fmt::format(

@@ -26,7 +26,8 @@ double range_of(const Eigen::Vector3d& eye, const Eigen::Vector3d& direction) {
   return nearest;
 }
 
-void measure(PathView& view, bool is_reversed = false) {
+// Times are from `start` on, in these steps where there are steps.
+void measure(PathView& view, bool is_reversed = false, double start = 100, double step = 0) {
   constexpr int kProfiles = 400, kRays = 720;
   for (int i = 0; i < kProfiles; ++i) {
     const int profile = is_reversed ? kProfiles - 1 - i : i;
@@ -35,7 +36,9 @@ void measure(PathView& view, bool is_reversed = false) {
       const double angle = 2 * std::numbers::pi * (ray + 0.5) / kRays;
       const Eigen::Vector3d direction(0, std::cos(angle), std::sin(angle));
       const double range = range_of(eye, direction);
-      if (range > 0 && range < 15) view.add(100 + 2.0 * profile / kProfiles, eye + range * direction, true);
+      const double since = 2.0 * profile / kProfiles;
+      const double time = start + (step > 0 ? std::floor(since / step) * step : since);
+      if (range > 0 && range < 15) view.add(time, eye + range * direction, true);
     }
   }
   view.complete();
@@ -43,7 +46,8 @@ void measure(PathView& view, bool is_reversed = false) {
 
 class Drive {
  public:
-  Drive() : view({{100, 102}, {{0, 0, 2}, {20, 0, 2}}}, "path.txt", 1, folder_.path(), 1 << 20) {}
+  explicit Drive(double start = 100)
+      : view({{start, start + 2}, {{0, 0, 2}, {20, 0, 2}}}, "path.txt", 1, folder_.path(), 1 << 20) {}
 
   // A square of edge 1 in a plane with this normal.
   LoopCause cause_at(const Eigen::Vector3d& middle, int normal) const {
@@ -76,13 +80,22 @@ TEST_CASE("a moving scanner says why a place has no points") {
   CHECK_FALSE(drive.cause_at({9, 5, 4}, 1).main());                      // has points
 }
 
-TEST_CASE("what a moving scanner says does not depend on the order of points") {
-  Drive forward, backward;
+TEST_CASE("what a moving scanner says depends neither on the order of points nor on last digits of times") {
+  Drive forward, backward(1.7e9);
   measure(forward.view);
-  measure(backward.view, true);
-  for (const double x : {5.0, 12.2, 13.5, 14.9})
+  measure(backward.view, true, 1.7e9);
+  for (const double x : {3.9, 4.1, 5.0, 5.8, 12.2, 13.5, 14.9})
     CHECK(forward.cause_at({x, 5, 1.2}, 1).shares == backward.cause_at({x, 5, 1.2}, 1).shares);
-  CHECK(forward.view.farthest() == backward.view.farthest());
+  CHECK(forward.view.farthest() == Approx(backward.view.farthest()));
+}
+
+TEST_CASE("times in steps in which a scanner moves are coarse, and with one time for all it does not count") {
+  Drive coarse, one;
+  measure(coarse.view, false, 100, 0.05);
+  measure(one.view, false, 101, 3);
+  CHECK(coarse.view.summary().coarse_step == Approx(0.05));
+  CHECK(std::isinf(one.view.summary().coarse_step));
+  CHECK(one.view.certainty() == 0);
 }
 
 TEST_CASE("points without a time of the path make a moving scanner uncertain, and then it gives no cause") {

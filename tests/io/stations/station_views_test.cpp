@@ -4,6 +4,8 @@
 #include "tests/support/drawn_files.hpp"
 #include "tests/support/e57_encoder.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 namespace lacuna::io {
 namespace {
 
@@ -114,6 +116,26 @@ TEST_CASE("a station far off its points is not certain, however far it is") {
   CHECK(stations_of({scan}, config).at(0).certainty > 0);
   const std::string pcd = folder.write("far.pcd", test::ascii_pcd("1 2 3\n", "1e200 0 0"));
   CHECK(stations_of({pcd}).at(0).certainty == 0);
+}
+
+TEST_CASE("many rays of one range are without return, and a surface seen straight on is none") {
+  const ScratchFolder folder;
+  const auto one_range = [&](double phantom) {
+    std::string rows;
+    for (int i = -60; i <= 60; ++i) {
+      for (int j = -60; j <= 60; ++j) {
+        const Eigen::Vector3d ray = Eigen::Vector3d(60, i, j) / 60;
+        const bool is_window = phantom > 0 && std::max(std::abs(i), std::abs(j)) < 20;
+        const Eigen::Vector3d at = is_window ? Eigen::Vector3d(phantom * ray.normalized()) : 3 * ray;
+        rows += fmt::format("{:.4f} {:.4f} {:.4f}\n", at.x(), at.y(), at.z());
+      }
+    }
+    OutputConfig config;
+    config.stations = folder.write("stations.txt", "0 0 0\n");
+    return stations_of({folder.write("wall.xyz", rows)}, config).at(0).one_range;
+  };
+  CHECK(one_range(0) == 0);
+  for (const double phantom : {0.6, 0.9, 80.0}) CHECK(one_range(phantom) == Approx(phantom).epsilon(2e-3));
 }
 
 TEST_CASE("a narrow view counts where the scan itself states its station", "[io]") {
