@@ -3,8 +3,8 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
-#include "io/scan/scan_arrays.hpp"
-#include "io/stations/cause.hpp"
+#include "io/explain/stations/cause.hpp"
+#include "io/read/scan/scan_arrays.hpp"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "engine/store/temporary_folder.hpp"
-#include "io/options/options.hpp"
-#include "io/scan/scan_files.hpp"
-#include "io/stations/cause.hpp"
+#include "io/explain/stations/cause.hpp"
+#include "io/read/options/options.hpp"
+#include "io/read/scan/scan_files.hpp"
 
 #include <filesystem>
 #include <memory>

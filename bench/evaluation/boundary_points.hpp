@@ -2,8 +2,8 @@
 // Scores of the classification of points as boundary points.
 #pragma once
 
-#include "tools/matching/match_loops.hpp"
-#include "tools/matching/true_loops.hpp"
+#include "io/explain/matching/match_loops.hpp"
+#include "io/explain/matching/true_loops.hpp"
 
 #include <cstddef>
 #include <cstdint>

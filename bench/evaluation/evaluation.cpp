@@ -10,10 +10,10 @@
 #include "bench/evaluation/spacing.hpp"
 #include "bench/evaluation/step_loops.hpp"
 #include "engine/run/error.hpp"
-#include "io/files/input_file.hpp"
-#include "io/loops/json.hpp"
-#include "io/ply/ply_reader.hpp"
-#include "io/scan/scan_pass.hpp"
+#include "io/read/files/input_file.hpp"
+#include "io/read/ply/ply_reader.hpp"
+#include "io/read/scan/scan_pass.hpp"
+#include "io/write/loops/json.hpp"
 
 #include <algorithm>
 #include <cmath>

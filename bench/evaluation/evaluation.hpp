@@ -5,9 +5,9 @@
 #include "bench/evaluation/boundary_points.hpp"
 #include "bench/evaluation/hole_width.hpp"
 #include "bench/evaluation/loop_scores.hpp"
-#include "io/scan/scan_files.hpp"
-#include "tools/matching/match_loops.hpp"
-#include "tools/matching/true_loops.hpp"
+#include "io/explain/matching/match_loops.hpp"
+#include "io/explain/matching/true_loops.hpp"
+#include "io/read/scan/scan_files.hpp"
 
 #include <cstdint>
 #include <filesystem>

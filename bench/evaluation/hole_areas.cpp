@@ -2,9 +2,9 @@
 #include "bench/evaluation/hole_areas.hpp"
 
 #include "bench/evaluation/loop_kind.hpp"
-#include "io/lids/triangulate_polygon.hpp"
-#include "tools/matching/edge_tree.hpp"
-#include "tools/matching/point_tree.hpp"
+#include "io/explain/lids/triangulate_polygon.hpp"
+#include "io/explain/matching/edge_tree.hpp"
+#include "io/explain/matching/point_tree.hpp"
 
 #include <algorithm>
 #include <cmath>

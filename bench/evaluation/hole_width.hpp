@@ -2,8 +2,8 @@
 // How many true holes are found, by their width: how small a hole a program finds.
 #pragma once
 
-#include "tools/matching/match_loops.hpp"
-#include "tools/matching/point_tree.hpp"
+#include "io/explain/matching/match_loops.hpp"
+#include "io/explain/matching/point_tree.hpp"
 
 #include <array>
 #include <cstddef>

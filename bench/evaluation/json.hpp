@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bench/evaluation/boundary_points.hpp"
-#include "io/loops/json.hpp"
+#include "io/write/loops/json.hpp"
 
 #include <optional>
 

@@ -3,7 +3,7 @@
 
 #include "bench/evaluation/spacing.hpp"
 #include "engine/run/error.hpp"
-#include "tools/matching/point_tree.hpp"
+#include "io/explain/matching/point_tree.hpp"
 
 #include <cstddef>
 #include <vector>

@@ -2,7 +2,7 @@
 // Scores of a result, from the loops that match true ones.
 #pragma once
 
-#include "tools/matching/match_loops.hpp"
+#include "io/explain/matching/match_loops.hpp"
 
 #include <cstddef>
 #include <optional>

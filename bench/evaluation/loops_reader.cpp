@@ -2,10 +2,10 @@
 #include "bench/evaluation/loops_reader.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/files/input_file.hpp"
-#include "io/files/number.hpp"
-#include "io/ply/ply_reader.hpp"
-#include "io/rows/vectors.hpp"
+#include "io/read/files/input_file.hpp"
+#include "io/read/files/number.hpp"
+#include "io/read/ply/ply_reader.hpp"
+#include "io/read/rows/vectors.hpp"
 
 #include <utility>
 

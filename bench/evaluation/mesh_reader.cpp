@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/evaluation/mesh_reader.hpp"
 
-#include "io/files/input_file.hpp"
-#include "io/ply/ply_body.hpp"
-#include "io/ply/ply_header.hpp"
-#include "io/ply/ply_rows.hpp"
-#include "io/rows/scalar.hpp"
+#include "io/read/files/input_file.hpp"
+#include "io/read/ply/ply_body.hpp"
+#include "io/read/ply/ply_header.hpp"
+#include "io/read/ply/ply_rows.hpp"
+#include "io/read/rows/scalar.hpp"
 
 #include <span>
 

@@ -2,11 +2,11 @@
 #include "bench/evaluation/polylines.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/files/input_file.hpp"
-#include "io/ply/ply_body.hpp"
-#include "io/ply/ply_header.hpp"
-#include "io/rows/scalar.hpp"
-#include "io/rows/vectors.hpp"
+#include "io/read/files/input_file.hpp"
+#include "io/read/ply/ply_body.hpp"
+#include "io/read/ply/ply_header.hpp"
+#include "io/read/rows/scalar.hpp"
+#include "io/read/rows/vectors.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // Marks loops along steps of density, where points lie on both sides, much sparser on one.
 #pragma once
 
-#include "tools/matching/match_loops.hpp"
+#include "io/explain/matching/match_loops.hpp"
 
 #include <span>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/peers/read_scan.hpp"
 
-#include "io/scan/scan_pass.hpp"
+#include "io/read/scan/scan_pass.hpp"
 
 namespace lacuna::peers {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bench/synth/vec3.hpp"
-#include "io/files/output_file.hpp"
+#include "io/read/files/output_file.hpp"
 
 #include <cstdint>
 #include <string>

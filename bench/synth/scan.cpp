@@ -5,7 +5,7 @@
 #include "bench/synth/scanner.hpp"
 #include "bench/synth/truth_file.hpp"
 #include "engine/run/error.hpp"
-#include "io/files/number.hpp"
+#include "io/read/files/number.hpp"
 
 #include <cmath>
 #include <optional>

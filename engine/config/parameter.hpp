@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A parameter by name, and its value as text. A config is a struct with a function `parameters` that lists
-// its parameters. The engine has one (config.hpp); the config of runs on files (io/options) adds to it.
+// its parameters. The engine has one (config.hpp); the config of runs on files (io/read/options) adds to it.
 #pragma once
 
 #include "engine/export.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tiling never shows, on real scans: every byte of the result for every tile size, thread count and memory
 // limit. Slow: minutes.
-#include "io/scan/scan_pass.hpp"
+#include "io/read/scan/scan_pass.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/golden.hpp"
 #include "tests/support/skip.hpp"

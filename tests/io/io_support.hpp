@@ -2,9 +2,9 @@
 // The vocabulary of the tests of io/: files drawn as bytes, rows as numbers.
 #pragma once
 
-#include "io/formats.hpp"
-#include "io/rows/scalar.hpp"
-#include "io/rows/scan_reader.hpp"
+#include "io/read/formats.hpp"
+#include "io/read/rows/scalar.hpp"
+#include "io/read/rows/scan_reader.hpp"
 #include "tests/support/drawn_files.hpp"
 
 namespace lacuna::test {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The check of an area, cell by cell, as io/area/check_area.hpp defines it.
+"""The check of an area, cell by cell, as io/explain/area/check_area.hpp defines it.
 
 area_reference.py CASE SCAN AREA EXCEPT    makes a case, and prints its size, its columns and its voids
 area_reference.py --compare EXPECTED RESULT EXIT_CODE

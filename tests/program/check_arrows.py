@@ -28,8 +28,8 @@ failed = False
 for source in sorted(folder.glob("*/**/*.[ch]pp" if len(sys.argv) > 2 else "**/*.[ch]pp")):
     if room(source) not in order:
         sys.exit(f"{source}: its folder is not in the table of {folder}/README.md")
-    for name in re.findall(rf'^#include "({folder.name}/[^"]+)"', source.read_text(encoding="utf-8"), re.MULTILINE):
-        included = folder.parent / name
+    for name in re.findall(rf'^#include "({folder.as_posix()}/[^"]+)"', source.read_text(encoding="utf-8"), re.MULTILINE):
+        included = pathlib.Path(name)
         if included.exists() and order.get(room(included), -len(rows)) > order[room(source)]:
             print(f"{source}: includes {name}, against the order of the table of {folder}/README.md")
             failed = True

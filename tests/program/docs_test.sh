@@ -30,7 +30,9 @@ python3 tools/check_prose.py || failed=1
 
 python3 tests/program/check_links.py *.md docs bench/*.md bench/accuracy/*.md engine/*.md engine/*/*.md io/*.md tools/*.md || failed=1
 
-python3 tests/program/check_arrows.py io || failed=1
+for storey in io io/read io/explain io/write; do
+  python3 tests/program/check_arrows.py $storey || failed=1
+done
 python3 tests/program/check_arrows.py engine store || failed=1
 
 # By eye, and by confidence.

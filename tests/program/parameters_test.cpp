@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every parameter changes the results of a small scan, or the list says what it needs for that. Each command
 // offers the parameters that change what it does, and no others.
-#include "io/options/options.hpp"
-#include "io/rows/vectors.hpp"
-#include "io/scan/scan_pass.hpp"
+#include "io/read/options/options.hpp"
+#include "io/read/rows/vectors.hpp"
+#include "io/read/scan/scan_pass.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/json.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/options/options.hpp"
+#include "io/read/options/options.hpp"
 #include "tests/support/drawn_files.hpp"
 #include "tests/support/json.hpp"
 #include "tests/support/las_file.hpp"

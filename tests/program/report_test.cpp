@@ -2,9 +2,9 @@
 // lacuna report and lacuna render on the results of runs. tests/program/report_page.sh has the page in a
 // browser.
 #include "engine/store/temporary_folder.hpp"
-#include "io/loops/loop_colours.hpp"
-#include "io/report/render.hpp"
-#include "io/report/scene.hpp"
+#include "io/write/loops/loop_colours.hpp"
+#include "io/write/report/render.hpp"
+#include "io/write/report/scene.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/json.hpp"
 #include "tests/support/run_program.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/golden.hpp"
 
-#include "io/scan/scan_pass.hpp"
+#include "io/read/scan/scan_pass.hpp"
 #include "tests/support/memory_scan.hpp"
 #include "tests/support/skip.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/laz_data.hpp"
 
-#include "io/files/little_endian.hpp"
-#include "io/laz/laz_encoder.hpp"
+#include "io/read/files/little_endian.hpp"
+#include "io/read/laz/laz_encoder.hpp"
 
 namespace lacuna::test {
 using namespace io;

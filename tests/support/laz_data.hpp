@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compressed points of every version that the decoder reads, for its tests. The encoder of io/laz makes them,
+// Compressed points of every version that the decoder reads, for its tests. The encoder of io/read/laz makes them,
 // and one for version 1, which Lacuna does not write.
 #pragma once
 
-#include "io/laz/laz.hpp"
+#include "io/read/laz/laz.hpp"
 #include "tests/support/las_file.hpp"
 
 namespace lacuna::test {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/run/input_files.hpp"
 
-#include "io/scan/scan_identity.hpp"
-#include "io/scan/scan_pass.hpp"
+#include "io/read/scan/scan_identity.hpp"
+#include "io/read/scan/scan_pass.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/support/las_file.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/run/scan_warnings.hpp"
 
-#include "io/stations/own_frames.hpp"
+#include "io/explain/stations/own_frames.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/io/results/fake_detection.hpp"
 #include "tests/support/drawn_files.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // `lacuna check`: whether a scan covers an area. It reads the scan once and finds no loops.
-#include "io/area/check_area.hpp"
-#include "io/results/voids.hpp"
-#include "io/scan/scan_identity.hpp"
+#include "io/explain/area/check_area.hpp"
+#include "io/read/scan/scan_identity.hpp"
+#include "io/write/results/voids.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/detect_command.hpp"
 #include "tools/console/area_text.hpp"

@@ -2,9 +2,9 @@
 #include "tools/commands/compare_command.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/crs/length_unit.hpp"
-#include "io/crs/stated_crs.hpp"
-#include "io/report/report.hpp"
+#include "io/read/crs/length_unit.hpp"
+#include "io/read/crs/stated_crs.hpp"
+#include "io/write/report/report.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/measures_text.hpp"

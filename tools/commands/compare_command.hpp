@@ -2,8 +2,8 @@
 // `lacuna compare`: finds which holes of two results are closed, opened, changed or the same.
 #pragma once
 
-#include "io/report/scene.hpp"
-#include "tools/matching/compare_loops.hpp"
+#include "io/explain/matching/compare_loops.hpp"
+#include "io/write/report/scene.hpp"
 
 #include <filesystem>
 #include <string>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/parts/kept_run.hpp"
-#include "io/scan/scan_files.hpp"
+#include "io/read/scan/scan_files.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/progress.hpp"
 #include "tools/run/parameter_options.hpp"

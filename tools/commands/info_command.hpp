@@ -2,7 +2,7 @@
 // `lacuna info`: what scan files hold, and what a run on them would take.
 #pragma once
 
-#include "io/options/options.hpp"
+#include "io/read/options/options.hpp"
 
 #include <filesystem>
 #include <string>

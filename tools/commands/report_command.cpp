@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/error.hpp"
-#include "io/report/report.hpp"
-#include "io/results/voids.hpp"
+#include "io/write/report/report.hpp"
+#include "io/write/results/voids.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/visible_text.hpp"

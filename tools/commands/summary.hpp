@@ -2,8 +2,8 @@
 // The summary that a person reads after a run.
 #pragma once
 
-#include "io/scan/scan_files.hpp"
-#include "io/stations/cause.hpp"
+#include "io/explain/stations/cause.hpp"
+#include "io/read/scan/scan_files.hpp"
 
 #include <string>
 

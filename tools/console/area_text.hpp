@@ -2,7 +2,7 @@
 // The check of an area as a person reads it.
 #pragma once
 
-#include "io/area/area_check.hpp"
+#include "io/explain/area/area_check.hpp"
 
 #include <string>
 #include <string_view>

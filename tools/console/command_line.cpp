@@ -2,7 +2,7 @@
 #include "tools/console/command_line.hpp"
 
 #include "engine/run/words.hpp"
-#include "io/files/number.hpp"
+#include "io/read/files/number.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/store/temporary_folder.hpp"
-#include "io/files/result_folder.hpp"
+#include "io/read/files/result_folder.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/run/folder_lock.hpp"
 

@@ -3,13 +3,13 @@
 
 #include "engine/run/error.hpp"
 #include "engine/run/memory.hpp"
-#include "io/files/input_file.hpp"
-#include "io/files/json_file.hpp"
-#include "io/files/number.hpp"
-#include "io/files/result_folder.hpp"
-#include "io/formats.hpp"
-#include "io/rows/pose.hpp"
-#include "io/rows/scan_reader.hpp"
+#include "io/read/files/input_file.hpp"
+#include "io/read/files/json_file.hpp"
+#include "io/read/files/number.hpp"
+#include "io/read/files/result_folder.hpp"
+#include "io/read/formats.hpp"
+#include "io/read/rows/pose.hpp"
+#include "io/read/rows/scan_reader.hpp"
 #include "tools/console/visible_text.hpp"
 
 #include <algorithm>

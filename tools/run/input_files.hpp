@@ -2,8 +2,8 @@
 // The scan files that the user names, one by one, by folder or in a list.
 #pragma once
 
-#include "io/options/options.hpp"
-#include "io/scan/scan_files.hpp"
+#include "io/read/options/options.hpp"
+#include "io/read/scan/scan_files.hpp"
 #include "tools/console/command_line.hpp"
 
 #include <filesystem>
@@ -18,7 +18,7 @@ namespace lacuna::tools {
 // for the LAZ files in its ept-data, if they are as its hierarchy says (tools/run/ept.hpp). With
 // `skip_damaged`, a warning says that they are not. "@FILE" stands for the files named in it, one per
 // line, relative to its folder; blank lines and lines that begin with # are passed over. A pose may follow
-// the name: `pose=` and its numbers, or a file that holds them (io/rows/pose.hpp), or `viewpoint`, the one of
+// the name: `pose=` and its numbers, or a file that holds them (io/read/rows/pose.hpp), or `viewpoint`, the one of
 // the scan file. Throws `Error` if a folder or list names no scan, if a pose is not valid, and for "-".
 std::vector<io::ScanInput> expand_inputs(const std::vector<std::filesystem::path>& given,
                                          const io::FilesConfig& config = {});

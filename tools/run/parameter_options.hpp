@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command line's view of the parameters: one option each, generated from the list
-// in io/options/. Constants of a method have none.
+// in io/read/options/. Constants of a method have none.
 #pragma once
 
-#include "io/options/options.hpp"
+#include "io/read/options/options.hpp"
 #include "tools/console/command_line.hpp"
 
 #include <deque>

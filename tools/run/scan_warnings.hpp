@@ -3,8 +3,8 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
-#include "io/scan/scan_pass.hpp"
-#include "io/stations/cause.hpp"
+#include "io/explain/stations/cause.hpp"
+#include "io/read/scan/scan_pass.hpp"
 
 #include <optional>
 #include <string>

@@ -6,8 +6,8 @@
 #include "engine/boundary/tangential/star_batch.hpp"
 #include "engine/simd/targets.hpp"
 #include <hwy/foreach_target.h>
-#include "engine/simd/load_pair-inl.hpp"
 #include "engine/boundary/tangential/star-inl.hpp"
+#include "engine/simd/load_pair-inl.hpp"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/evaluation/boundary_points.hpp"
 #include "bench/evaluation/spacing.hpp"
+#include "io/explain/matching/edge_tree.hpp"
+#include "io/explain/matching/true_loops.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/tools/matching/drawn.hpp"
-#include "tools/matching/edge_tree.hpp"
-#include "tools/matching/true_loops.hpp"
 
 namespace lacuna::evaluation {
 namespace {

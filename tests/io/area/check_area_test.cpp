@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/area/height_groups.hpp"
-#include "io/area/repeated_points.hpp"
+#include "io/explain/area/height_groups.hpp"
+#include "io/explain/area/repeated_points.hpp"
 #include "tests/support/test.hpp"
 
 namespace lacuna::io {

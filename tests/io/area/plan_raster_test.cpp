@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The raster of an area against plain loops over its cells.
-#include "io/area/plan_raster.hpp"
+#include "io/explain/area/plan_raster.hpp"
 
-#include "io/area/area_tiles.hpp"
-#include "io/area/convex_hull.hpp"
-#include "io/area/point_density.hpp"
+#include "io/explain/area/area_tiles.hpp"
+#include "io/explain/area/convex_hull.hpp"
+#include "io/explain/area/point_density.hpp"
 #include "tests/support/draws.hpp"
 
 namespace lacuna::io {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/e57/e57_header.hpp"
-#include "io/files/little_endian.hpp"
-#include "io/formats.hpp"
+#include "io/read/e57/e57_header.hpp"
+#include "io/read/files/little_endian.hpp"
+#include "io/read/formats.hpp"
 #include "tests/io/broken_files.hpp"
 #include "tests/support/e57_encoder.hpp"
 

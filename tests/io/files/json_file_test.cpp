@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/files/json_file.hpp"
+#include "io/read/files/json_file.hpp"
 
 #include "tests/io/io_support.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/files/output_file.hpp"
+#include "io/read/files/output_file.hpp"
 
-#include "io/ply/ply_writer.hpp"
+#include "io/read/ply/ply_writer.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/support/resource_limit.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/files/result_folder.hpp"
+#include "io/read/files/result_folder.hpp"
 
 #include "tests/io/io_support.hpp"
 #include "tests/support/processes.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Broken files of every point format, compressed and not.
 #include "engine/run/parallel.hpp"
-#include "io/formats.hpp"
-#include "io/las/las_header.hpp"
-#include "io/laz/laz_encoder.hpp"
+#include "io/read/formats.hpp"
+#include "io/read/las/las_header.hpp"
+#include "io/read/laz/laz_encoder.hpp"
 #include "tests/io/broken_files.hpp"
 #include "tests/support/las_file.hpp"
 #include "tests/support/laz_data.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/las/las_reader.hpp"
+#include "io/read/las/las_reader.hpp"
 
-#include "io/formats.hpp"
-#include "io/las/las_header.hpp"
+#include "io/read/formats.hpp"
+#include "io/read/las/las_header.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/support/las_file.hpp"
 

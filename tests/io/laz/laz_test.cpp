@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/laz/laz.hpp"
+#include "io/read/laz/laz.hpp"
 
-#include "io/files/little_endian.hpp"
-#include "io/laz/laz_encoder.hpp"
+#include "io/read/files/little_endian.hpp"
+#include "io/read/laz/laz_encoder.hpp"
 #include "tests/io/mutation.hpp"
 #include "tests/support/laz_data.hpp"
 #include "tests/support/skip.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/lids/make_lid.hpp"
+#include "io/explain/lids/make_lid.hpp"
 
-#include "io/lids/triangulate_polygon.hpp"
+#include "io/explain/lids/triangulate_polygon.hpp"
 #include "tests/io/lids/drawn_loops.hpp"
 #include "tests/io/lids/watertight.hpp"
 #include "tests/support/clouds.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/lids/triangulate_polygon.hpp"
+#include "io/explain/lids/triangulate_polygon.hpp"
 
 #include "tests/io/lids/drawn_loops.hpp"
 #include "tests/io/lids/watertight.hpp"

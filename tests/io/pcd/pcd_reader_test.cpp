@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/formats.hpp"
-#include "io/pcd/lzf.hpp"
+#include "io/read/formats.hpp"
+#include "io/read/pcd/lzf.hpp"
 #include "tests/io/broken_files.hpp"
 #include "tests/support/golden.hpp"
 #include "tests/support/skip.hpp"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/report/render.hpp"
+#include "io/write/report/render.hpp"
 
-#include "io/report/labels.hpp"
-#include "io/report/roof.hpp"
-#include "io/report/scene_colours.hpp"
-#include "io/report/section.hpp"
-#include "io/rows/scalar.hpp"
+#include "io/read/rows/scalar.hpp"
+#include "io/write/report/labels.hpp"
+#include "io/write/report/roof.hpp"
+#include "io/write/report/scene_colours.hpp"
+#include "io/write/report/section.hpp"
 #include "tests/support/test.hpp"
 
 namespace lacuna::io {

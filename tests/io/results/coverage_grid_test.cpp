@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/results/coverage_grid.hpp"
+#include "io/write/results/coverage_grid.hpp"
 
 #include "tests/support/test.hpp"
 

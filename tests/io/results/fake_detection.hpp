@@ -2,8 +2,8 @@
 // A finished run without the engine, for tests of what is written.
 #pragma once
 
-#include "io/results/results.hpp"
-#include "io/stations/cause.hpp"
+#include "io/explain/stations/cause.hpp"
+#include "io/write/results/results.hpp"
 #include "tests/support/loop_points.hpp"
 
 namespace lacuna::test {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // PLY files with coordinates relative to an offset, written and read.
-#include "io/results/local_coordinates.hpp"
+#include "io/write/results/local_coordinates.hpp"
 
-#include "io/results/points.hpp"
-#include "io/results/results.hpp"
+#include "io/write/results/points.hpp"
+#include "io/write/results/results.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/io/results/fake_detection.hpp"
 #include "tests/support/clouds.hpp"

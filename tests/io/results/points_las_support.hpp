@@ -2,7 +2,7 @@
 // The vocabulary of the tests of points.las.
 #pragma once
 
-#include "io/las/las_header.hpp"
+#include "io/read/las/las_header.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/io/results/fake_detection.hpp"
 #include "tests/support/las_file.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/results/points.hpp"
+#include "io/write/results/points.hpp"
 #include "tests/io/results/points_las_support.hpp"
 
 namespace lacuna::test {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The annotated scan as LAZ: the same records as in LAS, in a file that other programs read.
 #include "engine/run/parallel.hpp"
-#include "io/las/las_points.hpp"
-#include "io/las/las_writer.hpp"
-#include "io/laz/laz_encoder.hpp"
-#include "io/results/points.hpp"
+#include "io/read/las/las_points.hpp"
+#include "io/read/las/las_writer.hpp"
+#include "io/read/laz/laz_encoder.hpp"
+#include "io/write/results/points.hpp"
 #include "tests/io/results/points_las_support.hpp"
 #include "tests/support/laz_data.hpp"
 

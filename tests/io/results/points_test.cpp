@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/results/points.hpp"
+#include "io/write/results/points.hpp"
 
-#include "io/results/results.hpp"
+#include "io/write/results/results.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/io/results/fake_detection.hpp"
 #include "tests/support/las_file.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/rows/pose.hpp"
+#include "io/read/rows/pose.hpp"
 
-#include "io/scan/scan_pass.hpp"
+#include "io/read/scan/scan_pass.hpp"
 #include "tests/io/io_support.hpp"
 
 namespace lacuna::test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/scan/like_degrees.hpp"
+#include "io/read/scan/like_degrees.hpp"
 
-#include "io/scan/scan_pass.hpp"
+#include "io/read/scan/scan_pass.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/drawn_files.hpp"
 #include "tests/support/golden.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/scan/scan_pass.hpp"
+#include "io/read/scan/scan_pass.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/support/las_file.hpp"
 

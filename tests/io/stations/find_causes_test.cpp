@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/stations/find_causes.hpp"
+#include "io/explain/stations/find_causes.hpp"
 
 #include "bench/synth/scan.hpp"
 #include "engine/pipeline.hpp"
-#include "io/stations/next_stations.hpp"
+#include "io/explain/stations/next_stations.hpp"
 #include "tests/io/stations/true_causes.hpp"
 
 namespace lacuna::io {

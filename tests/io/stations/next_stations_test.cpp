@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/stations/next_stations.hpp"
+#include "io/explain/stations/next_stations.hpp"
 
 #include "tests/support/clouds.hpp"
 #include "tests/support/test.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/stations/path_view.hpp"
+#include "io/explain/stations/path_view.hpp"
 
-#include "io/stations/find_causes.hpp"
+#include "io/explain/stations/find_causes.hpp"
 #include "tests/support/test.hpp"
 
 namespace lacuna::io {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/stations/station_views.hpp"
+#include "io/explain/stations/station_views.hpp"
 
 #include "tests/support/drawn_files.hpp"
 #include "tests/support/e57_encoder.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/stations/trajectory.hpp"
+#include "io/explain/stations/trajectory.hpp"
 
 #include "tests/io/io_support.hpp"
 

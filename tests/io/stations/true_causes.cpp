@@ -2,7 +2,7 @@
 #include "tests/io/stations/true_causes.hpp"
 
 #include "bench/synth/visibility.hpp"
-#include "io/stations/find_causes.hpp"
+#include "io/explain/stations/find_causes.hpp"
 
 namespace lacuna::test {
 namespace {

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "bench/synth/scanner.hpp"
-#include "io/stations/cause.hpp"
-#include "io/stations/inside_places.hpp"
+#include "io/explain/stations/cause.hpp"
+#include "io/explain/stations/inside_places.hpp"
 #include "tests/support/test.hpp"
 
 namespace lacuna::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/stations/upward.hpp"
+#include "io/explain/stations/upward.hpp"
 
 #include "tests/support/test.hpp"
 

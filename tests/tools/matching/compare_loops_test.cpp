@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Holes of two results: closed, opened, changed or the same.
-#include "tools/matching/compare_loops.hpp"
+#include "io/explain/matching/compare_loops.hpp"
 
 #include "tests/support/test.hpp"
 #include "tools/commands/compare_command.hpp"

@@ -2,8 +2,8 @@
 // Drawn truths: rings of points in the plane, and loops along parts of them.
 #pragma once
 
+#include "io/explain/matching/true_loops.hpp"
 #include "tests/support/test.hpp"
-#include "tools/matching/true_loops.hpp"
 
 namespace lacuna::matching {
 

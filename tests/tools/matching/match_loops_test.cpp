@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/matching/match_loops.hpp"
+#include "io/explain/matching/match_loops.hpp"
 
 #include "bench/evaluation/loop_scores.hpp"
 #include "tests/support/grid_places.hpp"

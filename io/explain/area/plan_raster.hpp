@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// A raster of bits over a plan.
+#pragma once
+
+#include "io/explain/area/plan_polygon.hpp"
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace lacuna::io {
+
+// Square cells, whole multiples of their edge from 0 0. Rows go from south to north, columns from west to
+// east.
+struct PlanGrid {
+  static constexpr double kCells = 8;
+
+  double size = 0;             // of so many cells in a row, in units of the scan
+  Eigen::Array2d first{0, 0};  // the cell in the south-west, in cells from 0 0; whole numbers
+  std::size_t columns = 0, rows = 0;
+
+  // Returns the cells over a box, whose numbers fit into integers.
+  static PlanGrid over(const Eigen::AlignedBox2d& box, double size);
+
+  double edge() const { return size / kCells; }  // of a cell
+  double area(std::uint64_t cells) const {
+    return static_cast<double>(cells) * size * size / (kCells * kCells);
+  }
+  // Returns a place in cells from the south-west corner. The middle of the first cell is at 0.5 0.5.
+  Eigen::Vector2d to_cells(const Eigen::Vector2d& place) const {
+    return (place.array() * kCells / size - first).matrix();
+  }
+  Eigen::Vector2d from_cells(const Eigen::Vector2d& cells) const {
+    return ((cells.array() + first) * size / kCells).matrix();
+  }
+  bool contains(const Eigen::Vector2d& cells) const {
+    return cells.x() >= 0 && cells.y() >= 0 && cells.x() < static_cast<double>(columns) &&
+           cells.y() < static_cast<double>(rows);
+  }
+};
+
+double area_of(const PlanPolygon& polygon);  // the first ring is the outer one
+
+class PlanRaster {
+ public:
+  explicit PlanRaster(const PlanGrid& grid)
+      : columns_(grid.columns), words_of_row_((grid.columns + 63) / 64), words_(grid.rows * words_of_row_) {}
+
+  static std::uint64_t bytes(const PlanGrid& grid) { return (grid.columns + 63) / 64 * 8 * grid.rows; }
+
+  std::size_t columns() const { return columns_; }
+  std::size_t rows() const { return words_of_row_ == 0 ? 0 : words_.size() / words_of_row_; }
+  std::span<const std::uint64_t> row(std::size_t row) const {
+    return {words_.data() + row * words_of_row_, words_of_row_};
+  }
+  bool has(std::size_t column, std::size_t row) const {
+    return (words_[row * words_of_row_ + column / 64] >> column % 64 & 1) != 0;
+  }
+  // Sets and clears the cells [from, to) of a row.
+  void set(std::size_t row, std::size_t from, std::size_t to);
+  void clear(std::size_t row, std::size_t from, std::size_t to);
+  std::uint64_t count() const;
+  void fill();                             // sets all cells
+  void subtract(const PlanRaster& other);  // of the same grid
+  // Calls visit(column) for the set cells of a row, from west to east.
+  template <class Visit>
+  void for_each_in(std::size_t row, const Visit& visit) const {
+    for (std::size_t word = 0; word < words_of_row_; ++word) {
+      for (std::uint64_t bits = words_[row * words_of_row_ + word]; bits != 0; bits &= bits - 1)
+        visit(word * 64 + static_cast<std::size_t>(std::countr_zero(bits)));
+    }
+  }
+
+ private:
+  std::size_t columns_, words_of_row_;
+  std::vector<std::uint64_t> words_;
+};
+
+// Counts the set bits [from, to) of a row.
+std::uint64_t count_bits(std::span<const std::uint64_t> row, std::size_t from, std::size_t to);
+
+// What the corners of a polygon are in.
+enum class Frame { kScan, kCells };  // coordinates of the scan, or cells of a grid
+
+// Calls visit(row, from, to) for cells [from, to) whose middles lie in the polygon; cells beyond the grid are
+// left out. Rows ascend, and cells within a row. Memory: 4 MiB, or 32 bytes for each edge that a row crosses.
+void for_each_run(const PlanPolygon& polygon, Frame frame, const PlanGrid& grid,
+                  const std::function<void(std::size_t row, std::size_t from, std::size_t to)>& visit);
+
+// Sets the cells whose middles lie in one of the polygons, which have coordinates of the scan.
+PlanRaster rasterise(std::span<const PlanPolygon> polygons, const PlanGrid& grid);
+
+// Clears the cells whose middles lie nearer to a place than `radius`. All are in cells.
+void clear_disc(const Eigen::Vector2d& middle, double radius, PlanRaster& raster);
+bool has_in_disc(const Eigen::Vector2d& middle, double radius, const PlanRaster& raster);
+
+// Adds the cells of a row whose middles lie within `radius` of the middle of a set cell. The radius is in
+// cells, and less than 64. `copy` writes the set cells of any row.
+using CopyRow = std::function<void(std::size_t row, std::span<std::uint64_t> cells)>;
+void grow_row(const PlanGrid& grid, const CopyRow& copy, std::size_t row, double radius,
+              std::span<std::uint64_t> grown);
+
+// Clears the cells [from, to) of a row.
+void clear_bits(std::span<std::uint64_t> row, std::size_t from, std::size_t to);
+
+}  // namespace lacuna::io

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/explain/area/repeated_points.hpp"
+
+#include "engine/model/mixed.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+namespace lacuna::io {
+namespace {
+
+constexpr unsigned kStepBits = 8;                   // of a place along an axis, within its cell
+constexpr int kSteps = 1 << kStepBits, kNear = 32;  // of a cell, and of the distance of copies
+constexpr int kSame = 1;                            // apart by rounding alone
+constexpr unsigned kPlaceBits = 3 * kStepBits;
+
+std::uint64_t hash_of(const Eigen::Array3d& cell, double time) {
+  std::uint64_t hash = std::bit_cast<std::uint64_t>(time);
+  for (const double value : cell) hash = mixed(hash ^ std::bit_cast<std::uint64_t>(value + 0.0));
+  return std::max<std::uint64_t>(hash >> kPlaceBits, 1);
+}
+
+}  // namespace
+
+RepeatedPoints::RepeatedPoints(CopyDistance apart, std::uint64_t memory)
+    : apart_(apart), most_(std::bit_floor(std::max<std::uint64_t>(memory / 16, 1024))), slots_(1024) {}
+
+bool RepeatedPoints::add(const Eigen::Vector3d& place, double time) {
+  const double step = (time != 0 ? apart_.with_time : apart_.without_time) / kNear;
+  const Eigen::Array3d steps = (place.array() / step).floor(), cell = (steps / kSteps).floor();
+  const auto key_at = [&](const Eigen::Array3d& near) {
+    Key key{hash_of(near, time), {}};
+    const Eigen::Array3d rest = steps - near * kSteps;  // beyond 2^53 steps it is what rounding leaves
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      key.steps[static_cast<std::size_t>(axis)] =
+          static_cast<int>(std::clamp(rest[axis], -2.0 * kSteps, 2.0 * kSteps));
+    return key;
+  };
+  const Key own = key_at(cell);
+  if (!is_in_sample(own.hash)) return false;
+  // A copy may lie in the next cell along each axis.
+  Eigen::Array3d side = Eigen::Array3d::Zero();
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const int at = own.steps[static_cast<std::size_t>(axis)];
+    side[axis] = at < kNear ? -1 : at >= kSteps - kNear ? 1 : 0;
+  }
+  int distance = nearest(own);
+  for (unsigned sides = 1; sides < 8; ++sides) {
+    Eigen::Array3d near = cell;
+    bool is_cell = true;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      if ((sides >> axis & 1) == 0) continue;
+      is_cell = is_cell && side[axis] != 0;
+      near[axis] += side[axis];
+    }
+    if (is_cell) distance = std::min(distance, nearest(key_at(near)));
+  }
+  if (distance <= (time != 0 ? kNear : kSame)) {
+    ++count_;
+    return true;
+  }
+  if (distance <= kNear) ++near_;
+  std::uint64_t slot = own.hash;
+  for (const int at : own.steps)
+    slot = slot << kStepBits | static_cast<std::uint64_t>(std::clamp(at, 0, kSteps - 1));
+  put(slot);
+  if (4 * used_ > 3 * slots_.size()) make_space();
+  return false;
+}
+
+bool RepeatedPoints::is_in_sample(std::uint64_t hash) const {
+  return (hash & ((std::uint64_t{1} << sample_) - 1)) == 0;
+}
+
+std::size_t RepeatedPoints::slot_of(std::uint64_t hash) const {
+  return mixed(hash) & (slots_.size() - 1);
+}
+
+// Returns the least distance of a point of the cell, in steps along the axis where it is largest; more than
+// kNear without a point.
+int RepeatedPoints::nearest(const Key& key) const {
+  int least = kSteps;
+  for (std::size_t at = slot_of(key.hash); slots_[at] != 0; at = (at + 1) & (slots_.size() - 1)) {
+    if (slots_[at] >> kPlaceBits != key.hash) continue;
+    int distance = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto other = static_cast<int>(slots_[at] >> (2 - axis) * kStepBits & (kSteps - 1));
+      distance = std::max(distance, std::abs(other - key.steps[axis]));
+    }
+    least = std::min(least, distance);
+  }
+  return least;
+}
+
+void RepeatedPoints::put(std::uint64_t slot) {
+  std::size_t at = slot_of(slot >> kPlaceBits);
+  while (slots_[at] != 0) at = (at + 1) & (slots_.size() - 1);
+  slots_[at] = slot;
+  ++used_;
+}
+
+// Doubles the table. One that is as large as it may be keeps half of its points instead.
+void RepeatedPoints::make_space() {
+  const bool may_grow = slots_.size() < most_;
+  if (!may_grow) {
+    ++sample_;
+    count_ /= 2;
+    near_ /= 2;
+  }
+  const std::vector<std::uint64_t> before =
+      std::exchange(slots_, std::vector<std::uint64_t>(may_grow ? 2 * slots_.size() : slots_.size()));
+  used_ = 0;
+  for (const std::uint64_t slot : before) {
+    if (slot != 0 && is_in_sample(slot >> kPlaceBits)) put(slot);
+  }
+}
+
+}  // namespace lacuna::io

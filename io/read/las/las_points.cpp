@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/read/las/las_points.hpp"
+
+#include "engine/run/parallel.hpp"
+#include "io/read/laz/laz.hpp"
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lacuna::io {
+namespace {
+
+std::uint64_t file_bytes(const InputFile& in) {
+  return in.position() + in.remaining();
+}
+
+class PlainPoints final : public LasPoints {
+ public:
+  PlainPoints(InputFile& in, const LasHeader& header) : in_(in) {
+    const std::uint64_t room = in.remaining() / header.record_bytes;
+    if (header.points <= room) return;
+    in.fail_at_byte(header.points_at, "the header declares " + std::to_string(header.points) + " points of " +
+                                          std::to_string(header.record_bytes) + " bytes, but only " +
+                                          std::to_string(room) + " follow");
+  }
+
+  void read(std::span<std::byte> records) override { in_.read(records.data(), records.size()); }
+
+ private:
+  InputFile& in_;
+};
+
+// Bytes of a chunk that are read piece by piece.
+class ChunkInFile final : public laz::ChunkBytes {
+ public:
+  ChunkInFile(const InputFile& in, const laz::Chunk& chunk, std::size_t piece)
+      : in_(in), chunk_(chunk), piece_(piece) {}
+
+  std::uint64_t size() const override { return chunk_.bytes; }
+  std::span<const std::byte> read(std::uint64_t begin, std::uint64_t end,
+                                  std::vector<std::byte>& buffer) const override {
+    buffer.resize(static_cast<std::size_t>(std::min<std::uint64_t>(end - begin, piece_)));
+    in_.read_at(chunk_.offset + begin, buffer);
+    return buffer;
+  }
+
+ private:
+  const InputFile& in_;
+  laz::Chunk chunk_;
+  std::size_t piece_;
+};
+
+// Chunks are decoded whole, several at a time, while they fit into the memory. Else they are decoded one
+// after the other, in the blocks that the caller wants.
+class CompressedPoints final : public LasPoints {
+ public:
+  CompressedPoints(const InputFile& in, const LasHeader& header, Trust trust, std::uint64_t memory)
+      : in_(in), points_at_(header.points_at), memory_(memory), trusts_header_(trust == Trust::kHeader) {
+    if (header.laszip.empty())
+      in.fail_at_byte(104, "the points are compressed, but no record says how: 'laszip encoded' is missing");
+    locating(points_at_, [&] {
+      layout_ = laz::parse_layout(header.laszip);
+      if (layout_.record_bytes() != header.record_bytes)
+        throw laz::Corrupt("compressed points have " + std::to_string(layout_.record_bytes()) +
+                           " bytes, those of the header " + std::to_string(header.record_bytes));
+      check_memory();
+      chunks_ = find_chunks(header.points);
+    });
+  }
+
+  void read(std::span<std::byte> records) override {
+    while (!records.empty()) {
+      const std::size_t count = block_ ? read_block(records) : read_decoded(records);
+      if (count == 0) decode_next();
+      records = records.subspan(count);
+    }
+  }
+
+ private:
+  struct Block {
+    Block(const InputFile& in, const laz::Layout& layout, const laz::Chunk& chunk, std::size_t piece)
+        : chunk(chunk), bytes(in, chunk, piece), decoder(layout, bytes), left(chunk.points) {}
+
+    laz::Chunk chunk;
+    ChunkInFile bytes;
+    laz::ChunkDecoder decoder;
+    std::uint64_t left;  // points
+  };
+
+  // Adds the place if the data are corrupt.
+  template <class Work>
+  void locating(std::uint64_t byte, Work&& work) const {
+    try {
+      work();
+    } catch (const laz::Corrupt& corrupt) {
+      in_.fail_at_byte(byte, corrupt.what());
+    }
+  }
+
+  void check_memory() const {
+    const std::uint64_t needed = laz::decoder_bytes(layout_) + piece_bytes() * laz::stream_count(layout_);
+    if (needed <= memory_) return;
+    throw laz::Corrupt("to decompress points of " + std::to_string(layout_.record_bytes()) + " bytes takes " +
+                       std::to_string(needed >> 20) + " MiB, more than the " + std::to_string(memory_ >> 20) +
+                       " MiB that the memory limit leaves for it; allowed: " + "a higher memory limit");
+  }
+
+  // Bytes of a stream that are read at a time.
+  std::size_t piece_bytes() const {
+    constexpr std::size_t kAll = std::size_t{1} << 20, kLeast = 512, kMost = std::size_t{1} << 16;
+    return std::clamp(kAll / laz::stream_count(layout_), kLeast, kMost);
+  }
+
+  std::vector<laz::Chunk> find_chunks(std::uint64_t points) const {
+    if (points == 0) return {};
+    const std::uint64_t end = file_bytes(in_);
+    if (layout_.compressor == laz::compressor::kPointwise) {
+      const std::uint64_t bytes = end - points_at_;
+      if (points > laz::kMostPointsInAByte * bytes)
+        throw laz::Corrupt(std::to_string(points) + " points in only " + std::to_string(bytes) + " bytes");
+      return {{points_at_, bytes, points}};
+    }
+    const std::uint64_t table_at = find_table(end);
+    std::array<std::byte, 8> head;
+    in_.read_at(table_at, head);
+    std::vector<std::byte> table(std::min(laz::chunk_table_bytes(head), end - table_at));
+    in_.read_at(table_at, table);
+    return laz::read_chunk_table(layout_, table, points_at_ + 8, table_at, points);
+  }
+
+  // Returns where the chunk table begins. The offset is before the first chunk. A writer that could not go
+  // back puts it at the end of the file.
+  std::uint64_t find_table(std::uint64_t end) const {
+    constexpr std::uint64_t kOffset = sizeof(std::int64_t);
+    if (end < points_at_ + 2 * kOffset) throw laz::Corrupt("the file ends before the compressed points");
+    std::int64_t offset = 0;
+    const std::span<std::byte> bytes = std::as_writable_bytes(std::span(&offset, 1));
+    in_.read_at(points_at_, bytes);
+    if (offset <= static_cast<std::int64_t>(points_at_)) in_.read_at(end - kOffset, bytes);
+    const bool is_behind = offset >= static_cast<std::int64_t>(points_at_ + kOffset);
+    if (!is_behind || static_cast<std::uint64_t>(offset) + 8 > end)
+      throw laz::Corrupt("the chunk table is said to begin at byte " + std::to_string(offset) +
+                         ", which is not behind the points; the file may be cut");
+    return static_cast<std::uint64_t>(offset);
+  }
+
+  // Both functions return the number of bytes, 0 at the end of the decoded data.
+  std::size_t read_decoded(std::span<std::byte> records) {
+    const std::span<const std::byte> ready = std::span(decoded_).subspan(taken_);
+    const std::size_t count = std::min(records.size(), ready.size());
+    std::copy_n(ready.begin(), count, records.begin());
+    taken_ += count;
+    return count;
+  }
+
+  std::size_t read_block(std::span<std::byte> records) {
+    const std::size_t record_bytes = layout_.record_bytes();
+    const auto points =
+        static_cast<std::size_t>(std::min<std::uint64_t>(block_->left, records.size() / record_bytes));
+    const std::size_t count = points * record_bytes;
+    block_->left -= points;
+    locating(block_->chunk.offset, [&] {
+      block_->decoder.decode(records.first(count));
+      if (block_->left == 0) check_end(block_->chunk, block_->decoder);
+    });
+    if (block_->left == 0) block_.reset();
+    return count;
+  }
+
+  std::uint64_t bytes_in_memory(const laz::Chunk& chunk) const {
+    return chunk.bytes + chunk.points * layout_.record_bytes() + laz::decoder_bytes(layout_);
+  }
+
+  // Decodes the next chunks, in memory or block by block.
+  void decode_next() {
+    if (next_chunk_ == chunks_.size())
+      in_.fail_at_byte(file_bytes(in_), "the chunks hold fewer points than the header declares");
+    if (const laz::Chunk& next = chunks_[next_chunk_]; bytes_in_memory(next) > memory_) {
+      block_.emplace(in_, layout_, next, piece_bytes());
+      ++next_chunk_;
+    } else {
+      decode_together(next_chunks());
+    }
+  }
+
+  // Returns a few chunks for each thread, so that no thread idles long for the others.
+  std::span<const laz::Chunk> next_chunks() {
+    constexpr std::size_t kForEachThread = 4;
+    constexpr std::uint64_t kEnough = std::uint64_t{32} << 20;  // bytes in memory
+    const std::span<const laz::Chunk> left = std::span(chunks_).subspan(next_chunk_);
+    const std::size_t threads = threads_here();
+    std::uint64_t bytes = 0;
+    std::size_t count = 0;
+    for (; count < std::min(left.size(), kForEachThread * threads); ++count) {
+      bytes += bytes_in_memory(left[count]);
+      if (bytes > memory_ || (count >= threads && bytes > kEnough)) break;
+    }
+    next_chunk_ += count;
+    return left.first(count);
+  }
+
+  void decode_together(std::span<const laz::Chunk> chunks) {
+    std::vector<std::size_t> places = {0};  // of the chunks' records
+    for (const laz::Chunk& chunk : chunks)
+      places.push_back(places.back() + static_cast<std::size_t>(chunk.points) * layout_.record_bytes());
+    decoded_.resize(places.back());
+    taken_ = 0;
+    // The first error by position counts, whichever thread comes by first.
+    std::vector<std::exception_ptr> errors(chunks.size());
+    for_each_here(chunks.size(), [&](std::size_t i) {
+      try {
+        std::vector<std::byte> bytes(chunks[i].bytes);
+        in_.read_at(chunks[i].offset, bytes);
+        const laz::ChunkInMemory in_memory(bytes);
+        locating(chunks[i].offset, [&] {
+          laz::ChunkDecoder decoder(layout_, in_memory);
+          decoder.decode(std::span(decoded_).subspan(places[i], places[i + 1] - places[i]));
+          check_end(chunks[i], decoder);
+        });
+      } catch (...) {
+        errors[i] = std::current_exception();
+      }
+    });
+    for (const std::exception_ptr& error : errors) {
+      if (error) std::rethrow_exception(error);
+    }
+  }
+
+  // Refuses a chunk with other points than are counted. Without chunks, other data may follow the points.
+  void check_end(const laz::Chunk& chunk, laz::ChunkDecoder& decoder) const {
+    if (trusts_header_ || layout_.compressor == laz::compressor::kPointwise) return;
+    if (decoder.has_other_than(chunk.points))
+      throw laz::Corrupt("a chunk does not end with the " + std::to_string(chunk.points) +
+                         " points that header and chunk table count; --trust header reads these, and "
+                         "`laszip` or `lasinfo -repair` count the others");
+  }
+
+  const InputFile& in_;
+  std::uint64_t points_at_, memory_;
+  bool trusts_header_;
+  laz::Layout layout_{};
+  std::vector<laz::Chunk> chunks_;
+  std::size_t next_chunk_ = 0;
+  std::vector<std::byte> decoded_;  // whole chunks
+  std::size_t taken_ = 0;           // bytes of them
+  std::optional<Block> block_;      // the chunk that is decoded block by block
+};
+
+}  // namespace
+
+std::unique_ptr<LasPoints> las_points(InputFile& in, const LasHeader& header, Trust trust,
+                                      std::uint64_t memory) {
+  if (header.is_compressed) return std::make_unique<CompressedPoints>(in, header, trust, memory);
+  return std::make_unique<PlainPoints>(in, header);
+}
+
+}  // namespace lacuna::io

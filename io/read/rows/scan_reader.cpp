@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/read/rows/scan_reader.hpp"
+
+#include "io/read/crs/crs_text.hpp"
+#include "io/read/crs/length_unit.hpp"
+
+namespace lacuna::io {
+
+bool ScanReader::is_geographic() const {
+  return io::is_geographic(crs());
+}
+
+std::string ScanReader::vertical_unit() const {
+  return io::vertical_unit(crs());
+}
+
+std::string ScanReader::length_unit() const {
+  return io::length_unit(crs());
+}
+
+ReaderNote note_of_faces(std::uint64_t count, const char* thing) {
+  return {.count = count,
+          .thing = thing,
+          .what =
+              "; only their vertices are read; CloudCompare or MeshLab sample points on faces, which show "
+              "the whole surface"};
+}
+
+std::vector<ReaderNote> notes_of(const RowFindings& findings) {
+  return {
+      {.count = findings.repeated_lines,
+       .thing = "line",
+       .what = " equal to one before the rows, such as the header of a joined file; passed over"},
+      {.count = findings.other_places,
+       .thing = "scan",
+       .what = " whose scanner position (third line) and matrix name two places; the matrix holds, and a "
+               "pose in a list of files can move the file"},
+      {.count = findings.wide_angles,
+       .thing = "point",
+       .what = " with an azimuth or elevation beyond a full turn; angles are radians here, and these may be "
+               "degrees, so that points lie at wrong places"}};
+}
+
+}  // namespace lacuna::io

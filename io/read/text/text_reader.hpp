@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points as lines of text: .xyz, .txt, .csv, .pts, .asc.
+#pragma once
+
+#include "io/read/rows/scan_reader.hpp"
+
+#include <filesystem>
+#include <memory>
+
+namespace lacuna::io {
+
+bool looks_like_text(const FileStart& start);
+
+// Blanks, commas, semicolons or tabs divide the fields: whichever the first row has. If it does not fit the
+// header, the header decides. Commas within values that blanks or semicolons divide are decimal commas.
+// Quotes around values are no part of them. Lines that are blank or begin with # or // are comments. A first
+// line that is a bare count says how many rows follow; behind these rows, another count may begin another
+// block
+// (.pts). The options name columns, else a header line or a comment before the rows does. Lines of text may
+// come before a header that names a position (name_position in io/read/rows/column_rules.hpp). Else columns are x
+// y z column_4 ... The option "x=Easting" names a column of the header anew. A column named "_", or with
+// words in the first rows, is not read; a last name "..." allows more values. Columns without names are an
+// `Error` where `doubt_of_first_columns` doubts them. Every value is kFloat64; an empty cell is NaN. A row
+// with another number of fields, or with one that is not a number, is an `Error`.
+std::unique_ptr<ScanReader> open_text(const std::filesystem::path& file, const ReadOptions& options);
+
+}  // namespace lacuna::io

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The measures of loops by name, for all writers. A new one is a line of this table. holes.json alone has its
+// own list, which its schema describes.
+#pragma once
+
+#include "io/explain/stations/cause.hpp"
+
+#include <array>
+#include <limits>
+#include <string_view>
+
+namespace lacuna::io {
+
+struct LoopMeasure {
+  std::string_view name;
+  double (*of)(const ExplainedLoop& loop);  // NaN where there is none
+  bool is_count = false;                    // a whole number
+};
+
+template <Cause cause>
+double share_of(const ExplainedLoop& loop) {
+  return loop.cause.share(cause);
+}
+
+inline constexpr auto kLoopMeasures = std::to_array<LoopMeasure>({
+    {"parent",
+     [](const ExplainedLoop& loop) {
+       return loop.parent < 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(loop.parent);
+     },
+     true},
+    {"points", [](const ExplainedLoop& loop) { return static_cast<double>(loop.points); }, true},
+    {"confidence", [](const ExplainedLoop& loop) { return loop.track.confidence; }},
+    {"prominence", [](const ExplainedLoop& loop) { return loop.track.evidence.prominence; }},
+    {"first_scale", [](const ExplainedLoop& loop) { return loop.track.first_scale; }},
+    {"last_scale", [](const ExplainedLoop& loop) { return loop.track.last_scale; }},
+    {"perimeter", [](const ExplainedLoop& loop) { return loop.perimeter; }},
+    {"area", [](const ExplainedLoop& loop) { return loop.area; }},
+    {"diameter", [](const ExplainedLoop& loop) { return loop.diameter; }},
+    {"planarity", [](const ExplainedLoop& loop) { return loop.planarity; }},
+    {"mean_probability", [](const ExplainedLoop& loop) { return loop.mean_probability; }},
+    {"hidden", share_of<Cause::kHidden>},
+    {"opening", share_of<Cause::kOpening>},
+    {"out_of_view", share_of<Cause::kOutOfView>},
+    {"no_return", share_of<Cause::kNoReturn>},
+    {"filtered", share_of<Cause::kFiltered>},
+});
+
+}  // namespace lacuna::io

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/write/report/report.hpp"
+
+#include "engine/run/error.hpp"
+#include "io/read/files/number.hpp"
+#include "io/read/files/result_folder.hpp"
+#include "io/write/loops/loop_measures.hpp"
+#include "io/write/report/page.hpp"
+#include "io/write/report/roof.hpp"
+#include "io/write/report/scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace lacuna::io {
+namespace {
+
+// Bytes as text (RFC 4648), in one line.
+class Base64 {
+ public:
+  explicit Base64(OutputFile& out) : out_(out) {}
+
+  void write(std::span<const std::byte> bytes) {
+    for (const std::byte byte : bytes) {
+      bits_ = bits_ << 8 | std::to_integer<std::uint32_t>(byte);
+      if (++held_ == 3) put(4);
+    }
+  }
+  void finish() {  // once, at the end
+    const std::size_t held = held_;
+    if (held == 0) return;
+    bits_ <<= 8 * (3 - held);
+    put(held + 1);
+    out_.write(std::string_view("==").substr(held - 1));
+  }
+
+ private:
+  void put(std::size_t digits) {
+    constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    char text[4];
+    for (std::size_t i = 0; i < 4; ++i) text[i] = kDigits[bits_ >> (18 - 6 * i) & 63];
+    out_.write(std::string_view(text, digits));
+    bits_ = 0;
+    held_ = 0;
+  }
+
+  OutputFile& out_;
+  std::uint32_t bits_ = 0;
+  std::size_t held_ = 0;  // bytes in `bits_`
+};
+
+namespace fs = std::filesystem;
+
+constexpr int kBits = 21;  // of a coordinate: three in eight bytes
+
+std::uint64_t packed(const Eigen::Vector3f& position, double edge) {
+  std::uint64_t bits = 0;
+  for (int axis = 2; axis >= 0; --axis) {
+    const double steps = position[axis] / edge * (1 << kBits);
+    bits = bits << kBits | static_cast<std::uint64_t>(std::clamp(steps, 0.0, double((1 << kBits) - 1)));
+  }
+  return bits;
+}
+
+// Octahedral coding: a unit vector in two bytes (Meyer, Suessmuth, Sussner, Stamminger, Greiner, 2010).
+std::array<std::int8_t, 2> octahedral(const Eigen::Vector3f& normal) {
+  const float sum = normal.cwiseAbs().sum();
+  if (!(sum > 0)) return {0, 0};
+  float u = normal.x() / sum, v = normal.y() / sum;
+  if (normal.z() < 0) {
+    const float folded = (1 - std::abs(v)) * (u < 0 ? -1.0f : 1.0f);
+    v = (1 - std::abs(u)) * (v < 0 ? -1.0f : 1.0f);
+    u = folded;
+  }
+  return {static_cast<std::int8_t>(std::lround(u * 127)), static_cast<std::int8_t>(std::lround(v * 127))};
+}
+
+std::uint8_t byte_of(float probability) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(probability, 0.0f, 1.0f) * 255));
+}
+
+// Writes an element of the page with the bytes of all items.
+template <class Items, class Encode>
+void write_bytes(std::string_view id, const Items& items, Encode&& encode, OutputFile& out) {
+  out.write("<script type=\"application/base64\" id=\"" + std::string(id) + "\">");
+  Base64 base64(out);
+  for (const auto& item : items) {
+    const auto bytes = encode(item);
+    base64.write(std::as_bytes(std::span(&bytes, 1)));
+  }
+  base64.finish();
+  out.write("</script>\n");
+}
+
+// Returns the keys of the run that the user has changed.
+Json changed_parameters(const Json& parameters) {
+  const Json defaults = parameter_values(FilesConfig{}, [](std::string_view) { return true; });
+  Json changed = Json::array();
+  for (const auto& [section, values] : parameters.items()) {
+    for (const auto& [key, value] : values.items()) {
+      if (defaults.contains(section) && defaults[section].contains(key) && defaults[section][key] != value)
+        changed.push_back(key);
+    }
+  }
+  return changed;
+}
+
+std::string title_of(const Json& inputs) {
+  if (inputs.size() != 1) return std::to_string(inputs.size()) + " files";
+  return fs::path(inputs[0].at("file").get<std::string>()).filename().string();
+}
+
+Json inputs_of(const Json& inputs) {
+  Json short_inputs = Json::array();
+  for (const Json& input : inputs)
+    short_inputs.push_back({{"file", input.at("file")}, {"points", input.at("points")}});
+  return short_inputs;
+}
+
+Json run_of(const Json& run) {
+  if (run.is_null()) return nullptr;
+  Json phases = Json::array();
+  for (const Json& phase : run.at("phases"))
+    phases.push_back({{"name", phase.at("name")}, {"seconds", phase.at("seconds")}});
+  return {{"threads", run.at("tiling").at("threads")},
+          {"memory_limit_bytes", run.at("tiling").at("memory_limit_bytes")},
+          {"peak_memory_bytes", run.at("peak_memory_bytes")},
+          {"cores", run.at("cores")},
+          {"phases", std::move(phases)},
+          {"seconds", run.at("total_seconds")}};
+}
+
+// Six digits are more than a reader wants, and keep the page small.
+double rounded(double value) {
+  return reread(value, std::chars_format::general, 6);
+}
+
+Json loops_of(const Scene::Loops& loops, int decimals) {
+  Json json = {{"shown", loops.ids.size()}, {"all", loops.all}, {"id", loops.ids}};
+  const auto add = [&](std::string_view name, auto&& value_of) {
+    Json& column = json[std::string(name)] = Json::array();
+    for (const ExplainedLoop& loop : loops.measures) column.push_back(value_of(loop));
+  };
+  add("kind", [](const ExplainedLoop& loop) { return Json(name_of(loop.kind)); });
+  for (const LoopMeasure& measure : kLoopMeasures)
+    add(measure.name, [&](const ExplainedLoop& loop) {
+      const double value = measure.of(loop);
+      return measure.is_count && std::isfinite(value) ? Json(static_cast<std::uint64_t>(value))
+                                                      : Json(rounded(value));
+    });
+  add("centroid", [decimals](const ExplainedLoop& loop) {
+    return list(loop.centroid.unaryExpr(
+        [decimals](double value) { return reread(value, std::chars_format::fixed, decimals); }));
+  });
+  add("normal", [](const ExplainedLoop& loop) { return list(loop.normal.unaryExpr(&rounded)); });
+  add("cause",
+      [](const ExplainedLoop& loop) { return loop.cause.name().empty() ? Json() : Json(loop.cause.name()); });
+  add("hidden_by", [](const ExplainedLoop& loop) {
+    return loop.cause.hidden_from < 0 ? Json() : list(loop.cause.hidden_by);
+  });
+  add("hidden_from_place", [](const ExplainedLoop& loop) {
+    return loop.cause.hidden_from < 0 ? Json() : list(loop.cause.hidden_from_place);
+  });
+  add("hidden_from", [](const ExplainedLoop& loop) { return Json(loop.cause.hidden_from); });
+  json["first"] = loops.first;
+  if (!loops.changes.empty()) {
+    json["change"] = loops.changes;
+    json["earlier"] = loops.earlier;
+  }
+  return json;
+}
+
+Json report_of(const Scene& scene) {
+  const Json& holes = scene.holes;
+  const Scene::Points& points = scene.points;
+  const std::optional<double> roof = roof_height(scene);
+  return {{"lacuna", holes.at("lacuna")},
+          {"title", title_of(holes.at("inputs"))},
+          {"crs", holes.at("crs")},
+          {"unit", holes.at("unit")},
+          {"inputs", inputs_of(holes.at("inputs"))},
+          {"counts", holes.at("counts")},
+          {"bounds", corners(scene.bounds)},
+          {"strays", scene.strays},
+          {"compared", scene.compared},
+          {"roof", roof ? Json(*roof) : Json()},
+          {"resolution", holes.at("resolution")},
+          {"median_distance", holes.at("median_distance")},
+          {"surface_area", holes.value("surface_area", 0.0)},
+          {"hole_area", holes.value("hole_area", 0.0)},
+          {"opening_area", holes.value("opening_area", Json())},
+          {"stations", holes.value("stations", Json::array())},
+          {"next_stations", scene.next_stations},
+          {"area", scene.area},
+          {"method", holes.at("parameters").at("loops").at("method")},
+          {"parameters", holes.at("parameters")},
+          {"changed", changed_parameters(holes.at("parameters"))},
+          {"run", run_of(scene.run)},
+          {"probability", holes.at("probability")},
+          {"frame", {{"origin", list(scene.origin)}, {"edge", scene.edge}}},
+          {"sample",
+           {{"points", points.positions.size()},
+            {"of", holes.at("counts").at("points")},
+            {"spacing", points.spacing},
+            {"has_normals", true},
+            {"has_colours", !points.colours.empty()}}},
+          {"loops", loops_of(scene.loops, place_decimals(holes.at("median_distance").get<double>()))}};
+}
+
+// The text never ends the element that it is in.
+std::string without_tags(std::string text) {
+  std::string escaped;
+  for (const char c : text) escaped += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  return escaped;
+}
+
+}  // namespace
+
+fs::path write_report(const fs::path& folder, Overwrite overwrite) {
+  const fs::path file = folder / "report.html";
+  check_output(file, kReportMark, overwrite);
+  Scene scene = read_scene(folder);
+  scene.next_stations = read_next_stations(folder);
+  write_report(scene, file, overwrite);
+  return file;
+}
+
+void write_report(const Scene& scene, const fs::path& file, Overwrite overwrite) {
+  NewFile out(file, kReportMark, overwrite);
+  write_report(scene, out.content());
+  note_result(file.parent_path(), file.filename().string());
+  out.commit();
+}
+
+void write_report(const Scene& scene, OutputFile& out) {
+  const std::size_t data = kReportPage.find(kDataPlace);
+  out.write(kReportPage.substr(0, data));
+  Json report;
+  try {
+    report = report_of(scene);
+  } catch (const Json::exception& error) {
+    throw Error(out.path().string() +
+                ": holes.json and run.json are not as lacuna detect writes them: " + error.what());
+  }
+  out.write("<script type=\"application/json\" id=\"report\">" + without_tags(print(report, -1)) +
+            "</script>\n");
+  const auto position = [&](const Eigen::Vector3f& p) { return packed(p, scene.edge); };
+  write_bytes("positions", scene.points.positions, position, out);
+  write_bytes("probabilities", scene.points.probabilities, byte_of, out);
+  write_bytes("normals", scene.points.normals, octahedral, out);
+  if (!scene.points.colours.empty()) {
+    write_bytes(
+        "colours", scene.points.colours, [](const Colour& c) { return c; }, out);
+  }
+  write_bytes("loop_vertices", scene.loops.vertices, position, out);
+  out.write(kReportPage.substr(data + kDataPlace.size()));
+}
+
+}  // namespace lacuna::io

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/write/report/scene.hpp"
+
+#include "engine/bucket/z_curve.hpp"
+#include "engine/run/error.hpp"
+#include "io/explain/stations/next_stations.hpp"
+#include "io/read/formats.hpp"
+#include "io/read/rows/scan_reader.hpp"
+#include "io/read/rows/vectors.hpp"
+#include "io/write/report/area_section.hpp"
+#include "io/write/report/scene_colours.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace lacuna::io {
+namespace {
+
+namespace fs = std::filesystem;
+using Event = Json::parse_event_t;
+
+constexpr std::size_t kRowsAtATime = 1 << 16;
+
+double number(const Json& value) {
+  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+Eigen::Vector3d vector(const Json& values) {
+  return {number(values.at(0)), number(values.at(1)), number(values.at(2))};
+}
+
+LoopCause cause_of(const Json& record) {
+  LoopCause cause;
+  if (record.is_null()) return cause;
+  for (std::size_t i = 0; i < kCauses; ++i) cause.shares[i] = number(record.at("shares").at(kCauseNames[i]));
+  if (const Json& hidden_by = record.at("hidden_by"); !hidden_by.is_null()) {
+    cause.hidden_by = vector(hidden_by.at("place"));
+    cause.hidden_by_extent = number(hidden_by.at("extent"));
+    cause.hidden_from = hidden_by.at("station").get<std::int32_t>();
+    cause.hidden_from_place = vector(hidden_by.at("from"));
+  }
+  return cause;
+}
+
+ExplainedLoop measures_of(const Json& record) {
+  return {{.kind = record.at("kind") == name_of(LoopKind::kHole) ? LoopKind::kHole : LoopKind::kOuter,
+           .points = record.at("points").get<std::uint64_t>(),
+           .perimeter = number(record.at("perimeter")),
+           .area = number(record.at("area")),
+           .diameter = number(record.at("diameter")),
+           .centroid = vector(record.at("centroid")),
+           .normal = vector(record.at("normal")),
+           .planarity = number(record.at("planarity")),
+           .mean_probability = number(record.at("mean_probability")),
+           .track = {.confidence = number(record.at("confidence")),
+                     .evidence = {.spacing = number(record.at("evidence").at("spacing")),
+                                  .prominence = number(record.at("prominence"))},
+                     .first_scale = number(record.at("first_scale")),
+                     .last_scale = number(record.at("last_scale"))},
+           .tiles = record.at("tiles").get<std::uint64_t>(),
+           .parent = record.at("parent").is_null() ? -1 : record.at("parent").get<std::int64_t>()},
+          cause_of(record.value("cause", Json()))};
+}
+
+// The head of holes.json and the measures of all loops; one loop is in memory at a time, without its points.
+void read_holes(const fs::path& file, std::size_t most, Scene& scene) {
+  if (!fs::exists(file)) throw Error(file.string() + ": is not there; the folder of a lacuna detect has it");
+  bool is_in_loops = false;
+  const auto keep = [&](int depth, Event event, Json& parsed) {
+    if (depth == 1 && event == Event::key) is_in_loops = parsed == "loops";
+    if (!is_in_loops) return true;
+    if (depth == 3 && event == Event::key) return parsed != "ids" && parsed != "coordinates";
+    if (depth != 2 || event != Event::object_end) return true;
+    if (scene.loops.ids.size() == most)
+      throw Error(file.string() + ": more than the " + std::to_string(most) +
+                  " loops that fit in the memory limit; --memory-limit states a larger one");
+    scene.loops.ids.push_back(parsed.at("id").get<std::uint64_t>());
+    scene.loops.measures.push_back(measures_of(parsed));
+    return false;
+  };
+  try {
+    scene.holes = read_json(file, kResultOfDetect, keep);
+    if (scene.holes.at("schema") != kHolesSchema) {
+      throw Error(file.string() + ": its schema is " + print(scene.holes.at("schema"), -1) + "; \"" +
+                  std::string(kHolesSchema) + "\" is read");
+    }
+    const Json& strays = scene.holes.at("strays");
+    scene.strays = strays.at("points").get<std::uint64_t>();
+    if (const Json& rest = strays.at("rest"); !rest.is_null()) {
+      scene.bounds = {vector(rest.at("min")), vector(rest.at("max"))};
+      scene.origin = scene.bounds.min();
+      if (const double edge = scene.bounds.sizes().maxCoeff(); edge > 0) scene.edge = edge;
+      if (!scene.holes.at("offset").is_null()) scene.rounding = 0x1p-22 * (scene.edge + 1);
+    }
+  } catch (const Json::exception& error) {
+    throw Error(file.string() + ": is not as lacuna detect writes it: " + error.what());
+  }
+  scene.loops.all = scene.loops.ids.size();
+}
+
+const Property& find(const fs::path& file, const RowLayout& layout, std::string_view name) {
+  const Property* property = layout.find(name);
+  if (!property) {
+    throw Error(file.string() + ": element 'vertex' has no property '" + std::string(name) +
+                "'; files as lacuna detect writes them have it");
+  }
+  return *property;
+}
+
+// Whether a position lies outside of the bounds, by more than its rounding.
+bool is_stray(const Scene& scene, const Eigen::Vector3d& position) {
+  if (scene.strays == 0) return false;
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(scene.rounding);
+  return !Eigen::AlignedBox3d(scene.bounds.min() - margin, scene.bounds.max() + margin).contains(position);
+}
+
+// Returns the position relative to the scene's origin. A position that rounding has put outside of the bounds
+// lies on them.
+Eigen::Vector3f place_in(const Scene& scene, const Eigen::Vector3d& position) {
+  Eigen::Vector3d inside = position;
+  if (scene.rounding > 0) inside = position.cwiseMax(scene.bounds.min()).cwiseMin(scene.bounds.max());
+  return (inside - scene.origin).cast<float>();
+}
+
+void read_points(const fs::path& file, std::size_t most, Scene& scene) {
+  if (!fs::exists(file)) return;
+  const std::unique_ptr<ScanReader> reader = open_scan(file, {});
+  const RowLayout& layout = reader->layout();
+  const Property& probability = find(file, layout, "scalar_probability");
+  for (const char* const name : kNormalNames) find(file, layout, name);
+  const std::uint64_t rows = reader->expected_rows().value_or(0);
+  const std::uint64_t wanted = std::min<std::uint64_t>(rows, most);
+
+  const Property& id = find(file, layout, "scalar_id");
+  const Json inputs = scene.holes.value("inputs", Json::array());
+  std::size_t next_input = 1;
+
+  ColourColumns colours(layout);
+  std::vector<Eigen::Vector3d> positions, normals;
+  std::vector<double> probabilities, ids;
+  std::uint64_t taken = 0, before = 0;
+  for (RowBatch batch; reader->next(batch, kRowsAtATime); before += batch.count) {
+    load_vectors(batch, layout, kPositionNames, positions);
+    load_vectors(batch, layout, kNormalNames, normals);
+    load_column(batch, layout.stride, probability, probabilities);
+    load_column(batch, layout.stride, id, ids);
+    colours.load(batch);
+    for (; taken < wanted && taken * rows / wanted < before + batch.count; ++taken) {
+      const std::size_t i = taken * rows / wanted - before;
+      if (is_stray(scene, positions[i])) continue;
+      const Eigen::Vector3f normal = normals[i].cast<float>();
+      scene.points.positions.push_back(place_in(scene, positions[i]));
+      scene.points.normals.push_back(normal.allFinite() ? normal : Eigen::Vector3f(0, 0, 0));
+      scene.points.probabilities.push_back(static_cast<float>(probabilities[i]));
+      for (; next_input < inputs.size() && ids[i] >= inputs[next_input].at("first_id"); ++next_input)
+        colours.begin_file();
+      colours.take(i);
+    }
+  }
+  scene.points.colours = colours.finish();
+}
+
+// Returns whether each loop is shown: the loops with the largest perimeters, until a limit.
+std::vector<bool> choose_loops(const std::vector<ExplainedLoop>& loops, const SceneLimits& limits) {
+  std::vector<std::size_t> order(loops.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return loops[a].perimeter > loops[b].perimeter; });
+  std::vector<bool> is_shown(loops.size());
+  std::size_t taken = 0;
+  std::uint64_t vertices = 0;
+  for (const std::size_t loop : order) {
+    vertices += loops[loop].points;
+    if (taken++ == limits.loops || vertices > limits.positions / 4) break;
+    is_shown[loop] = true;
+  }
+  return is_shown;
+}
+
+// The loops that are shown stay in `scene`, with their vertices.
+void read_loops(const fs::path& file, const SceneLimits& limits, Scene& scene) {
+  Scene::Loops& loops = scene.loops;
+  const std::vector<bool> is_shown = choose_loops(loops.measures, limits);
+  const std::unique_ptr<ScanReader> reader = open_scan(file, {});
+  const RowLayout& layout = reader->layout();
+  const Property& loop_property = find(file, layout, "scalar_loop");
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<double> loop_of;
+  std::vector<std::size_t> lengths(is_shown.size());
+  std::vector<bool> has_stray(is_shown.size());
+  for (RowBatch batch; reader->next(batch, kRowsAtATime);) {
+    load_vectors(batch, layout, kPositionNames, positions);
+    load_column(batch, layout.stride, loop_property, loop_of);
+    for (std::size_t i = 0; i < batch.count; ++i) {
+      if (!(loop_of[i] >= 0 && loop_of[i] < static_cast<double>(is_shown.size()))) {
+        throw Error(file.string() + ": a vertex is of loop " + std::to_string(loop_of[i]) +
+                    ", of which holes.json has none; both must be of one run");
+      }
+      const auto loop = static_cast<std::size_t>(loop_of[i]);
+      if (!is_shown[loop]) continue;
+      ++lengths[loop];
+      if (is_stray(scene, positions[i])) has_stray[loop] = true;
+      loops.vertices.push_back(place_in(scene, positions[i]));
+    }
+  }
+  std::size_t kept = 0;
+  auto vertices = loops.vertices.begin(), drawn = vertices;  // read, and kept
+  loops.first = {0};
+  for (std::size_t loop = 0; loop < is_shown.size(); ++loop) {
+    if (!is_shown[loop]) continue;
+    if (lengths[loop] != loops.measures[loop].points) {
+      throw Error(file.string() + ": loop " + std::to_string(loops.ids[loop]) + " has " +
+                  std::to_string(lengths[loop]) + " vertices, in holes.json " +
+                  std::to_string(loops.measures[loop].points) + "; both must be of one run");
+    }
+    loops.ids[kept] = loops.ids[loop];
+    loops.measures[kept++] = loops.measures[loop];
+    const auto end = vertices + static_cast<std::ptrdiff_t>(lengths[loop]);
+    if (!has_stray[loop]) drawn = std::move(vertices, end, drawn);
+    vertices = end;
+    loops.first.push_back(static_cast<std::size_t>(drawn - loops.vertices.begin()));
+  }
+  loops.vertices.erase(drawn, loops.vertices.end());
+  loops.ids.resize(kept);
+  loops.measures.resize(kept);
+}
+
+// Estimates the spacing from the number of cells that points lie in, if a cell has about eight points. Cells
+// halve from the cube of the scene on. Two neighbours on the Z curve part at the highest bit in which they
+// differ.
+float typical_spacing(const Scene& scene) {
+  constexpr int kLevels = 21, kPlaceBits = 62;
+  const ZCurve curve({Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(scene.edge)});
+  std::vector<ZPlace> places;
+  places.reserve(scene.points.positions.size());
+  for (const Eigen::Vector3f& p : scene.points.positions) places.push_back(curve.place(p.cast<double>()));
+  if (places.size() < 2) return 0;
+  std::sort(places.begin(), places.end(), comes_before);
+  std::array<std::uint64_t, kLevels + 1> parted{};  // neighbours on the curve that part at a level, from 1
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    int bits = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      bits = std::max(bits, static_cast<int>(std::bit_width(places[i - 1][axis] ^ places[i][axis])));
+    const int level = kPlaceBits + 1 - bits;
+    if (level <= kLevels) ++parted[static_cast<std::size_t>(std::max(level, 1))];
+  }
+  const auto points = static_cast<double>(places.size());
+  std::uint64_t cells = 1;
+  int level = 0;
+  while (level < kLevels && points > 8 * static_cast<double>(cells))
+    cells += parted[static_cast<std::size_t>(++level)];
+  // A surface passes through about one and a half times as many cells as its area needs.
+  return static_cast<float>(std::ldexp(scene.edge, -level) *
+                            std::sqrt(static_cast<double>(cells) / points / 1.5));
+}
+
+}  // namespace
+
+SceneLimits limits_within(std::uint64_t memory) {
+  constexpr std::size_t kPosition = 120, kLoop = 3 * sizeof(ExplainedLoop);  // bytes, while arrays grow
+  SceneLimits limits;
+  limits.positions = std::min<std::size_t>(limits.positions, memory / kPosition);
+  limits.all_loops = memory / 2 / kLoop;
+  return limits;
+}
+
+Scene read_scene(const fs::path& folder, const SceneLimits& limits) {
+  if (!fs::is_directory(folder))
+    throw Error(folder.string() + ": not a folder; allowed: a folder with results of lacuna detect");
+  Scene scene;
+  read_holes(folder / "holes.json", limits.all_loops, scene);
+  if (const fs::path run = folder / "run.json"; fs::exists(run)) scene.run = read_json(run, kResultOfDetect);
+  scene.area = read_area_section(folder);
+  read_loops(folder / "loops.ply", limits, scene);
+  read_points(folder / "sample.ply", limits.positions - scene.loops.vertices.size(), scene);
+  scene.points.spacing = typical_spacing(scene);
+  return scene;
+}
+
+void extend(Scene& scene, const Eigen::AlignedBox3d& places) {
+  Eigen::AlignedBox3d box(scene.origin, scene.origin + Eigen::Vector3d::Constant(scene.edge));
+  box.extend(places);
+  const Eigen::Vector3f moved = (scene.origin - box.min()).cast<float>();
+  for (Eigen::Vector3f& position : scene.points.positions) position += moved;
+  for (Eigen::Vector3f& vertex : scene.loops.vertices) vertex += moved;
+  scene.origin = box.min();
+  scene.edge = box.sizes().maxCoeff();
+}
+
+Json read_next_stations(const fs::path& folder) {
+  const fs::path file = folder / kNextStationsFile;
+  if (!fs::exists(file)) return nullptr;
+  const Json collection = read_json(file, "a result of lacuna stations");
+  Json stations = Json::array();
+  try {
+    for (const Json& feature : collection.at("features")) {
+      const Json& properties = feature.at("properties");
+      stations.push_back({{"rank", properties.at("rank").get<std::uint64_t>()},
+                          {"place",
+                           {properties.at("x").get<double>(), properties.at("y").get<double>(),
+                            properties.at("z").get<double>()}},
+                          {"area", properties.at("area").get<double>()},
+                          {"share", properties.at("share").get<double>()}});
+    }
+  } catch (const Json::exception& error) {
+    throw Error(file.string() + ": is not as lacuna stations writes it: " + error.what());
+  }
+  return stations;
+}
+
+}  // namespace lacuna::io

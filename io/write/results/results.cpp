@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/write/results/results.hpp"
+
+#include "engine/run/error.hpp"
+#include "engine/run/parallel.hpp"
+#include "io/read/crs/gis_module.hpp"
+#include "io/read/scan/plan_system.hpp"
+#include "io/read/scan/scan_identity.hpp"
+#include "io/write/report/report.hpp"
+#include "io/write/report/scene.hpp"
+#include "io/write/results/gis_library.hpp"
+#include "io/write/results/local_coordinates.hpp"
+#include "io/write/results/points.hpp"
+#include "io/write/results/voids.hpp"
+
+#include <functional>
+#include <limits>
+#include <string>
+
+namespace lacuna::io {
+namespace {
+
+struct ResultFile {
+  std::string name;
+  bool is_wanted;
+  std::function<void(OutputFile& out)> write;
+  Writer writer = Writer::kThis;
+};
+
+bool has_area(const FilesConfig& config) {
+  return !config.area.area.empty();
+}
+
+bool needs_gis_library(const FilesConfig& config) {
+  return config.output.gpkg || config.output.geojson || config.output.coverage > 0 || has_area(config);
+}
+
+std::vector<ResultFile> results_of(const ExplainedDetection& detection, const std::vector<LidMeasures>& lids,
+                                   const ScanFiles& scan, const FilesConfig& config) {
+  const OutputConfig& output = config.output;
+  return {{"loops.ply", true, [&](OutputFile& out) { write_loops(detection, scan, output, out); }},
+          {"boundary.ply", true, [&](OutputFile& out) { write_boundary(detection, scan, output, out); }},
+          {"sample.ply", config.results.sample_points > 0,
+           [&](OutputFile& out) { write_sample(detection, scan, output, out); }},
+          {"loops.obj", output.obj, [&](OutputFile& out) { write_loops_obj(detection, out); }},
+          {"loops.gpkg", output.gpkg,
+           [&](OutputFile& out) { write_loops_gis(detection, scan, output, GisFormat::kGeoPackage, out); },
+           Writer::kLibrary},
+          {"loops.geojson", output.geojson,
+           [&](OutputFile& out) { write_loops_gis(detection, scan, output, GisFormat::kGeoJson, out); }},
+          {"lids.ply", output.lids,
+           [&](OutputFile& out) { write_lids(lids, detection, scan, output, out); }},
+          {"coverage.tif", output.coverage > 0,
+           [&](OutputFile& out) { write_coverage(detection, scan, config, out); }, Writer::kLibrary},
+          {"holes.csv", true, [&](OutputFile& out) { write_table(detection, lids, out); }},
+          {"run.json", true, [&](OutputFile& out) { write_run(detection, scan, config, out); }},
+          {"holes.json", true, [&](OutputFile& out) { write_holes(detection, scan, config, out); }}};
+}
+
+}  // namespace
+
+void check_results(const ScanFiles& scan, const FilesConfig& config, const ResultFolder& folder) {
+  check_points(scan, config);
+  if (needs_gis_library(config)) check_gis_module(kGisUser);
+  if (config.output.coverage > 0) require_plan(scan, "--coverage");
+  check_not_input(folder, scan);
+}
+
+std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection, const ScanFiles& scan,
+                                                 const FilesConfig& config, ResultFolder& folder) {
+  check_results(scan, config, folder);
+  if (has_area(config) && !detection.area)
+    throw Error(config.area.area + ": the area was not checked; io::check_area does it");
+
+  const TaskArena arena(static_cast<std::size_t>(config.run.threads));
+  std::vector<LidMeasures> lids;
+  arena.for_each(1, [&](std::size_t) {
+    write_points(detection, scan, config, folder);
+    if (config.output.lids) lids = measure_lids(detection);
+  });
+  if (has_area(config)) add_voids(*detection.area, scan, config.area, folder);
+  const std::vector<ResultFile> results = results_of(detection, lids, scan, config);
+  arena.for_each(results.size(), [&](std::size_t i) {
+    if (results[i].is_wanted) folder.add(results[i].name, results[i].write, results[i].writer);
+  });
+  if (config.output.report) {
+    folder.add("report.html", [&](OutputFile& out) { write_report(read_scene(folder.staged()), out); });
+  }
+  scan.check_unchanged();
+  return folder.commit();
+}
+
+std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection, const ScanFiles& scan,
+                                                 const FilesConfig& config,
+                                                 const std::filesystem::path& folder) {
+  ResultFolder results(folder);
+  return write_results(detection, scan, config, results);
+}
+
+std::vector<PlyProperty> position_and_id(const Detection& detection, const ScanFiles& scan,
+                                         const OutputConfig& config) {
+  const Scalar coordinate = coordinate_type(scan, config);
+  const bool small = detection.summary.counts.points <= std::numeric_limits<std::uint32_t>::max();
+  return {{"x", coordinate, {}},
+          {"y", coordinate, {}},
+          {"z", coordinate, {}},
+          {"scalar_id", small ? Scalar::kUint32 : Scalar::kFloat64, {}}};
+}
+
+}  // namespace lacuna::io

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run leaves in its output folder. Ids are ranks of the input's rows, over the files in order.
+#pragma once
+
+#include "engine/export.hpp"
+#include "engine/model/detection.hpp"
+#include "io/explain/stations/cause.hpp"
+#include "io/read/files/result_folder.hpp"
+#include "io/read/options/options.hpp"
+#include "io/read/ply/ply_header.hpp"
+#include "io/read/scan/scan_files.hpp"
+#include "io/write/results/lids.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace lacuna::io {
+
+// Throws `Error` if an input is an earlier result that the folder replaces. Throws, too, if the annotated
+// scan cannot be written in its format. write_results checks it, too; a program checks before the work.
+LACUNA_API void check_results(const ScanFiles& scan, const FilesConfig& config, const ResultFolder& folder);
+
+// Writes loops.ply, boundary.ply, sample.ply, holes.csv, run.json, holes.json, and the files that the config
+// requests. The report is made of the others. The folder takes its name when all are complete. Returns the
+// files and subfolders that were written. Throws `Error`.
+LACUNA_API std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection,
+                                                            const ScanFiles& scan, const FilesConfig& config,
+                                                            ResultFolder& folder);
+// Does the same with a folder of this name.
+LACUNA_API std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection,
+                                                            const ScanFiles& scan, const FilesConfig& config,
+                                                            const std::filesystem::path& folder);
+
+// holes.json: the parameters that change results, the inputs, counts, and one line for each loop, in order.
+// Runs with the same answer write the same bytes. docs/holes.schema.json describes it; the form has a number,
+// kHolesSchema. What is not finite is null.
+void write_holes(const ExplainedDetection& detection, const ScanFiles& scan, const FilesConfig& config,
+                 OutputFile& out);
+
+// run.json: what may differ between runs with the same answer: threads, tiles, times, memory. It has the
+// coordinate reference system and the unit, too. What depends on the answer belongs in holes.json.
+void write_run(const Detection& detection, const ScanFiles& scan, const FilesConfig& config, OutputFile& out);
+
+// holes.csv: one line for each loop, in order, with the ids of holes.json. What is not finite is empty. With
+// lids, there is a column lid_area.
+void write_table(const ExplainedDetection& detection, const std::vector<LidMeasures>& lids, OutputFile& out);
+
+// Names as CloudCompare ("scalar_", of which it shows the first one) and MeshLab (quality: the probability)
+// have them. Element vertex: x y z, scalar_loop (an index into the report's loops), scalar_id, scalar_outer
+// (0: hole, 1: outer), quality, red green blue (io/write/loops/loop_colours.hpp). Element edge: vertex1 vertex2,
+// closing each loop. Coordinates here and below: io/write/results/local_coordinates.hpp.
+void write_loops(const Detection& detection, const ScanFiles& scan, const OutputConfig& config,
+                 OutputFile& out);
+
+// loops.obj, for CAD, Blender and Rhinoceros: for each loop, in order, its measures as comments, its object
+// "hole_0" or "outer_0" (the id), and its points. A line `l a b` for each edge follows. Blender 3.4 and
+// MeshLab 2020.09 read only the first edge of a longer line. Coordinates have all digits. Holds one loop in
+// memory.
+void write_loops_obj(const ExplainedDetection& detection, OutputFile& out);
+
+// Every point that is coherent or on a loop, in ascending id: x y z, scalar_probability, scalar_id,
+// scalar_loop (-1: none), quality (the probability).
+void write_boundary(const Detection& detection, const ScanFiles& scan, const OutputConfig& config,
+                    OutputFile& out);
+
+// The points of the sample, in ascending id: x y z, scalar_id, nx ny nz, scalar_probability, and the colours
+// of the input. These are red green blue and intensity, as far as a file has them. Reads every file once more
+// for these; compressed ones only where a report is wanted.
+void write_sample(const Detection& detection, const ScanFiles& scan, const OutputConfig& config,
+                  OutputFile& out);
+
+// For the writers: x, y and z of their type, and the id. PLY has no integer of 64 bits: ids
+// are uint, or, from 2^32 points on, double, which is exact up to 2^53.
+std::vector<PlyProperty> position_and_id(const Detection& detection, const ScanFiles& scan,
+                                         const OutputConfig& config);
+
+}  // namespace lacuna::io
