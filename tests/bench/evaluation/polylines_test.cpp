@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/evaluation/polylines.hpp"
-
 #include "bench/evaluation/evaluation.hpp"
+#include "bench/evaluation/loops_reader.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/support/grid_places.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/matching/match_loops.hpp"
 
-#include "bench/evaluation/loop_scores.hpp"
+#include "bench/evaluation/evaluation.hpp"
 #include "tests/support/grid_places.hpp"
 #include "tests/tools/matching/drawn.hpp"
 
