@@ -2,7 +2,6 @@
 #include "tools/matching/compare_loops.hpp"
 
 #include "engine/loops/loop_plane.hpp"
-#include "engine/loops/places_within.hpp"
 #include "engine/stitch/union_find.hpp"
 #include "tools/matching/match_loops.hpp"
 #include "tools/matching/point_tree.hpp"

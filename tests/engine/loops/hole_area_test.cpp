@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How much surface is missing: places of several holes count once.
-#include "engine/loops/hole_area.hpp"
+#include "engine/loops/nest_loops.hpp"
 
 #include "engine/config/job.hpp"
 #include "tests/support/measured_loops.hpp"
