@@ -2,7 +2,6 @@
 #include "bench/evaluation/evaluation.hpp"
 
 #include "tests/support/clouds.hpp"
-#include "tests/support/grid_places.hpp"
 #include "tests/support/test.hpp"
 #include "tests/tools/matching/drawn.hpp"
 #include "tools/matching/edge_tree.hpp"
@@ -159,7 +158,7 @@ namespace {
 // The points of a grid, a unit apart, around a square.
 LoopIds around(const std::vector<Eigen::Vector3d>& grid, int low, int edge) {
   LoopIds ids;
-  for (const auto& [x, y] : test::places_around(low, low, edge, edge))
+  for (const auto& [x, y] : places_around(low, low, edge, edge))
     ids.push_back(std::uint64_t(std::ranges::find(grid, Eigen::Vector3d(x, y, 0)) - grid.begin()));
   return ids;
 }

@@ -4,7 +4,7 @@
 
 #include "engine/store/outbox.hpp"
 #include "tests/support/clouds.hpp"
-#include "tests/support/open_files.hpp"
+#include "tests/support/system.hpp"
 #include "tests/support/record.hpp"
 
 #include <unistd.h>

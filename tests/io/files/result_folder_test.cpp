@@ -2,10 +2,8 @@
 #include "io/files/result_folder.hpp"
 
 #include "tests/io/io_support.hpp"
-#include "tests/support/processes.hpp"
-#include "tests/support/resource_limit.hpp"
+#include "tests/support/system.hpp"
 #include "tests/support/skip.hpp"
-#include "tests/support/small_disk.hpp"
 
 #include <sys/mount.h>
 #include <sys/stat.h>
