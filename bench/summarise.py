@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Medians of the runs in files of results: as tables, as the table of the README, or as gnuplot's data."""
+"""Medians of the runs in files of results: as tables, as the table of docs/results.md, or as gnuplot's data."""
 
 import csv
 import statistics
 import sys
 from dataclasses import dataclass, replace
 
-LEAST_POINTS = 100_000  # of the README's scans: smaller ones last milliseconds
+LEAST_POINTS = 100_000  # of the scans of docs/results.md: smaller ones last milliseconds
 KINDS = {"jittered": "jittered grid", "random": "uniformly random"}
 REAL = {"dragon_30scans_793k": "dragon, 30 raw scans", "balm_23scans_1.7M": "BALM, 23 lidar scans",
         "vol_total": "aerial survey"}

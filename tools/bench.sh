@@ -10,7 +10,7 @@ usage() {
 usage: tools/bench.sh [OPTIONS] [-- DETECT_OPTIONS]
 
 Builds a release, makes the scans, runs the programs in turns, each twice of which once to warm up, and writes
-bench/results/DATE.csv with a table of medians (DATE.txt), the README's table (DATE.md) and a plot (DATE.svg). Another
+bench/results/DATE.csv with a table of medians (DATE.txt), the table of docs/results.md (DATE.md) and a plot (DATE.svg). Another
 plot has the memory of one more run over time (DATE-memory.svg), with the last scan and the last limit, or 256 MiB.
 
   --points LIST         synthetic scans, millions of points           default "1 4"; all: "1 4 16 64"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Draws the pictures of README.md, choosing.md, confidence.md and examples.md into this folder. Prints the numbers of these pages:
-# points, what `lacuna-bench evaluate` says of each synthetic scan, and sizes of files.
+# Draws the pictures of README.md, first-run.md, choosing.md, confidence.md and examples.md into this folder. Prints the
+# numbers of these pages: points, what `lacuna-bench evaluate` says of each synthetic scan, and sizes of files.
 #
 #     docs/pictures/draw.sh build/lacuna build/lacuna-bench [FOLDER]
 #
