@@ -13,7 +13,7 @@ scans=${LACUNA_SHARED:-$PWD/../../../shared}/data
 real=()
 if [[ -d $scans ]]; then
   mkdir "$scratch/scans"
-  ln -s "$scans"/{las/autzen_trim.laz,autzen_river.ply,dragon_30scans_793k.ply} "$scratch/scans"
+  ln -s "$scans"/{autzen_river.ply,dragon_30scans_793k.ply} "$scratch/scans"
   real=("$scratch/scans")
 fi
 "$scratch/draw.sh" "$LACUNA_PROGRAM" "$LACUNA_BENCH_PROGRAM" "${real[@]}" | tee "$scratch/numbers"
