@@ -86,5 +86,5 @@ int main(int count, char** arguments) {
   lacuna::reference::Level level;
   for (Eigen::Vector3d p; std::cin >> p.x() >> p.y() >> p.z(); level.positions.push_back(p))
     level.names.push_back(lacuna::PointId{level.names.size()});
-  std::cout << figures(level, config);
+  std::cout << lacuna::reference::figures(level, config);
 }
