@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "io/explain/area/area_polygons.hpp"
+
 #include "engine/run/error.hpp"
-#include "io/explain/area/held_polygons.hpp"
 #include "io/read/crs/gdal_session.hpp"
 
 #include <algorithm>

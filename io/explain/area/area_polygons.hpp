@@ -3,10 +3,11 @@
 #pragma once
 
 #include "engine/export.hpp"
-#include "io/explain/area/plan_polygon.hpp"
+#include "io/explain/area/plan_raster.hpp"
 #include "io/read/crs/conversion_accuracy.hpp"
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -46,5 +47,14 @@ using ReadAreaPolygons = void(HeldPolygons& polygons);
 
 inline constexpr const char* kReadAreaPolygons = "lacuna_read_area_polygons";
 extern "C" LACUNA_API ReadAreaPolygons lacuna_read_area_polygons;
+
+// Whether the first sign of the file is a brace. Throws `Error` if it is not a regular file.
+bool looks_like_geojson(const std::filesystem::path& file);
+
+// Fills in the polygons of all features, and the system of the file. That is longitude and latitude, unless a
+// member `crs` names another, as in older files. Other geometries are passed over. The file is read corner by
+// corner, so memory is that of the polygons. Throws `Error` if it is no GeoJSON, or has more corners than are
+// allowed.
+void read_geojson_polygons(HeldPolygons& polygons);
 
 }  // namespace lacuna::io
