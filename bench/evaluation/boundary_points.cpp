@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/evaluation/boundary_points.hpp"
 
-#include "io/explain/matching/edge_tree.hpp"
+#include "io/explain/matching/nearest.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "io/explain/matching/match_loops.hpp"
-#include "io/explain/matching/true_loops.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -6,7 +6,6 @@
 #include "bench/evaluation/hole_width.hpp"
 #include "bench/evaluation/loop_scores.hpp"
 #include "io/explain/matching/match_loops.hpp"
-#include "io/explain/matching/true_loops.hpp"
 #include "io/read/scan/scan_files.hpp"
 
 #include <cstdint>

@@ -2,9 +2,8 @@
 #include "bench/evaluation/hole_areas.hpp"
 
 #include "bench/evaluation/loop_kind.hpp"
-#include "io/explain/lids/triangulate_polygon.hpp"
-#include "io/explain/matching/edge_tree.hpp"
-#include "io/explain/matching/point_tree.hpp"
+#include "io/explain/lids/make_lid.hpp"
+#include "io/explain/matching/nearest.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "io/explain/matching/match_loops.hpp"
-#include "io/explain/matching/point_tree.hpp"
+#include "io/explain/matching/nearest.hpp"
 
 #include <array>
 #include <cstddef>

@@ -4,7 +4,7 @@
 
 #include "bench/evaluation/loops_reader.hpp"
 #include "engine/model/loop.hpp"
-#include "io/explain/matching/point_tree.hpp"
+#include "io/explain/matching/nearest.hpp"
 
 #include <optional>
 #include <span>

@@ -3,7 +3,7 @@
 
 #include "bench/evaluation/spacing.hpp"
 #include "engine/run/error.hpp"
-#include "io/explain/matching/point_tree.hpp"
+#include "io/explain/matching/nearest.hpp"
 
 #include <cstddef>
 #include <vector>

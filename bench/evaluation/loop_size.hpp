@@ -2,7 +2,7 @@
 // Computes how large a loop is and where it lies, for people who compare results with the truth.
 #pragma once
 
-#include "io/explain/matching/true_loops.hpp"
+#include "io/explain/matching/match_loops.hpp"
 
 #include <span>
 

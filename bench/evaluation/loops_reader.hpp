@@ -2,7 +2,7 @@
 // Loops read back: what `lacuna detect` writes as loops.ply, and loops as text.
 #pragma once
 
-#include "io/explain/matching/true_loops.hpp"
+#include "io/explain/matching/match_loops.hpp"
 
 #include <cstdint>
 #include <filesystem>

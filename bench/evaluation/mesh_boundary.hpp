@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bench/evaluation/mesh_reader.hpp"
-#include "io/explain/matching/true_loops.hpp"
+#include "io/explain/matching/match_loops.hpp"
 
 #include <cstdint>
 #include <span>

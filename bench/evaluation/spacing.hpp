@@ -2,7 +2,7 @@
 // Computes how far apart the points of a scan are.
 #pragma once
 
-#include "io/explain/matching/point_tree.hpp"
+#include "io/explain/matching/nearest.hpp"
 
 #include <span>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/evaluation/step_loops.hpp"
 
-#include "io/explain/matching/edge_tree.hpp"
+#include "io/explain/matching/nearest.hpp"
 
 #include <vector>
 

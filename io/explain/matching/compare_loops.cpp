@@ -5,7 +5,7 @@
 #include "engine/loops/places_within.hpp"
 #include "engine/stitch/union_find.hpp"
 #include "io/explain/matching/match_loops.hpp"
-#include "io/explain/matching/point_tree.hpp"
+#include "io/explain/matching/nearest.hpp"
 
 #include <algorithm>
 #include <cmath>

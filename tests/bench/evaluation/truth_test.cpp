@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/evaluation/boundary_points.hpp"
 #include "bench/evaluation/spacing.hpp"
-#include "io/explain/matching/edge_tree.hpp"
-#include "io/explain/matching/true_loops.hpp"
+#include "io/explain/matching/match_loops.hpp"
+#include "io/explain/matching/nearest.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/tools/matching/drawn.hpp"
 

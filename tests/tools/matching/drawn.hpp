@@ -2,7 +2,7 @@
 // Drawn truths: rings of points in the plane, and loops along parts of them.
 #pragma once
 
-#include "io/explain/matching/true_loops.hpp"
+#include "io/explain/matching/match_loops.hpp"
 #include "tests/support/test.hpp"
 
 namespace lacuna::matching {

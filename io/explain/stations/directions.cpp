@@ -1,15 +1,81 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/explain/stations/range_image.hpp"
+#include "io/explain/stations/directions.hpp"
 
 #include "engine/store/store_file.hpp"
 
 #include <algorithm>
-#include <cstdint>
+#include <cmath>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <sys/mman.h>
 
 namespace lacuna::io {
+
+std::size_t cell_of(const Eigen::Vector3d& direction, std::size_t edge) {
+  const double x = std::fabs(direction.x()), y = std::fabs(direction.y()), z = std::fabs(direction.z());
+  const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+  const double half = static_cast<double>(edge) / 2;
+  const double along = std::fabs(direction[axis]);
+  const auto place = [&](int other) {
+    return std::min(edge - 1, static_cast<std::size_t>((direction[other] / along + 1) * half));
+  };
+  const std::size_t face = static_cast<std::size_t>(2 * axis) + (direction[axis] < 0 ? 1 : 0);
+  return (face * edge + place((axis + 1) % 3)) * edge + place((axis + 2) % 3);
+}
+
+Eigen::Vector3d direction_of(std::size_t cell, std::size_t edge) {
+  const std::size_t face = cell / (edge * edge);
+  const auto place = [&](std::size_t index) {
+    return (2 * static_cast<double>(index) + 1) / static_cast<double>(edge) - 1;
+  };
+  const int axis = static_cast<int>(face / 2);
+  Eigen::Vector3d direction;
+  direction[axis] = face % 2 == 0 ? 1 : -1;
+  direction[(axis + 1) % 3] = place(cell / edge % edge);
+  direction[(axis + 2) % 3] = place(cell % edge);
+  return direction.normalized();
+}
+
+double RaySpread::angle() const {
+  const double mean = sum_.norm() / static_cast<double>(std::max<std::uint64_t>(count_, 1));
+  return std::sqrt(std::max(0.0, 2 * (1 - mean)));
+}
+
+bool RaySpread::is_narrow() const {
+  constexpr double kNarrow = 0.07;
+  constexpr std::uint64_t kFewRays = 100;
+  return count_ >= kFewRays && angle() < kNarrow;
+}
+
+FieldOfView::FieldOfView(const Eigen::Vector3d& axis)
+    : axis_(axis), right_(axis.unitOrthogonal()), forward_(axis.cross(right_)) {}
+
+// Uses the sums of components. An arc tangent differs between machines.
+std::size_t FieldOfView::bin_of(const Eigen::Vector3d& direction) const {
+  const double x = direction.dot(right_), y = direction.dot(forward_);
+  const double sum = std::fabs(x) + std::fabs(y);
+  if (sum == 0) return 0;
+  const double quarter = y >= 0 ? 1 - x / sum : 3 + x / sum;  // from 0 to 4
+  const double quarters = static_cast<double>(bins_.size()) / 4;
+  return std::min(static_cast<std::size_t>(quarter * quarters), bins_.size() - 1);
+}
+
+void FieldOfView::add(const Eigen::Vector3d& direction) {
+  const double sine = direction.dot(axis_);
+  lowest_ = std::min(lowest_, sine);
+  highest_ = std::max(highest_, sine);
+  bins_[bin_of(direction)] = true;
+}
+
+bool FieldOfView::contains(const Eigen::Vector3d& direction) const {
+  const double sine = direction.dot(axis_);
+  return sine >= lowest_ && sine <= highest_ && bins_[bin_of(direction)];
+}
+
+double FieldOfView::turn() const {
+  return static_cast<double>(bins_.count()) / static_cast<double>(bins_.size());
+}
 
 void RangeImage::Unmap::operator()(float* cells) const {
   ::munmap(cells, kBytes);

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// other_upward: whether another axis than z points upwards in a scan, by its points alone.
+// Whether the axes of a scan can be what they are taken for: z upwards, and the same for all files.
 //
 // Idea: things stand on level surfaces. So the lower end of a column of the scan is level. Its upper end is
 // that of a tree, a wall or a roof. Below a ceiling it is the other way: the ceiling is level, and things
 // hide the floor.
 #pragma once
 
+#include "engine/model/detection.hpp"
+
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -28,5 +32,13 @@ struct Upward {
 // most 100,000 points are used, evenly. Cost: three sorts of them.
 std::optional<Upward> other_upward(std::span<const Eigen::Vector3d> points,
                                    std::span<const Eigen::Vector3f> normals, double area);
+
+// Finds files in the axes of their own scanners, as where poses were forgotten. Returns the first two files
+// of which each can have been measured from 0 0 0, and both together cannot. Each has one range in four of
+// five directions. They share half of their directions. In three of ten of these, their ranges differ by a
+// fifth. `ends`: the first id behind each file. The sample of at most eight files is compared, in 300 kB for
+// each.
+std::optional<std::pair<std::size_t, std::size_t>> own_frames(const Detection& detection,
+                                                              std::span<const std::uint64_t> ends);
 
 }  // namespace lacuna::io
