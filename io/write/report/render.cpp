@@ -3,7 +3,7 @@
 
 #include "engine/run/error.hpp"
 #include "io/read/files/number.hpp"
-#include "io/write/loops/loop_colours.hpp"
+#include "io/write/loops/loop_measures.hpp"
 #include "io/write/report/labels.hpp"
 #include "io/write/report/percentile.hpp"
 

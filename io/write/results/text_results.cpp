@@ -1,11 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "engine/run/machine_memory.hpp"
+#include "io/read/files/number.hpp"
 #include "io/write/loops/json.hpp"
-#include "io/write/results/local_coordinates.hpp"
+#include "io/write/loops/loop_measures.hpp"
 #include "io/write/results/results.hpp"
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
 #include <functional>
+#include <limits>
+#include <numeric>
 #include <string>
 #include <string_view>
+#include <thread>
+#include <tuple>
+#include <vector>
 
 namespace lacuna::io {
 namespace {
@@ -179,6 +190,131 @@ void write_holes(const ExplainedDetection& detection, const ScanFiles& scan, con
     write_loop(i, detection, !config.output.no_coordinates, out);
   }
   out.write(detection.loops.empty() ? "]\n}\n" : "\n  ]\n}\n");
+}
+
+namespace {
+
+double points_per_second(std::uint64_t points, double seconds) {
+  return static_cast<double>(points) / seconds;
+}
+
+}  // namespace
+
+void write_run(const Detection& detection, const ScanFiles& scan, const FilesConfig& config,
+               OutputFile& out) {
+  const Summary& summary = detection.summary;
+  Json json = begin_json("run 1");
+  json["parameters"] = parameter_values(config, [](std::string_view section) { return section == "run"; });
+  put_crs(scan, json);
+  json["points"] = summary.counts.points;
+  json["tiling"] = {{"tiles", summary.tiles},
+                    {"tile_points", summary.tile_points},
+                    {"threads", summary.threads},
+                    {"memory_limit_bytes", summary.memory_limit}};
+  json["phases"] = Json::array();
+  double total_seconds = 0;
+  for (const PhaseTime& phase : summary.phases) {
+    json["phases"].push_back(
+        {{"name", phase.name},
+         {"seconds", phase.seconds},
+         {"points_per_second", points_per_second(summary.counts.points, phase.seconds)}});
+    total_seconds += phase.seconds;
+  }
+  json["total_seconds"] = total_seconds;
+  json["points_per_second"] = points_per_second(summary.counts.points, total_seconds);
+  const std::uint64_t peak = peak_memory();
+  json["peak_memory_bytes"] = peak > 0 ? Json(peak) : Json();
+  json["cores"] = std::thread::hardware_concurrency();
+  out.write(print(json, 2) + "\n");
+}
+
+namespace {
+
+// Writes an empty field if the value is not finite.
+void append(std::string& line, double value) {
+  line += ',';
+  if (std::isfinite(value)) append_shortest(line, value);
+}
+
+std::string table_header(bool has_lids) {
+  std::string names = "id,kind";
+  for (const LoopMeasure& measure : kLoopMeasures) names.append(",").append(measure.name);
+  if (has_lids) names += ",lid_area";
+  return names + ",x,y,z,nx,ny,nz,cause,hidden_by_x,hidden_by_y,hidden_by_z\n";
+}
+
+// Holes before outer curves, each the largest first.
+std::vector<std::size_t> by_size(const std::vector<LoopMeasures>& loops) {
+  std::vector<std::size_t> order(loops.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto rank = [&](std::size_t id) {
+    const double area = std::isfinite(loops[id].area) ? loops[id].area : std::numeric_limits<double>::max();
+    return std::tuple(loops[id].kind, -area, id);
+  };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+  return order;
+}
+
+}  // namespace
+
+void write_table(const ExplainedDetection& detection, const std::vector<LidMeasures>& lids, OutputFile& out) {
+  constexpr int kDigits = 7, kDigitsOfCount = 16;
+  const int decimals = place_decimals(detection.summary.median_distance);
+  const auto place = [decimals](double value) { return reread(value, std::chars_format::fixed, decimals); };
+  out.write(table_header(!lids.empty()));
+  for (const std::size_t id : by_size(detection.loops)) {
+    const ExplainedLoop loop = detection.loop(id);
+    std::string line = std::to_string(id) + "," + name_of(loop.kind);
+    for (const LoopMeasure& measure : kLoopMeasures) {
+      const int digits = measure.is_count ? kDigitsOfCount : kDigits;
+      append(line, reread(measure.of(loop), std::chars_format::general, digits));
+    }
+    if (!lids.empty()) append(line, reread(lids[id].area, std::chars_format::general, kDigits));
+    for (const double coordinate : loop.centroid) append(line, place(coordinate));
+    for (const double component : loop.normal)
+      append(line, reread(component, std::chars_format::general, kDigits));
+    line.append(",").append(loop.cause.name());
+    for (const double coordinate : loop.cause.hidden_by) append(line, place(coordinate));
+    out.write(line + "\n");
+  }
+}
+
+namespace {
+
+std::string head_of(std::size_t id, const ExplainedLoop& loop) {
+  const std::string name = std::string(name_of(loop.kind)) + "_" + std::to_string(id);
+  std::string text = "\n";
+  if (!loop.cause.name().empty()) text.append("# cause ").append(loop.cause.name()).append("\n");
+  for (const LoopMeasure& measure : kLoopMeasures) {
+    if (!std::isfinite(measure.of(loop))) continue;
+    text += "# " + std::string(measure.name) + " ";
+    append_plain(text, measure.of(loop));
+    text += "\n";
+  }
+  return text + "o " + name + "\n";
+}
+
+}  // namespace
+
+void write_loops_obj(const ExplainedDetection& detection, OutputFile& out) {
+  out.write("# lacuna detect, loops\n");
+  std::uint64_t next = 1;  // vertices count from 1, over all objects
+  for (std::size_t id = 0; id < detection.loops.size(); ++id) {
+    const ExplainedLoop loop = detection.loop(id);
+    out.write(head_of(id, loop));
+    std::string line;
+    detection.for_each_loop_point(id, [&](const LoopPoint& point) {
+      line = "v";
+      for (const double component : point.position()) append_plain(line += " ", component);
+      out.write(line += "\n");
+    });
+    const std::uint64_t first = next;
+    next += loop.points;
+    for (std::uint64_t a = first; a < next; ++a) {
+      const std::uint64_t b = a + 1 < next ? a + 1 : first;
+      out.write("l " + std::to_string(a) + " " + std::to_string(b) + "\n");
+    }
+  }
 }
 
 }  // namespace lacuna::io
