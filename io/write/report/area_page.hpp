@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// report.html of a check: one sheet by which a survey is accepted or not, for a browser and for paper.
+// The check of an area on pages: a part of the report of a run, and report.html of a check. That is one sheet
+// by which a survey is accepted or not, for a browser and for paper.
 #pragma once
 
 #include "io/explain/area/area_check.hpp"
 #include "io/read/files/output_file.hpp"
 #include "io/read/options/options.hpp"
+#include "io/write/loops/json.hpp"
 
+#include <filesystem>
 #include <string>
 
 namespace lacuna::io {
+
+// Returns voids.json of a folder with the largest voids and the first polygons alone, and with outlines as
+// fine as a map shows them. Returns null if the file is not there. Throws `Error` if it is not as Lacuna
+// writes it.
+Json read_area_section(const std::filesystem::path& folder);
 
 // What a sheet says of the scan, besides its check.
 struct AreaSheet {
