@@ -5,7 +5,6 @@
 #include "engine/consumers.hpp"
 #include "engine/halo/eps_balls.hpp"
 #include "engine/level_steps.hpp"
-#include "engine/loops/hole_area.hpp"
 #include "engine/loops/measure_loops.hpp"
 #include "engine/loops/nest_loops.hpp"
 #include "engine/parts/kept_files.hpp"

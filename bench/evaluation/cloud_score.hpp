@@ -1,17 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scores of `lacuna-bench score`: of one cloud, and of many.
+// cloud_score: the scores of `lacuna-bench score`, of one cloud and of many: per hole, per area and per
+// point.
+//
+// Idea: the surface of a hole is the triangulation of its loop that has the least area. It is divided into
+// pieces so small that the centroid of a piece decides for it. A piece counts as found, or as right, where a
+// hole of the other kind is near.
+//
+// Source: completeness and correctness of the ISPRS benchmark on indoor modelling,
+// https://www.isprs.org/resources/datasets/benchmarks/IndoorModeling/results.aspx.
+// Cost: n log n for points and pieces. Memory: the pieces of the true holes.
 #pragma once
 
 #include "bench/evaluation/evaluation.hpp"
-#include "bench/evaluation/hole_areas.hpp"
 
 #include <cstddef>
-#include <filesystem>
-#include <map>
-#include <string>
+#include <span>
 #include <vector>
 
 namespace lacuna::evaluation {
+
+// In squares of the unit of the scan.
+struct HoleAreas {
+  double truth = 0, covered = 0;  // of the true holes that count, and the part of it near found holes
+  double found = 0, right = 0;    // of the found holes, and the part of it near true holes, counting or not
+};
+
+// Completeness is covered / truth, and correctness right / found. Outer curves have no surface, and neither
+// has a loop with a point that is not finite. Loops along steps of density take no part. A loop that repeats
+// another has no right place. Places of a hole are near others within the mean tolerance of the hole's
+// points. Pieces have edges of at most half of that tolerance. With a tolerance of 0, all areas are 0.
+HoleAreas compare_areas(std::span<const LoopIds> loops, const Truth& truth, const LoopAccuracy& accuracy,
+                        const MatchRule& rule);
 
 struct CloudScore {
   Tally holes, outer_curves;    // that count
@@ -26,20 +45,5 @@ struct CloudScore {
 // no points. Points of true loops that do not count are right if they are flagged, and not missed otherwise.
 // Throws `Error` as evaluate() does.
 CloudScore score_cloud(const Result& result, const Truth& truth, const EvaluationRule& rule);
-
-// By kind of cloud. There is at least one kind, and each has a cloud.
-using ScoresByKind = std::map<std::string, std::vector<CloudScore>>;
-
-// What was scored, for the JSON.
-struct ScoredFolders {
-  std::filesystem::path clouds, results;
-  std::vector<std::filesystem::path> without_result;
-  EvaluationRule rule;
-};
-
-// Prints three tables, per hole, per area and per point. Each has a row for each kind, and one for all.
-std::string print_scores(const ScoresByKind& kinds);
-// Returns every number of the tables, and those behind them.
-std::string print_json(const ScoresByKind& kinds, const ScoredFolders& folders);
 
 }  // namespace lacuna::evaluation

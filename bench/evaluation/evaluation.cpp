@@ -1,35 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/evaluation/evaluation.hpp"
 
-#include "bench/evaluation/loop_kind.hpp"
-#include "bench/evaluation/loop_order.hpp"
 #include "bench/evaluation/loops_reader.hpp"
-#include "bench/evaluation/mesh_boundary.hpp"
-#include "bench/evaluation/mesh_reader.hpp"
-#include "bench/evaluation/polylines.hpp"
-#include "bench/evaluation/spacing.hpp"
-#include "bench/evaluation/step_loops.hpp"
 #include "engine/run/error.hpp"
+#include "io/explain/matching/nearest.hpp"
 #include "io/read/files/input_file.hpp"
 #include "io/read/ply/ply_reader.hpp"
 #include "io/read/scan/scan_pass.hpp"
 #include "io/write/loops/json.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <span>
 #include <string_view>
 #include <utility>
 
+#include <spdlog/fmt/fmt.h>
+
 namespace lacuna::evaluation {
+
 using namespace io;
-
-namespace {
-
 namespace fs = std::filesystem;
 
-constexpr std::string_view kLoopsEnding = ".loops.txt";
+// ---- The result
+
+namespace {
 
 double confidence_of(const Json& loop) {
   const auto found = loop.find("confidence");
@@ -85,6 +82,28 @@ std::vector<Eigen::Vector3d> read_positions(std::vector<ScanInput> inputs, const
   }
   return positions;
 }
+
+}  // namespace
+
+Result read_result(const fs::path& path) {
+  Result result{.file = fs::is_directory(path) ? path / "loops.ply" : path};
+  if (is_ply(result.file) && has_polylines(result.file)) {
+    result.loops = read_polylines(result.file);
+    result.vertices = read_positions({result.file}, {});
+    return result;
+  }
+  result.loops = read_loops(result.file);
+  if (!fs::is_directory(path)) return result;
+  if (const fs::path file = path / "boundary.ply"; fs::exists(file)) result.boundary = read_ids(file);
+  if (const fs::path file = path / "holes.json"; fs::exists(file)) read_report(file, result);
+  return result;
+}
+
+// ---- The truth
+
+namespace {
+
+constexpr std::string_view kLoopsEnding = ".loops.txt";
 
 std::vector<ScanInput> scans_of(const fs::path& truth, const Result& result) {
   const std::string name = truth.string();
@@ -147,24 +166,6 @@ void take_loops(std::vector<NamedLoopIds> named, Truth& truth) {
   measure_holes(tree, truth);
 }
 
-// Returns the tolerances of the points that are compared with curves.
-std::vector<double> tolerances_of_places(const Result& result, const Truth& truth, double tolerance) {
-  constexpr double kOfPlace = 1.2;  // a curve of a coarser level runs up to 2.4 spacings off
-  const PointTree tree(truth.points);
-  std::vector<double> tolerances(truth.positions.size());
-  const auto take = [&](std::span<const std::uint64_t> ids) {
-    for (const std::uint64_t id : ids) {
-      const Eigen::Vector3d& place = truth.positions[id];
-      if (tolerances[id] == 0 && place.allFinite())
-        tolerances[id] = kOfPlace * tolerance * spacing_of_place(place, tree);
-    }
-  };
-  for (const TrueLoop& loop : truth.loops) take(loop.vertices);
-  for (const LoopIds& loop : result.loops) take(loop);
-  if (result.boundary) take(*result.boundary);
-  return tolerances;
-}
-
 // The result's own vertices follow the points of the scan, each standing for itself, and its loops count
 // both.
 void add_vertices(Result& result, Truth& truth) {
@@ -180,20 +181,6 @@ void add_vertices(Result& result, Truth& truth) {
 }
 
 }  // namespace
-
-Result read_result(const fs::path& path) {
-  Result result{.file = fs::is_directory(path) ? path / "loops.ply" : path};
-  if (is_ply(result.file) && has_polylines(result.file)) {
-    result.loops = read_polylines(result.file);
-    result.vertices = read_positions({result.file}, {});
-    return result;
-  }
-  result.loops = read_loops(result.file);
-  if (!fs::is_directory(path)) return result;
-  if (const fs::path file = path / "boundary.ply"; fs::exists(file)) result.boundary = read_ids(file);
-  if (const fs::path file = path / "holes.json"; fs::exists(file)) read_report(file, result);
-  return result;
-}
 
 Truth read_truth(const fs::path& file, std::vector<ScanInput> scans, Result& result) {
   Truth truth{.file = file};
@@ -219,10 +206,248 @@ Truth read_truth(const fs::path& file, std::vector<ScanInput> scans, Result& res
   return truth;
 }
 
+// ---- Scores of loops
+
+namespace {
+
+std::optional<double> share(std::size_t part, std::size_t whole) {
+  if (whole == 0) return std::nullopt;
+  return static_cast<double>(part) / static_cast<double>(whole);
+}
+
+}  // namespace
+
+LoopScores score_loops(std::span<const LoopMatch> loops, std::span<const TrueMatch> truth) {
+  LoopScores scores;
+  for (const TrueMatch& loop : truth) {
+    ++(loop.counts ? scores.true_loops : scores.short_loops);
+    if (loop.counts) ++(loop.found_by ? scores.found : scores.missed);
+  }
+  scores.loops = loops.size();
+  for (const LoopMatch& loop : loops) {
+    scores.false_loops += loop.verdict == EdgeDecision::kFalse;
+    scores.repeated += loop.verdict == EdgeDecision::kRepeated;
+    scores.joined += loop.verdict == EdgeDecision::kJoined;
+    scores.parted += loop.verdict == EdgeDecision::kParted;
+    scores.steps += loop.verdict == EdgeDecision::kStep;
+  }
+  scores.recall = share(scores.found, scores.true_loops);
+  const std::size_t judged = scores.loops - scores.steps;
+  scores.precision = share(judged - scores.false_loops - scores.joined - scores.parted, judged);
+  return scores;
+}
+
+namespace {
+
+EdgeTree tree_of_steps(std::span<const LoopIds> steps, std::span<const Eigen::Vector3d> positions) {
+  std::vector<Segment> edges;
+  for (std::size_t step = 0; step < steps.size(); ++step)
+    for (std::size_t i = 1; i < steps[step].size(); ++i)
+      edges.push_back({positions[steps[step][i - 1]], positions[steps[step][i]], step});
+  return EdgeTree(std::move(edges));
+}
+
+}  // namespace
+
+void mark_steps(std::span<const LoopIds> loops, std::span<const LoopIds> steps,
+                std::span<const TrueLoop> truth, std::span<const Eigen::Vector3d> positions,
+                const MatchRule& rule, LoopAccuracy& accuracy) {
+  if (steps.empty()) return;
+  std::vector<TrueLoop> counting;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (accuracy.true_loops[i].counts) counting.push_back(truth[i]);
+  }
+  const EdgeTree step_edges = tree_of_steps(steps, positions),
+                 true_edges = tree_of_truth(counting, positions);
+  std::vector<std::size_t> near;
+  const auto is_near = [&](const EdgeTree& edges, std::uint64_t id) {
+    edges.owners_within(positions[id], rule.tolerance_at(id), near);
+    return !near.empty();
+  };
+  for (std::size_t loop = 0; loop < loops.size(); ++loop) {
+    LoopMatch& match = accuracy.loops[loop];
+    if (match.verdict != EdgeDecision::kFalse) continue;
+    std::size_t on_step = 0, on_either = 0;
+    for (const std::uint64_t id : loops[loop]) {
+      const bool is_on_step = is_near(step_edges, id);
+      on_step += is_on_step;
+      on_either += is_on_step || is_near(true_edges, id);
+    }
+    const auto points = static_cast<double>(loops[loop].size());
+    match.on_step = static_cast<double>(on_step) / points;
+    if (match.on_step >= rule.share) {
+      match.verdict = EdgeDecision::kStep;
+    } else if (static_cast<double>(on_either) / points >= rule.share) {
+      match.verdict = EdgeDecision::kJoined;
+    }
+  }
+}
+
+std::optional<double> area_under_roc(std::span<const LoopMatch> loops, std::span<const double> confidence) {
+  assert(confidence.size() == loops.size());
+  struct Judged {
+    double confidence;
+    bool is_true;
+  };
+  std::vector<Judged> judged;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    const EdgeDecision verdict = loops[i].verdict;
+    const bool is_true = verdict == EdgeDecision::kFound || verdict == EdgeDecision::kRepeated;
+    if (std::isnan(confidence[i]) || (!is_true && verdict != EdgeDecision::kFalse)) continue;
+    judged.push_back({confidence[i], is_true});
+  }
+  std::sort(judged.begin(), judged.end(),
+            [](const Judged& a, const Judged& b) { return a.confidence < b.confidence; });
+  double wins = 0, false_below = 0, true_loops = 0;
+  for (std::size_t i = 0, end = 0; i < judged.size(); i = end) {
+    double tied_true = 0, tied_false = 0;
+    for (; end < judged.size() && judged[end].confidence == judged[i].confidence; ++end) {
+      ++(judged[end].is_true ? tied_true : tied_false);
+    }
+    wins += tied_true * (false_below + tied_false / 2);
+    false_below += tied_false;
+    true_loops += tied_true;
+  }
+  if (true_loops == 0 || false_below == 0) return std::nullopt;
+  return wins / (true_loops * false_below);
+}
+
+// ---- Scores of points
+
+namespace {
+
+using Ids = std::vector<std::uint64_t>;
+using Positions = std::span<const Eigen::Vector3d>;
+
+std::size_t count_common(const Ids& a, const Ids& b) {
+  Ids common;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
+  return common.size();
+}
+
+EdgeTree tree_of_points(const Ids& ids, Positions positions) {
+  std::vector<Segment> points;
+  for (const std::uint64_t id : ids) points.push_back({positions[id], positions[id], 0});
+  return EdgeTree(std::move(points));
+}
+
+// Returns how many of `ids` are within their tolerance of the segments in the tree.
+std::size_t count_near(const Ids& ids, const EdgeTree& tree, Positions positions, const MatchRule& rule) {
+  std::size_t near = 0;
+  std::vector<std::size_t> found;
+  for (const std::uint64_t id : ids) {
+    tree.owners_within(positions[id], rule.tolerance_at(id), found);
+    near += found.empty() ? 0 : 1;
+  }
+  return near;
+}
+
+}  // namespace
+
+PointScores point_scores(std::optional<double> precision, std::optional<double> recall) {
+  PointScores scores{.precision = precision, .recall = recall, .f1 = std::nullopt};
+  if (!precision && !recall) return scores;
+  const double p = precision.value_or(0), r = recall.value_or(0);
+  scores.f1 = p + r > 0 ? 2 * p * r / (p + r) : 0;
+  return scores;
+}
+
+PointAccuracy score_points(std::span<const std::uint64_t> flagged, std::span<const TrueLoop> truth,
+                           Positions positions, std::span<const std::uint64_t> stand_ins,
+                           const MatchRule& rule) {
+  Ids told, known;
+  for (const std::uint64_t id : flagged) told.push_back(stand_ins[id]);
+  for (const TrueLoop& loop : truth) known.insert(known.end(), loop.vertices.begin(), loop.vertices.end());
+  sort_once(told);
+  sort_once(known);
+  const std::size_t common = count_common(told, known);
+  const std::size_t right = count_near(told, tree_of_truth(truth, positions), positions, rule);
+  const std::size_t met = count_near(known, tree_of_points(told, positions), positions, rule);
+  return {.flagged = told.size(),
+          .truth = known.size(),
+          .by_id = point_scores(share(common, told.size()), share(common, known.size())),
+          .within_tolerance = point_scores(share(right, told.size()), share(met, known.size()))};
+}
+
+// ---- All of them
+
 MatchRule match_rule(const Truth& truth, const EvaluationRule& rule, std::span<const double> tolerances) {
   return {
       .tolerance = rule.tolerance * truth.spacing, .of_place = tolerances, .min_vertices = rule.min_vertices};
 }
+
+namespace {
+
+// Returns the tolerances of the points that are compared with curves.
+std::vector<double> tolerances_of_places(const Result& result, const Truth& truth, double tolerance) {
+  constexpr double kOfPlace = 1.2;  // a curve of a coarser level runs up to 2.4 spacings off
+  const PointTree tree(truth.points);
+  std::vector<double> tolerances(truth.positions.size());
+  const auto take = [&](std::span<const std::uint64_t> ids) {
+    for (const std::uint64_t id : ids) {
+      const Eigen::Vector3d& place = truth.positions[id];
+      if (tolerances[id] == 0 && place.allFinite())
+        tolerances[id] = kOfPlace * tolerance * spacing_of_place(place, tree);
+    }
+  };
+  for (const TrueLoop& loop : truth.loops) take(loop.vertices);
+  for (const LoopIds& loop : result.loops) take(loop);
+  if (result.boundary) take(*result.boundary);
+  return tolerances;
+}
+
+constexpr std::size_t kLeastPoints = 16;
+constexpr std::size_t kMostTaken = 1 << 12;  // points whose nearest one is searched
+constexpr double kSpacings = 10, kTimes = 8;
+
+double median_edge(const LoopIds& loop, const Truth& truth) {
+  std::vector<double> lengths;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const double length =
+        (truth.positions[loop[i]] - truth.positions[loop[(i + 1) % loop.size()]]).stableNorm();
+    if (length >= 0) lengths.push_back(length);  // of finite points
+  }
+  return median(std::move(lengths));
+}
+
+double median_nearest(const LoopIds& loop, const Truth& truth) {
+  std::vector<std::uint64_t> places;
+  for (const std::uint64_t id : loop) {
+    if (truth.positions[id].allFinite()) places.push_back(truth.stand_ins[id]);
+  }
+  sort_once(places);
+  std::vector<Eigen::Vector3d> points;
+  for (const std::uint64_t place : places) points.push_back(truth.positions[place]);
+  const PointTree tree(points);
+  std::vector<double> distances;
+  for (std::size_t i = 0; i < points.size(); i += points.size() / kMostTaken + 1) {
+    const std::vector<double> nearest = tree.nearest_distances(points[i], 2);
+    if (nearest.size() == 2) distances.push_back(nearest[1]);
+  }
+  return median(std::move(distances));
+}
+
+// Throws `Error` at the first loop of 16 points or more whose points are in no order. Half of its edges are
+// longer than 10 spacings of the scan, and than 8 times the median distance to the nearest other point. That
+// ratio is 1 to 2 in a loop along a curve. Through random points, it is the root of their number. To match
+// such loops takes hours, because their edges are near everything. Cost: n log n.
+void check_order(const Result& result, const Truth& truth) {
+  for (std::size_t i = 0; i < result.loops.size(); ++i) {
+    const LoopIds& loop = result.loops[i];
+    if (loop.size() < kLeastPoints) continue;
+    const double edge = median_edge(loop, truth);
+    if (edge <= kSpacings * truth.spacing) continue;
+    const double nearest = median_nearest(loop, truth);
+    if (edge <= kTimes * nearest) continue;
+    throw Error(fmt::format(
+        "{}: loop {} (from 0): its points are not in order along a curve: half of its {} edges are longer "
+        "than "
+        "{:.3g}, and the nearest points only {:.3g} apart; the ids of a loop must follow its curve",
+        result.file.string(), i, loop.size(), edge, nearest));
+  }
+}
+
+}  // namespace
 
 Evaluation evaluate(const Result& result, const Truth& truth, const EvaluationRule& rule) {
   if (result.points && *result.points != truth.positions.size()) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/evaluation/cloud_score.hpp"
+#include "bench/evaluation/print.hpp"
 #include "bench/program/commands.hpp"
 #include "bench/program/rule_options.hpp"
 #include "engine/run/error.hpp"

@@ -1,17 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// Candidates: points whose Pi exceeds the threshold (paper, 5.1). This finds which of them belong to the
-// boundary.
+// candidates: points whose Pi exceeds the threshold, and which of them belong to the boundary (paper, 5.1;
+// method.md, B.1).
+//
+// Idea: a boundary point lies between two other boundary points. So a candidate stays boundary only while
+// both of its gap neighbours are. That is a greatest fixed point, which tiles reach in any order.
+//
+// Source: the paper, 5.1. Cost: linear in the candidates.
 #pragma once
 
-#include "engine/boundary/coherence.hpp"
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/run/parallel.hpp"
 #include "engine/run/phase.hpp"
 #include "engine/store/row_set.hpp"
 
 #include <cstdint>
+#include <span>
 
 namespace lacuna {
+
+// A candidate that has gap neighbours; without any it is none.
+struct Candidate {
+  Row row;
+  Row gap_near, gap_far;
+};
 
 struct CandidatePoint : ScanPoint {
   float probability;

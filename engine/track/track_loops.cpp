@@ -2,16 +2,216 @@
 #include "engine/track/track_loops.hpp"
 
 #include "engine/loops/confidence.hpp"
-#include "engine/track/near_loops.hpp"
+#include "engine/store/column_writer.hpp"
+#include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
-#include <cstdint>
+#include <array>
+#include <cmath>
+#include <compare>
+#include <filesystem>
 #include <iterator>
 #include <numeric>
-#include <span>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace lacuna {
+
+// ---- Which loops run along each other
+
+namespace {
+
+using CellOfLattice = std::array<double, 3>;  // whole numbers
+
+// A cell that a loop passes through.
+struct LoopCell {
+  CellOfLattice cell;
+  std::uint64_t loop;
+
+  friend auto operator<=>(const LoopCell&, const LoopCell&) = default;
+};
+
+// A cell of loop a that is near loop b.
+struct SharedCell {
+  std::uint32_t a, b;
+
+  friend auto operator<=>(const SharedCell&, const SharedCell&) = default;
+};
+
+using CellSort = SortedRuns<LoopCell>;
+using SharedSort = SortedRuns<SharedCell>;
+
+// An edge of a loop is drawn in at most this many steps: to a far outlier it may be as long as the scan.
+constexpr double kMostSteps = 16;
+
+// Calls visit(cell) for each cell that the closed loop passes through at steps of an edge or less. Some cells
+// are visited several times.
+template <class Visit>
+void draw(const Loops& loops, std::size_t loop, double edge, Visit&& visit) {
+  std::optional<CellOfLattice> last;
+  const auto pass = [&](const Eigen::Vector3d& p) {
+    const CellOfLattice cell{std::floor(p.x() / edge), std::floor(p.y() / edge), std::floor(p.z() / edge)};
+    if (last != cell) visit(cell);
+    last = cell;
+  };
+  std::optional<Eigen::Vector3d> first, before;
+  const auto go_to = [&](const Eigen::Vector3d& to) {
+    const Eigen::Vector3d way = to - *before;
+    const double steps = std::min(std::ceil(way.norm() / edge), kMostSteps);
+    for (double step = 1; step < steps; ++step) pass(*before + way * (step / steps));
+    pass(to);
+    before = to;
+  };
+  loops.for_each_point(loop, [&](const LoopPoint& p) {
+    const Eigen::Vector3d position = p.position();
+    if (first) {
+      go_to(position);
+    } else {
+      first = before = position;
+      pass(position);
+    }
+  });
+  go_to(*first);
+}
+
+void add_cells(const LevelLoops& level, std::uint32_t first, double edge, CellSort& cells) {
+  for (std::size_t i = 0; i < level.loops.size(); ++i) {
+    if (!could_be_tracked(level.loops.evidence(i))) continue;
+    draw(level.loops, i, edge, [&](const CellOfLattice& cell) { cells.add({cell, first + i}); });
+  }
+}
+
+// Returns all cells of all loops, each once, in order.
+Column<LoopCell> sorted_cells(CellSort& cells, std::filesystem::path path) {
+  Column<LoopCell> sorted(std::move(path));
+  ColumnWriter<LoopCell> writer(sorted);
+  std::optional<LoopCell> last;
+  cells.for_each([&](const LoopCell& c) {
+    if (last != c) writer.add(c);
+    last = c;
+  });
+  writer.finish();
+  return sorted;
+}
+
+// The cells of one row of the lattice, at a fixed offset from the current cell. The row moves on as the
+// current cell does.
+class RowOfCells {
+ public:
+  RowOfCells(const Column<LoopCell>& cells, double x, double y)
+      : cells_(cells), size_(cells.size()), x_(x), y_(y) {}
+
+  // Calls visit(loop) for each loop that passes through one of the three cells in this row.
+  template <class Visit>
+  void for_each_near(const CellOfLattice& at, Visit&& visit) {
+    const CellOfLattice low{at[0] + x_, at[1] + y_, at[2] - 1}, high{low[0], low[1], at[2] + 1};
+    while (next_ < size_ && cells_[next_].cell < low) ++next_;
+    for (std::uint64_t i = next_; i < size_ && cells_[i].cell <= high; ++i)
+      visit(static_cast<std::uint32_t>(cells_[i].loop));
+  }
+
+ private:
+  ColumnReader<LoopCell> cells_;
+  std::uint64_t size_;
+  std::uint64_t next_ = 0;
+  double x_, y_;
+};
+
+// Goes along the cells in order, with the nine rows around. It counts the cells of each loop. A pair counts
+// where one of its loops belongs to the coarse level.
+void add_shared(const Column<LoopCell>& cells, std::uint32_t first_coarse,
+                std::vector<std::uint32_t>& own_cells, SharedSort& shared) {
+  std::vector<RowOfCells> rows;
+  for (const double x : {-1, 0, 1}) {
+    for (const double y : {-1, 0, 1}) rows.emplace_back(cells, x, y);
+  }
+  ColumnReader<LoopCell> reader(cells);
+  std::vector<std::uint32_t> near;
+  std::optional<CellOfLattice> last;
+  for (std::uint64_t i = 0; i < cells.size(); ++i) {
+    const LoopCell at = reader[i];
+    if (last != at.cell) {
+      near.clear();
+      for (RowOfCells& row : rows)
+        row.for_each_near(at.cell, [&](std::uint32_t loop) { near.push_back(loop); });
+      std::sort(near.begin(), near.end());
+      near.erase(std::unique(near.begin(), near.end()), near.end());
+      last = at.cell;
+    }
+    const auto a = static_cast<std::uint32_t>(at.loop);
+    ++own_cells[a];
+    for (const std::uint32_t b : near) {
+      if (a != b && std::max(a, b) >= first_coarse) shared.add({a, b});
+    }
+  }
+}
+
+// Both directions of a pair are wanted at a time, so pairs are sorted again by their lower loop.
+std::vector<NearLoops> pairs_of(SharedSort& shared, const std::vector<std::uint32_t>& own_cells) {
+  std::vector<NearLoops> pairs;
+  std::optional<SharedCell> last;
+  std::uint32_t count = 0;
+  const auto add = [&] {
+    if (!last || 2 * std::uint64_t{count} < own_cells[last->a]) return;
+    const float share = static_cast<float>(count) / static_cast<float>(own_cells[last->a]);
+    if (last->a < last->b)
+      pairs.push_back({last->a, last->b, share, 0});
+    else
+      pairs.push_back({last->b, last->a, 0, share});
+  };
+  shared.for_each([&](const SharedCell& s) {
+    if (last != s) {
+      add();
+      count = 0;
+    }
+    last = s;
+    ++count;
+  });
+  add();
+  std::sort(pairs.begin(), pairs.end());
+  std::size_t kept = 0;
+  for (const NearLoops& pair : pairs) {
+    if (kept > 0 && pairs[kept - 1].a == pair.a && pairs[kept - 1].b == pair.b) {
+      pairs[kept - 1].of_a += pair.of_a;
+      pairs[kept - 1].of_b += pair.of_b;
+    } else {
+      pairs[kept++] = pair;
+    }
+  }
+  pairs.resize(kept);
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<NearLoops> near_loops(std::span<const LevelLoops> levels, const Spill& spill,
+                                  const Workers& workers) {
+  std::vector<std::uint32_t> first = {0};
+  for (const LevelLoops& level : levels)
+    first.push_back(first.back() + static_cast<std::uint32_t>(level.loops.size()));
+  const MemoryLedger::Lease sorting = workers.memory.ledger.take(workers.memory.work / 2);
+  const std::uint64_t budget = sorting.bytes() / 2 / std::min(workers.arena.threads(), levels.size());
+  std::vector<std::vector<NearLoops>> pairs(levels.size());  // by the coarser level
+  workers.arena.for_each(levels.size(), [&](std::size_t coarse) {
+    const auto file = [&](const char* name) { return spill.file(name + std::to_string(coarse)); };
+    CellSort cells(file("loop-cells-"), budget);
+    for (std::size_t l = coarse - std::min(coarse, kBridged + 1); l <= coarse; ++l)
+      add_cells(levels[l], first[l], levels[coarse].cell_edge, cells);
+    std::vector<std::uint32_t> own_cells(first.back());
+    SharedSort shared(file("shared-cells-"), budget);
+    add_shared(sorted_cells(cells, file("sorted-loop-cells-")), first[coarse], own_cells, shared);
+    pairs[coarse] = pairs_of(shared, own_cells);
+  });
+  std::vector<NearLoops> all;
+  for (const std::vector<NearLoops>& of_level : pairs)
+    all.insert(all.end(), of_level.begin(), of_level.end());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+// ---- Which of them are chosen
+
 namespace {
 
 // A loop of any level, and the levels of its track.
@@ -75,8 +275,8 @@ std::vector<double> ranks_of(std::span<const TrackedLoop> loops) {
 
 // Goes down from the highest rank. A loop is chosen unless a chosen loop is at the same place. At the same
 // place are loops that run along half of it, and loops that run along loops of the same hole. A coarse
-// cell may hold an opening and the curve around it. So a loop of the other kind that begins at its level, or a
-// finer one, is a curve of its own.
+// cell may hold an opening and the curve around it. So a loop of the other kind that begins at its level, or
+// a finer one, is a curve of its own.
 std::vector<std::uint32_t> choose(std::span<const NearLoops> pairs, std::span<const TrackedLoop> loops) {
   const std::vector<double> ranks = ranks_of(loops);
   struct Neighbour {

@@ -6,7 +6,7 @@
 #include "tests/support/json.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/skip.hpp"
-#include "tests/support/small_disk.hpp"
+#include "tests/support/system.hpp"
 
 #include <sys/stat.h>
 #include <unistd.h>

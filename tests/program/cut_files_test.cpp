@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files of the workspace that change or stay behind while a run goes on.
 #include "tests/support/clouds.hpp"
-#include "tests/support/open_files.hpp"
 #include "tests/support/run_program.hpp"
+#include "tests/support/system.hpp"
 
 namespace lacuna::test {
 namespace {

@@ -3,9 +3,9 @@
 // neither.
 #include "tests/support/clouds.hpp"
 #include "tests/support/drawn_files.hpp"
-#include "tests/support/grid_places.hpp"
 #include "tests/support/json.hpp"
 #include "tests/support/run_program.hpp"
+#include "tests/tools/matching/drawn.hpp"
 
 namespace lacuna::test {
 namespace {
@@ -45,7 +45,7 @@ struct Grid {
   }
   std::string around(int x, int y, int width, int height) const {
     std::string line;
-    for (const auto& place : places_around(x, y, width, height)) line += std::to_string(ids.at(place)) + " ";
+    for (const auto& place : matching::places_around(x, y, width, height)) line += std::to_string(ids.at(place)) + " ";
     return line;
   }
 };

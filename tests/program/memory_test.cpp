@@ -5,7 +5,6 @@
 #include "tests/support/hostile.hpp"
 #include "tests/support/json.hpp"
 #include "tests/support/las_file.hpp"
-#include "tests/support/laz_data.hpp"
 #include "tests/support/run_program.hpp"
 
 namespace lacuna::test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loops as OBJ, and lids as PLY: read back here, and compared with holes.json of the same run.
-#include "bench/evaluation/mesh_reader.hpp"
+#include "bench/evaluation/loops_reader.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/json.hpp"

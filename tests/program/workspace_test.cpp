@@ -4,7 +4,7 @@
 #include "tests/support/run_program.hpp"
 #include "tests/support/sheet.hpp"
 #include "tests/support/skip.hpp"
-#include "tests/support/small_disk.hpp"
+#include "tests/support/system.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points of loops from vectors.
+// Points of loops from vectors, and loops that are drawn by a test, with their measures.
 #pragma once
 
+#include "engine/loops/measure_loops.hpp"
 #include "engine/model/loop.hpp"
 #include "tests/support/test.hpp"
 
@@ -22,5 +23,15 @@ inline Eigen::Map<Eigen::Vector3f> surface_of(LoopPoint& point) {
 inline Eigen::Vector3f surface_of(const LoopPoint& point) {
   return Eigen::Vector3f(point.surface.data());
 }
+
+struct DrawnLoop {
+  std::vector<Eigen::Vector3d> points;
+  LoopKind kind = LoopKind::kHole;
+};
+
+// A square, with `on_side` points from a corner to the next.
+DrawnLoop square(double half, LoopKind kind, const Eigen::Vector3d& centre = {0, 0, 0}, int on_side = 5);
+
+MeasuredLoops measured(std::span<const DrawnLoop> drawn, const std::filesystem::path& folder);
 
 }  // namespace lacuna::test

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/run/folders.hpp"
 
-#include "tests/support/processes.hpp"
-#include "tests/support/resource_limit.hpp"
+#include "tests/support/system.hpp"
 #include "tools/run/folder_lock.hpp"
 
 namespace lacuna::test {

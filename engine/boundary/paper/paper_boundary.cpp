@@ -1,69 +1,69 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/paper/paper_boundary.hpp"
 
-#include "engine/boundary/paper/component_loops.hpp"
-#include "engine/boundary/paper/partial_spanning.hpp"
+#include "engine/boundary/paper/spanning.hpp"
+#include "engine/evaluate/evaluate.hpp"
+#include "engine/store/row_numbers.hpp"
 #include "engine/store/row_runs.hpp"
+#include "engine/store/scratch.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <utility>
 
 namespace lacuna::paper {
+
+// ---- Eligible edges
+
+double eligible_weight(const Strength& a, const Strength& b, double distance, const SpanningConfig& config) {
+  constexpr double kNot = -1;
+  const double prob_weight = (2 - double{a.probability}) - double{b.probability};
+  if (!(prob_weight < config.max_prob_weight)) return kNot;
+  const double total = prob_weight + round_to_step(2 * distance / (a.mean_distance + b.mean_distance));
+  return total < config.max_total_weight ? total : kNot;
+}
+
+bool is_strong(double probability, const SpanningConfig& config) {
+  return probability >
+         1 - config.max_prob_weight / 2 - kProbabilityStep;  // one step of slack for the halving
+}
+
+TileEdges eligible_edges(const TilePoints& points, const Neighbourhoods& neighbourhoods,
+                         std::span<const Evaluation> evaluations, const SpanningConfig& config) {
+  const auto strength = [&](LocalIndex p) {
+    return Strength{evaluations[p].mean_distance, static_cast<float>(evaluations[p].probability)};
+  };
+  TileEdges edges;
+  for (LocalIndex p = 0; p < points.owned; ++p) {
+    if (!is_strong(evaluations[p].probability, config)) continue;
+    for (const LocalIndex q : neighbourhoods[p]) {
+      const double distance = std::sqrt(squared_distance(points.positions[p], points.positions[q]));
+      if (!points.is_owned(q)) {
+        edges.crossings.push_back({p, q, distance});
+        continue;
+      }
+      const bool sent_by_other =
+          is_strong(evaluations[q].probability, config) && points.ids[q] < points.ids[p];
+      if (sent_by_other) continue;
+      const double weight = eligible_weight(strength(p), strength(q), distance, config);
+      if (weight >= 0) edges.inside.push_back({p, q, weight});
+    }
+  }
+  return edges;
+}
+
+// ---- The boundary of a tile
+
 namespace {
-
-// Measured: edges, vertices and graph of a component while it is spanned.
-constexpr std::uint64_t kBytesPerEdge = 120;
-
-// Measured as well, for each vertex of a tile.
-constexpr std::uint64_t kBytesPerVertex = 280;
 
 // What a tile emits.
 constexpr RecordStream<LocalIndex> kBorder{"border"};      // points with foreign neighbours, ascending
 constexpr RecordStream<Strength> kStrengths{"strengths"};  // of the border points
 constexpr RecordStream<TileEdge> kInside{"edges"};         // eligible ones
 constexpr RecordStream<UndecidedCrossing> kUndecided{"undecided crossings"};
-
-// Returns the steps around the smallest hole that edges of neighbourhoods of K points do not cross.
-std::int64_t minimum_loop(const SpanningConfig& config, double mean_neighbours) {
-  return config.e > 0 ? config.e : std::llround(2 * std::sqrt(std::numbers::pi * mean_neighbours));
-}
-
-// The vertices that a tile knows. First come its own ends of eligible edges, in ascending row. Then come the
-// ends of its crossing edges in other tiles.
-class TileVertices {
- public:
-  TileVertices(const Tile& tile, std::span<const TileVertex> own, std::span<const EligibleCrossing> crossings)
-      : own_(static_cast<LocalIndex>(own.size())), numbers_(tile.points) {
-    for (LocalIndex v = 0; v < own_; ++v) {
-      numbers_[own[v].owned] = v;
-      rows_.push_back(tile.row(own[v].owned));
-      ids_.push_back(own[v].id);
-    }
-    for (const EligibleCrossing& crossing : crossings) foreign_.push_back(crossing.foreign.row);
-    std::sort(foreign_.begin(), foreign_.end());
-    foreign_.erase(std::unique(foreign_.begin(), foreign_.end()), foreign_.end());
-    rows_.insert(rows_.end(), foreign_.begin(), foreign_.end());
-    ids_.resize(rows_.size());
-    for (const EligibleCrossing& crossing : crossings) ids_[foreign(crossing)] = crossing.foreign.id;
-  }
-
-  KnownVertices known() const { return {ids_, own_}; }
-  LocalIndex own(LocalIndex point) const { return numbers_[point]; }
-  LocalIndex foreign(const EligibleCrossing& crossing) const {
-    const auto at = std::lower_bound(foreign_.begin(), foreign_.end(), crossing.foreign.row);
-    return own_ + static_cast<LocalIndex>(at - foreign_.begin());
-  }
-  Vertex operator[](LocalIndex v) const { return {ids_[v], rows_[v]}; }
-
- private:
-  LocalIndex own_;
-  std::vector<LocalIndex> numbers_;  // by the tile's points; a point that is no vertex may have any number
-  std::vector<Row> rows_, foreign_;
-  std::vector<PointId> ids_;
-};
 
 }  // namespace
 
@@ -140,6 +140,57 @@ void PaperBoundary::decide_crossings(const TileOutputs& outputs, TileIndex t) {
   crossings_.append(t, here);
 }
 
+// ---- The loops
+
+namespace {
+
+// The vertices that a tile knows. First come its own ends of eligible edges, in ascending row. Then come the
+// ends of its crossing edges in other tiles.
+class TileVertices {
+ public:
+  TileVertices(const Tile& tile, std::span<const TileVertex> own, std::span<const EligibleCrossing> crossings)
+      : own_(static_cast<LocalIndex>(own.size())), numbers_(tile.points) {
+    for (LocalIndex v = 0; v < own_; ++v) {
+      numbers_[own[v].owned] = v;
+      rows_.push_back(tile.row(own[v].owned));
+      ids_.push_back(own[v].id);
+    }
+    for (const EligibleCrossing& crossing : crossings) foreign_.push_back(crossing.foreign.row);
+    std::sort(foreign_.begin(), foreign_.end());
+    foreign_.erase(std::unique(foreign_.begin(), foreign_.end()), foreign_.end());
+    rows_.insert(rows_.end(), foreign_.begin(), foreign_.end());
+    ids_.resize(rows_.size());
+    for (const EligibleCrossing& crossing : crossings) ids_[foreign(crossing)] = crossing.foreign.id;
+  }
+
+  KnownVertices known() const { return {ids_, own_}; }
+  LocalIndex own(LocalIndex point) const { return numbers_[point]; }
+  LocalIndex foreign(const EligibleCrossing& crossing) const {
+    const auto at = std::lower_bound(foreign_.begin(), foreign_.end(), crossing.foreign.row);
+    return own_ + static_cast<LocalIndex>(at - foreign_.begin());
+  }
+  Vertex operator[](LocalIndex v) const { return {ids_[v], rows_[v]}; }
+
+ private:
+  LocalIndex own_;
+  std::vector<LocalIndex> numbers_;  // by the tile's points; a point that is no vertex may have any number
+  std::vector<Row> rows_, foreign_;
+  std::vector<PointId> ids_;
+};
+
+// row_of(v): the row of a vertex of the graph.
+template <class RowOf>
+void find_loops_of(const SpanningGraph& graph, RowOf&& row_of, Scratch& scratch, RawLoops& loops) {
+  std::vector<Vertex> loop;
+  find_loops(graph, scratch, [&](std::span<const LocalIndex> found) {
+    loop.clear();
+    for (const LocalIndex v : found) loop.push_back({graph.ids[v], row_of(v)});
+    loops.add(loop);
+  });
+}
+
+}  // namespace
+
 // Finds the loops that do not depend on anything outside of the tile. Edges that may matter elsewhere are
 // passed on.
 void PaperBoundary::span_tile(const TileOutputs& outputs, TileIndex t) {
@@ -173,6 +224,21 @@ void PaperBoundary::span_tile(const TileOutputs& outputs, TileIndex t) {
   stitch_->add(t, graph);
 }
 
+namespace {
+
+// Measured: edges, vertices and graph of a component while it is spanned.
+constexpr std::uint64_t kBytesPerEdge = 120;
+
+// Measured as well, for each vertex of a tile.
+constexpr std::uint64_t kBytesPerVertex = 280;
+
+// Returns the steps around the smallest hole that edges of neighbourhoods of K points do not cross.
+std::int64_t minimum_loop(const SpanningConfig& config, double mean_neighbours) {
+  return config.e > 0 ? config.e : std::llround(2 * std::sqrt(std::numbers::pi * mean_neighbours));
+}
+
+}  // namespace
+
 void PaperBoundary::stitch(const TileOutputs& outputs, const Totals& totals) {
   minimum_loop_ = minimum_loop(config_, totals.mean_neighbours());
   stitch_.emplace(tiling_.tiles.size(), kBytesPerEdge, spill_, workers_);
@@ -184,6 +250,48 @@ void PaperBoundary::stitch(const TileOutputs& outputs, const Totals& totals) {
   workers_.for_each_within(workers_.memory.work, needs,
                            [&](std::size_t t) { span_tile(outputs, static_cast<TileIndex>(t)); });
 }
+
+namespace {
+
+// Finds the loops of one component of the boundary graph, spanned with the edges that all tiles have passed
+// on. `edge_count`: edges of the whole component, in any order. `e`: an edge may close a loop of more than e
+// edges. `memory`: bytes. Arrays beyond it are mapped from files.
+//
+// Vertices are numbered by row: near in space, near in memory.
+void find_component_loops(const Stitch<BoundaryEdge>::ForEachRecord& for_each_edge, std::uint64_t edge_count,
+                          std::int64_t e, std::uint64_t memory, const Spill& spill, RawLoops& loops) {
+  if (edge_count <= static_cast<std::uint64_t>(e)) return;  // a loop has more
+  RowNumbers rows;
+  rows.collect(edge_count, [&](auto&& add) {
+    for_each_edge([&](const BoundaryEdge& edge) {
+      add(edge.a.row);
+      add(edge.b.row);
+    });
+  });
+  if (rows.size() <= static_cast<std::uint64_t>(e)) return;
+  Scratch scratch(spill.folder, memory / 3);
+  const std::span<PointId> ids = scratch.array<PointId>(rows.size());
+  for_each_edge([&](const BoundaryEdge& edge) {
+    scratch.trim();
+    ids[rows.number(edge.a.row)] = edge.a.id;
+    ids[rows.number(edge.b.row)] = edge.b.id;
+  });
+  const auto for_each_passed = [&](const std::function<void(const PassedEdge&)>& visit) {
+    for_each_edge([&](const BoundaryEdge& edge) {
+      visit({rows.number(edge.a.row), rows.number(edge.b.row), edge.weight, edge.is_taken != 0});
+    });
+  };
+  SpanningGraph cycles;
+  {
+    Scratch work(spill.folder, memory / 2);
+    cycles = keep_cycles(span_whole(ids, for_each_passed, e, memory / 6, work), scratch);
+  }
+  Scratch search(spill.folder, memory / 3 * 2);
+  find_loops_of(
+      cycles, [&](LocalIndex v) { return rows.row(v); }, search, loops);
+}
+
+}  // namespace
 
 FoundLoops PaperBoundary::find_loops(const TileOutputs& outputs) {
   stitch_->for_each_component([&](const auto& for_each_edge, std::uint64_t count, std::uint64_t memory) {

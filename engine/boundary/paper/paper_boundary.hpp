@@ -1,19 +1,66 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boundary edges of the paper are the eligible edges of G. The spanning graph admits an edge within a tree
-// only if it closes a long loop (paper, 5.1). Breadth-first search finds the loops in this graph (5.2).
+// paper_boundary: boundary edges of the paper are the eligible edges of G (paper, 5.1 and 5.2; method.md, B).
+//
+// Idea: edges between likely boundary points are eligible. The spanning graph admits an edge within a tree
+// only if it closes a long loop (spanning.hpp). Breadth-first search finds the loops in this graph
+// (loops.hpp). Each tile decides what it can: most edges, and the loops that lead to no other tile. It passes
+// on the other edges. They are stitched by component, spanned again and searched. A component larger than
+// memory is sorted on disk and spanned in mapped arrays.
+//
+// Source: the paper, 5.1 and 5.2. Cost: a sort of the eligible edges, and searches of a few steps for each.
 #pragma once
 
 #include "engine/boundary/boundary_method.hpp"
-#include "engine/boundary/paper/eligible_edges.hpp"
-#include "engine/boundary/paper/raw_loops.hpp"
+#include "engine/boundary/paper/loops.hpp"
+#include "engine/config/config.hpp"
+#include "engine/criteria/evaluation.hpp"
+#include "engine/model/boundary_graph.hpp"
+#include "engine/model/neighbourhoods.hpp"
 #include "engine/stitch/stitch.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/column.hpp"
 
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace lacuna::paper {
+
+// ---- Eligible edges: those of the proximity graph that may enter the spanning graph
+
+// The values of one end of an edge on which the edge's weight depends.
+struct Strength {
+  double mean_distance;       // r_p
+  float probability;          // Pi
+  std::uint32_t padding = 0;  // zeros, so that every byte on disk is defined
+};
+
+// Returns w_total of an eligible edge: w_prob < max_prob_weight and w_total < max_total_weight. Returns a
+// negative number if the edge is not eligible. Exact in double precision.
+double eligible_weight(const Strength& a, const Strength& b, double distance, const SpanningConfig& config);
+
+using TileEdge = WeightedEdge;  // between owned points
+
+// An edge from an owned point to a foreign one whose Pi is not known yet.
+struct Crossing {
+  LocalIndex owned;
+  LocalIndex foreign;
+  double distance;
+};
+
+struct TileEdges {
+  std::vector<TileEdge> inside;     // eligible, each edge once
+  std::vector<Crossing> crossings;  // from owned points strong enough to make the edge eligible
+};
+
+// An edge is eligible only if one of its ends is strong: Pi > 1 - max_prob_weight / 2. So only the
+// neighbours of strong points are compared, and the tile of each strong end reports an edge between tiles.
+TileEdges eligible_edges(const TilePoints& points, const Neighbourhoods& neighbourhoods,
+                         std::span<const Evaluation> evaluations, const SpanningConfig& config);
+bool is_strong(double probability, const SpanningConfig& config);
+
+// ---- The boundary
 
 // An edge out of the tile, to be decided once Pi of its foreign end is known.
 struct UndecidedCrossing {
@@ -29,9 +76,6 @@ struct EligibleCrossing {
   double weight;
 };
 
-// Each tile decides what it can: most edges, and the loops that lead to no other tile. It passes on the other
-// edges. They are stitched by component, spanned again and searched. A component larger than memory is sorted
-// on disk and spanned in mapped arrays.
 class PaperBoundary final : public BoundaryMethod {
  public:
   PaperBoundary(const Tiling& tiling, const SpanningConfig& config, const Spill& spill,

@@ -1,18 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-// spanning: the minimum spanning graph that admits long loops only (paper, 5.1).
+// spanning: the minimum spanning graph that admits long loops only, of one tile and of all (paper, 5.1;
+// method.md, B.2).
+//
+// Idea: a minimum spanning tree has no loops. So the graph also takes an edge within a tree if the loop that
+// it closes is long enough to go around a hole. Whether it is depends on paths of fewer than e edges alone.
+// So a tile decides most edges by itself, passes on the others, and a search over what all tiles passed on
+// decides those.
+//
+// Source: the paper, 5.1; bridges: Tarjan, A note on finding the bridges of a graph, 1974.
+// Cost: a sort of the edges, and for each edge within a tree the vertices within e / 2 steps.
 #pragma once
 
-#include "engine/boundary/paper/path_search.hpp"
 #include "engine/model/boundary_graph.hpp"
+#include "engine/model/ids.hpp"
 #include "engine/stitch/union_find.hpp"
 #include "engine/store/scratch.hpp"
 
 #include <array>
+#include <cassert>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace lacuna::paper {
+
+// Sorts the edges ascending by (weight, lower id, higher id). Weights: multiples of kProbabilityStep, at
+// least 0 and at most 1e9. `ids`: the id of each vertex. Cost: linear except for edges of equal weight; as
+// much memory again.
+void order_edges(std::vector<WeightedEdge>& edges, std::span<const PointId> ids);
 
 // Vertices are numbered in any way (near in number, near in memory); list v holds the neighbours of v in
 // ascending order of their ids.
@@ -26,6 +44,53 @@ struct SpanningGraph {
     return indices.subspan(offsets[v], offsets[v + 1] - offsets[v]);
   }
 };
+
+// Finds whether a path of few edges joins two vertices. Two balls grow towards each other, the smaller front
+// first. It keeps its memory for the next search.
+class PathSearch {
+ public:
+  // Returns whether there is a path of at most `limit` edges. `mark_of(v)` is a number of vertex v, by
+  // reference. It is 0 before the first search. `for_each_neighbour(v, visit)` calls `visit(w)`. Cost: the
+  // vertices within limit / 2 steps.
+  template <class MarkOf, class ForEachNeighbour>
+  bool connects(LocalIndex a, LocalIndex b, std::int64_t limit, MarkOf&& mark_of,
+                ForEachNeighbour&& for_each_neighbour) {
+    assert(stamp_ <= std::numeric_limits<std::uint32_t>::max() - 4);
+    stamp_ += 2;
+    std::uint32_t here = stamp_, there = stamp_ + 1;
+    near_.assign(1, a);
+    far_.assign(1, b);
+    mark_of(a) = here;
+    mark_of(b) = there;
+    for (std::int64_t length = 0; length < limit && !near_.empty() && !far_.empty(); ++length) {
+      if (near_.size() > far_.size()) {
+        near_.swap(far_);
+        std::swap(here, there);
+      }
+      // One step of the near front, until it touches the far ball.
+      bool touches = false;
+      next_.clear();
+      for (const LocalIndex v : near_) {
+        for_each_neighbour(v, [&](LocalIndex w) {
+          std::uint32_t& mark = mark_of(w);
+          if (mark == there) touches = true;
+          if (mark >= stamp_) return;
+          mark = here;
+          next_.push_back(w);
+        });
+        if (touches) return true;
+      }
+      near_.swap(next_);
+    }
+    return false;
+  }
+
+ private:
+  std::uint32_t stamp_ = 0;
+  std::vector<LocalIndex> near_, far_, next_;  // fronts
+};
+
+// ---- One graph, edge by edge
 
 enum class EdgeDecision : std::uint8_t { taken, left_out, undecided };
 
@@ -84,5 +149,66 @@ class Spanning {
   std::span<std::uint32_t> nearness_;
   std::int64_t horizon_;
 };
+
+// ---- Cycles: the edges of a spanning graph that can lie on a loop
+
+// Returns the graph without its bridges and the trees that hang off it. The edges that lie on some cycle
+// remain, in the same order. A search for loops gives the same result: vertices beyond a bridge stay in one
+// branch and join no two branches. Cost: linear.
+SpanningGraph keep_cycles(const SpanningGraph& graph, Scratch& scratch);
+
+// The cycles of a graph of which only a part is known. The unknown part may lie on either side of its
+// bridges.
+struct PartCycles {
+  SpanningGraph complete;                   // cycles that do not touch the rest of the graph
+  std::span<const std::uint8_t> leads_out;  // by vertex: no bridge cuts it off from the open ones
+};
+
+// `open`: vertices that may have more edges than are known here; ascending, each once. A path between
+// vertices that lead out passes only such vertices. So does every loop through one of them. Without open
+// vertices all cycles are complete. Cost: linear.
+PartCycles split_cycles(const SpanningGraph& graph, std::span<const LocalIndex> open, Scratch& scratch);
+
+// ---- In parts: what a tile decides alone, and the graph of the edges that all tiles have passed on
+
+// The owned vertices, then the foreign ones at the other ends of their edges.
+struct KnownVertices {
+  std::span<const PointId> ids;
+  LocalIndex owned;
+
+  LocalIndex size() const { return static_cast<LocalIndex>(ids.size()); }
+  // Two tiles have an edge between them; the one that owns the lower id reports it. a: owned.
+  bool reports(const WeightedEdge& edge) const { return edge.b < owned || ids[edge.a] < ids[edge.b]; }
+};
+
+struct PartialSpanning {
+  SpanningGraph complete;  // whose loops are loops of the whole
+  // Edges that are passed on, in any order. Taken edges are in the graph for certain, undecided edges may be.
+  std::vector<WeightedEdge> taken, undecided;
+  std::span<LocalIndex> links;  // links of a UnionFind: vertices that all edges of the tile connect
+};
+
+// `edges`: all edges that have an owned end, in any order; a: owned. `span_whole` joins the edges that all
+// tiles pass on to one graph. The loops of that graph and the complete ones are all loops of the whole. Most
+// edges are certainly left out, and are not passed on. Trees, and cycles beyond a bridge, are not passed on
+// either: no loop needs them. Without foreign vertices nothing is passed on. The graph lives in `scratch`.
+// The cost is the cost of spanning the tile.
+PartialSpanning span_partially(const KnownVertices& vertices, std::vector<WeightedEdge> edges, std::int64_t e,
+                               Scratch& scratch);
+
+struct PassedEdge {
+  LocalIndex a, b;
+  double weight;
+  bool is_taken;  // for certain; else undecided
+};
+// Calls visit(edge) for each edge, in any order, as often as wanted.
+using ForEachPassedEdge = std::function<void(const std::function<void(const PassedEdge&)>&)>;
+
+// Taken edges are in the graph. Undecided edges are decided in ascending order of (w_total, lower id, higher
+// id), by a search among edges before them. So it is the graph that `Spanning` builds from all edges. `ids`:
+// the id of each vertex. Vertices are numbered so that edges of one part lie near each other in memory. The
+// graph lives in `scratch`. Cost: linear, and a search for each undecided edge.
+SpanningGraph span_whole(std::span<const PointId> ids, const ForEachPassedEdge& for_each_edge, std::int64_t e,
+                         std::uint64_t sort_budget, Scratch& scratch);
 
 }  // namespace lacuna::paper

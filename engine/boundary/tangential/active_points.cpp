@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/tangential/active_points.hpp"
 
-#include "engine/boundary/tangential/consistency.hpp"
-#include "engine/boundary/tangential/radius_bound.hpp"
-
 #include <algorithm>
 #include <array>
 #include <memory>

@@ -3,7 +3,7 @@
 #define HWY_TARGET_INCLUDE "engine/boundary/tangential/consistency.cpp"
 // Each target includes what follows foreach_target.h.
 // clang-format off
-#include "engine/boundary/tangential/consistency.hpp"
+#include "engine/boundary/tangential/active_points.hpp"
 #include "engine/simd/targets.hpp"
 #include <hwy/foreach_target.h>
 #include "engine/simd/mask_bits-inl.hpp"

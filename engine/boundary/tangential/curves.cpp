@@ -2,37 +2,20 @@
 #include "engine/boundary/tangential/curves.hpp"
 
 #include "engine/evaluate/totals.hpp"
+#include "engine/run/error.hpp"
+#include "engine/stitch/union_find.hpp"
 #include "engine/store/row_numbers.hpp"
 #include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 namespace lacuna::tangential {
-namespace {
 
-// Returns place i of the curve as it is read from `start` on, in either direction.
-std::size_t place(std::size_t start, std::size_t i, bool forwards, std::size_t count) {
-  return forwards ? (start + i) % count : (start + count - i) % count;
-}
-
-// Returns the points that a curve passes more than once, ascending.
-std::span<const PointId> repeated_points(std::span<const CurveStep> curve, Scratch& scratch) {
-  SortedRuns<PointId> ids(scratch.folder() / "curve-ids", scratch.budget() / 4);
-  scratch.for_each(curve, [&](const CurveStep& p) { ids.add(p.id); });
-  const std::span<PointId> repeated = scratch.array<PointId>(curve.size() / 2);
-  std::size_t count = 0;
-  std::optional<PointId> before;
-  ids.for_each([&](PointId id) {
-    scratch.trim(sizeof(PointId));
-    if (before == id && (count == 0 || repeated[count - 1] != id)) repeated[count++] = id;
-    before = id;
-  });
-  return repeated.first(count);
-}
-
-}  // namespace
+// ---- From wedge to wedge
 
 std::vector<WedgePartners> partners_of(std::span<const Wedge> wedges) {
   RowNumbers points;
@@ -89,7 +72,14 @@ void follow_wedges(std::span<const Wedge> wedges, std::span<const WedgePartners>
   }
 }
 
+// ---- From a closed curve to loops
+
 namespace {
+
+// Returns place i of the curve as it is read from `start` on, in either direction.
+std::size_t place(std::size_t start, std::size_t i, bool forwards, std::size_t count) {
+  return forwards ? (start + i) % count : (start + count - i) % count;
+}
 
 // Writes the closed curve by the way whose keys come first. key_of(step): an id, or a place.
 template <class KeyOf>
@@ -122,6 +112,21 @@ void write_first_way(std::span<const CurveStep> curve, std::span<CurveStep> turn
     }
   }
   for (std::size_t i = 0; i < count; ++i) turned[i] = at(*best, i);
+}
+
+// Returns the points that a curve passes more than once, ascending.
+std::span<const PointId> repeated_points(std::span<const CurveStep> curve, Scratch& scratch) {
+  SortedRuns<PointId> ids(scratch.folder() / "curve-ids", scratch.budget() / 4);
+  scratch.for_each(curve, [&](const CurveStep& p) { ids.add(p.id); });
+  const std::span<PointId> repeated = scratch.array<PointId>(curve.size() / 2);
+  std::size_t count = 0;
+  std::optional<PointId> before;
+  ids.for_each([&](PointId id) {
+    scratch.trim(sizeof(PointId));
+    if (before == id && (count == 0 || repeated[count - 1] != id)) repeated[count++] = id;
+    before = id;
+  });
+  return repeated.first(count);
 }
 
 }  // namespace
@@ -205,6 +210,217 @@ void find_loops_along(std::span<const CurveStep> curve, Scale scale, const Wedge
     const LoopEvidence evidence = evidence_of(simple, scale, data, config, scratch);
     if (evidence.may_be_hole()) visit(simple, evidence);
   });
+}
+
+// ---- The curves of one tile
+
+namespace {
+
+constexpr RecordStream<OpenChain> kChains{"chains"};
+constexpr RecordStream<LocalIndex> kComponents{"components of chains"};
+constexpr RecordStream<CurvePoint> kChainPoints{"points of chains"};
+constexpr RecordStream<CurveTotals> kCurveTotals{"totals of curves"};
+constexpr RecordStream<TileLoops::Entry> kLoops{"loops"};
+constexpr RecordStream<LoopPoint> kLoopPoints{"points of loops"};
+
+// Returns the links of a union-find over chains. Wedges of one point, which are next to each other, connect
+// the chains that they are on.
+std::vector<LocalIndex> connect_chains(std::span<const Wedge> wedges, std::span<const LocalIndex> chain_of,
+                                       LocalIndex chains) {
+  std::vector<LocalIndex> links(chains);
+  UnionFind connected(links);
+  for (std::size_t i = 1; i < wedges.size(); ++i) {
+    if (wedges[i].row == wedges[i - 1].row) connected.unite(chain_of[i - 1], chain_of[i]);
+  }
+  return links;
+}
+
+// Numbers the components that have an open chain, and counts the others. `open`: the numbers of open chains.
+void number_components(std::vector<LocalIndex> links, std::span<const LocalIndex> open, OpenChains& found) {
+  UnionFind connected(links);
+  std::vector<LocalIndex> number_of(links.size(), kNoIndex);  // by root
+  LocalIndex numbers = 0;
+  for (const LocalIndex chain : open) {
+    LocalIndex& number = number_of[connected.find(chain)];
+    if (number == kNoIndex) number = numbers++;
+    found.components.push_back(number);
+  }
+  for (LocalIndex chain = 0; chain < links.size(); ++chain)
+    found.totals.components += connected.find(chain) == chain && number_of[chain] == kNoIndex ? 1 : 0;
+}
+
+}  // namespace
+
+OpenChains follow_curves(std::span<const Wedge> wedges,
+                         const std::function<CurvePoint(std::uint64_t)>& point_of,
+                         const std::function<void(std::span<const CurveStep>, Scale)>& visit) {
+  OpenChains found;
+  // Each wedge ends at two edges, each edge at two wedges.
+  found.totals.edges = static_cast<std::uint64_t>(std::ranges::count(wedges, Scale::kFine, &Wedge::scale));
+  std::vector<LocalIndex> chain_of(wedges.size()), open;
+  LocalIndex chains = 0;
+  std::vector<CurveStep> curve;
+  follow_wedges(wedges, partners_of(wedges), [&](const WedgeChain& chain) {
+    const LocalIndex number = chains++;
+    for (const LocalIndex w : chain.wedges) chain_of[w] = number;
+    const Scale scale = wedges[chain.wedges.front()].scale;
+    if (chain.is_closed) {
+      curve.clear();
+      for (const LocalIndex w : chain.wedges) curve.push_back({wedges[w].id, w});
+      return visit(curve, scale);
+    }
+    const auto end = [&](LocalIndex w, std::size_t side) {
+      return ChainEnd{wedges[w].row, side == 0 ? wedges[w].from : wedges[w].to};
+    };
+    open.push_back(number);
+    found.chains.push_back(
+        {found.points.size(),
+         chain.wedges.size(),
+         scale,
+         {end(chain.wedges.front(), chain.first_side), end(chain.wedges.back(), chain.last_side)}});
+    for (const LocalIndex w : chain.wedges) found.points.push_back(point_of(w));
+  });
+  number_components(connect_chains(wedges, chain_of, chains), open, found);
+  return found;
+}
+
+void OpenChains::emit(TileOutput& output) && {
+  output.add(kChains, std::move(chains));
+  output.add(kComponents, std::move(components));
+  output.add(kChainPoints, std::move(points));
+  output.add(kCurveTotals, std::vector<CurveTotals>{totals});
+}
+
+OpenChains OpenChains::read(const TileOutputs& outputs, TileIndex tile) {
+  OpenChains open{
+      outputs.read(kChains, tile), outputs.read(kComponents, tile), outputs.read(kChainPoints, tile), {}};
+  for (const CurveTotals& totals : outputs.read(kCurveTotals, tile)) open.totals = totals;
+  return open;
+}
+
+std::uint64_t OpenChains::bytes(const TileOutputs& outputs, TileIndex tile) {
+  return outputs.count(kChains, tile) * (sizeof(OpenChain) + sizeof(LocalIndex)) +
+         outputs.count(kChainPoints, tile) * sizeof(CurvePoint);
+}
+
+void TileLoops::emit(TileOutput& output) && {
+  output.add(kLoops, std::move(loops));
+  output.add(kLoopPoints, std::move(points));
+}
+
+TileLoops TileLoops::read(const TileOutputs& outputs, TileIndex tile) {
+  return {outputs.read(kLoops, tile), outputs.read(kLoopPoints, tile)};
+}
+
+std::uint64_t TileLoops::bytes(const TileOutputs& outputs, TileIndex tile) {
+  return outputs.count(kLoops, tile) * sizeof(Entry) + outputs.count(kLoopPoints, tile) * sizeof(LoopPoint);
+}
+
+// ---- Across tiles
+
+namespace {
+
+// An end with its boundary edge, which exactly one other end of that scale shares. Chain c has the ends 2c
+// and 2c + 1.
+struct NumberedEnd {
+  Row low, high;
+  LocalIndex end;
+  Scale scale;
+
+  NumberedEnd(const ChainEnd& e, LocalIndex end, Scale scale)
+      : low(std::min(e.own, e.foreign)), high(std::max(e.own, e.foreign)), end(end), scale(scale) {}
+  NumberedEnd() = default;
+  friend bool operator<(const NumberedEnd& a, const NumberedEnd& b) {
+    return std::tie(a.low, a.high, a.scale, a.end) < std::tie(b.low, b.high, b.scale, b.end);
+  }
+};
+
+// Fills in the end that shares the boundary edge of each end.
+void join_ends(SortedRuns<NumberedEnd>& ends, std::span<LocalIndex> partners, Scratch& scratch) {
+  std::optional<NumberedEnd> first;  // of two that share a boundary edge
+  const auto fail = [] { fail_inconsistent("a boundary curve ends at the border of a tile"); };
+  ends.for_each([&](const NumberedEnd& end) {
+    scratch.trim();
+    if (!first) {
+      first = end;
+      return;
+    }
+    if (first->low != end.low || first->high != end.high || first->scale != end.scale) fail();
+    partners[first->end] = end.end;
+    partners[end.end] = first->end;
+    first.reset();
+  });
+  if (first) fail();
+}
+
+void read_points(const OpenChain& chain, bool forwards, const Column<CurvePoint>& points,
+                 std::span<CurvePoint> to) {
+  points.read(chain.first, to);
+  if (!forwards) std::reverse(to.begin(), to.end());
+}
+
+// Follows chains to curves. `is_done`: by chain, zeros.
+class ChainFollower {
+ public:
+  ChainFollower(std::span<const OpenChain> chains, std::span<const LocalIndex> partners,
+                std::span<std::uint8_t> is_done, Scratch& scratch)
+      : chains_(chains), partners_(partners), is_done_(is_done), scratch_(scratch) {}
+
+  void for_each_curve(const Column<CurvePoint>& points, std::uint64_t budget, const VisitCurve& visit) {
+    for (LocalIndex start = 0; start < chains_.size(); ++start) {
+      if (is_done_[start]) continue;
+      std::uint64_t count = 0;
+      for_each_chain_from(start, [&](const OpenChain& chain, bool) { count += chain.count; });
+      Scratch scratch(scratch_.folder(), budget);
+      const std::span<CurvePoint> curve = scratch.array<CurvePoint>(count);
+      std::span<CurvePoint> left = curve;
+      for_each_chain_from(start, [&](const OpenChain& chain, bool forwards) {
+        scratch.trim(chain.count * sizeof(CurvePoint));
+        read_points(chain, forwards, points, left.first(chain.count));
+        left = left.subspan(chain.count);
+        is_done_[static_cast<std::size_t>(&chain - chains_.data())] = 1;
+      });
+      visit(curve, chains_[start].scale, scratch);
+    }
+  }
+
+ private:
+  template <class VisitChain>
+  void for_each_chain_from(LocalIndex start, VisitChain&& visit) {
+    LocalIndex entered = 2 * start;
+    do {
+      scratch_.trim();
+      visit(chains_[entered / 2], entered % 2 == 0);
+      entered = partners_[entered ^ 1];
+    } while (entered / 2 != start);
+  }
+
+  std::span<const OpenChain> chains_;
+  std::span<const LocalIndex> partners_;
+  std::span<std::uint8_t> is_done_;
+  Scratch& scratch_;
+};
+
+}  // namespace
+
+void close_chains(const Stitch<OpenChain>::ForEachRecord& for_each_chain, std::uint64_t count,
+                  const Column<CurvePoint>& points, std::uint64_t curve_budget, Scratch& scratch,
+                  const VisitCurve& visit) {
+  SortedRuns<NumberedEnd> ends(scratch.folder() / "chain-ends", scratch.budget() / 2);
+  ends.reserve(2 * count);
+  const std::span<OpenChain> chains = scratch.array<OpenChain>(count);
+  LocalIndex number = 0;
+  for_each_chain([&](const OpenChain& chain) {
+    scratch.trim();
+    chains[number] = chain;
+    for (const LocalIndex side : {0, 1})
+      ends.add(NumberedEnd(chain.ends[side], 2 * number + side, chain.scale));
+    ++number;
+  });
+  const std::span<LocalIndex> partners = scratch.array<LocalIndex>(2 * count);
+  join_ends(ends, partners, scratch);
+  ChainFollower(chains, partners, scratch.array<std::uint8_t>(count), scratch)
+      .for_each_curve(points, curve_budget, visit);
 }
 
 }  // namespace lacuna::tangential

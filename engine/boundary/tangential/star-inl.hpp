@@ -7,7 +7,7 @@
 #define LACUNA_BOUNDARY_STAR_INL
 #endif
 
-#include "engine/boundary/tangential/star.hpp"
+#include "engine/boundary/tangential/stars.hpp"
 #include "engine/simd/vector-inl.hpp"
 
 #include <limits>

@@ -3,7 +3,7 @@
 #define HWY_TARGET_INCLUDE "engine/boundary/tangential/star_batch.cpp"
 // Each target includes what follows foreach_target.h.
 // clang-format off
-#include "engine/boundary/tangential/star_batch.hpp"
+#include "engine/boundary/tangential/stars.hpp"
 #include "engine/simd/targets.hpp"
 #include <hwy/foreach_target.h>
 #include "engine/boundary/tangential/star-inl.hpp"

@@ -1,22 +1,69 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boundary edges of the default method are the edges of the weighted tangential Delaunay complex that have
-// one consistent triangle. A boundary wedge is a point with two such edges, between which there is no
-// consistent triangle around the point. Wedges chain to closed curves. Curves are found within a fine and a
-// coarse bound on the triangles at once, and the better of both curves is kept.
+// tangential_boundary: boundary edges of the default method (method.md, C).
+//
+// Idea: the surface is the set of triangles on which neighbouring points agree, each in its own tangent
+// plane. These are the locally consistent triangles of the weighted tangential Delaunay complex. Loops are
+// where it ends: the edges with one consistent triangle chain to closed curves, whatever the noise. Curves
+// are found within a fine and a coarse bound on the triangles at once, and tracking keeps the better of both.
+//
+// From star to loop: `stars` finds triangles, `active_points` compares them within a tile, `exchange` across
+// tiles, and `curves` follows the boundary. This file brings a tile, and then all tiles, through these steps.
+//
+// Source: Boissonnat, Ghosh, Manifold reconstruction using tangential Delaunay complexes, DCG 2014; the whole
+// method: method.md, C. Cost: linear in the active points, but for a sort of the ends of open chains.
 #pragma once
 
 #include "engine/boundary/boundary_method.hpp"
 #include "engine/boundary/candidates.hpp"
-#include "engine/boundary/tangential/border_exchange.hpp"
-#include "engine/boundary/tangential/chains.hpp"
-#include "engine/boundary/tangential/tile_curves.hpp"
+#include "engine/boundary/tangential/active_points.hpp"
+#include "engine/boundary/tangential/curves.hpp"
+#include "engine/boundary/tangential/exchange.hpp"
+#include "engine/config/config.hpp"
+#include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/stitch/stitch.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace lacuna::tangential {
+
+// The boundary of a tile, as far as the tile alone knows it.
+class TileBoundary {
+ public:
+  // Finds the stars of the tile's active points, and of points that other tiles may make active. Both
+  // arguments must outlive this.
+  TileBoundary(const EvaluatedTile& tile, const TangentialConfig& config);
+
+  // Emits what other tiles need to know, or may change: active points, open stars and the belt.
+  void emit(TileOutput& output);
+  // Returns the wedges that no other tile can change, in ascending row.
+  std::vector<Wedge> wedges() const;
+  CurvePoint curve_point(const Wedge& wedge);
+  LoopPoint loop_point(const Wedge& wedge) const;  // without the evidence
+  float surface(const Wedge& wedge) const;         // of the evidence
+
+ private:
+  using SamplingRadii = std::array<double, kScales.size()>;  // by scale
+
+  const RadiiAround& around(LocalIndex p);
+  const SamplingRadii& sampling_radii(LocalIndex p);
+  StarRadii radii(LocalIndex p) const { return smallest_radii(found_.stars[p].link, config_); }
+  float surface(LocalIndex p) const;
+  double length(LocalIndex p, LocalIndex q) const;
+  void emit_open_stars(TileOutput& output);
+  void emit_belt(TileOutput& output) const;
+
+  const EvaluatedTile& tile_;
+  const TangentialConfig& config_;
+  TileStars found_;
+  RadiiAround around_;
+  // Those that were needed so far. Curves pass most of their points several times.
+  std::vector<SamplingRadii> sampling_radii_;
+  std::vector<LocalIndex> place_;  // by owned point: of its radii; kNoIndex: not needed yet
+};
 
 class TangentialBoundary final : public BoundaryMethod {
  public:

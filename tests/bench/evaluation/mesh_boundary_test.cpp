@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/evaluation/mesh_boundary.hpp"
-
+#include "bench/evaluation/loops_reader.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/tools/matching/drawn.hpp"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/evaluation/mesh_reader.hpp"
-
+#include "bench/evaluation/loops_reader.hpp"
 #include "tests/io/broken_files.hpp"
 
 namespace lacuna::test {

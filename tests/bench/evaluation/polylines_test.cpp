@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/evaluation/polylines.hpp"
-
 #include "bench/evaluation/evaluation.hpp"
+#include "bench/evaluation/loops_reader.hpp"
 #include "tests/io/io_support.hpp"
-#include "tests/support/grid_places.hpp"
+#include "tests/tools/matching/drawn.hpp"
 
 namespace lacuna::evaluation {
 namespace {
@@ -52,7 +51,7 @@ TEST_CASE("a polyline near a true loop finds it, and one elsewhere is false, tho
     for (int x = 0; x < 30; ++x) rows += std::to_string(x) + " " + std::to_string(y) + " 0\n";
   const auto scan = folder.write("scan.xyz", rows);
   std::string truth_row, vertices, edges;
-  const auto square = test::places_around(0, 0, 4, 4);
+  const auto square = places_around(0, 0, 4, 4);
   for (const auto& [x, y] : square) truth_row += std::to_string((10 + y) * 30 + 10 + x) + " ";
   for (int loop = 0; loop < 2; ++loop) {
     for (int i = 0; i < 16; ++i) {

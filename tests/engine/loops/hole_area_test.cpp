@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // How much surface is missing: places of several holes count once.
-#include "engine/loops/hole_area.hpp"
+#include "engine/loops/nest_loops.hpp"
 
 #include "engine/config/job.hpp"
-#include "tests/support/measured_loops.hpp"
+#include "tests/support/loop_points.hpp"
 
 namespace lacuna {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "engine/config/job.hpp"
 #include "tests/support/detected.hpp"
-#include "tests/support/measured_loops.hpp"
+#include "tests/support/loop_points.hpp"
 
 namespace lacuna {
 namespace {

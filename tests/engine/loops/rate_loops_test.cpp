@@ -3,7 +3,6 @@
 #include "engine/loops/rate_loops.hpp"
 
 #include "engine/loops/confidence.hpp"
-#include "engine/loops/prominence.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/tiled_scan.hpp"

@@ -3,7 +3,7 @@
 #include "engine/run/memory.hpp"
 
 #include "engine/store/append_lists.hpp"
-#include "tests/support/open_files.hpp"
+#include "tests/support/system.hpp"
 #include "tests/support/test.hpp"
 
 #include <unistd.h>

@@ -5,7 +5,7 @@
 #include "engine/run/parallel.hpp"
 #include "engine/store/row_numbers.hpp"
 #include "tests/support/clouds.hpp"
-#include "tests/support/open_files.hpp"
+#include "tests/support/system.hpp"
 #include "tests/support/test.hpp"
 
 #include <unistd.h>

@@ -3,7 +3,7 @@
 #include "engine/store/scratch.hpp"
 
 #include "tests/support/clouds.hpp"
-#include "tests/support/open_files.hpp"
+#include "tests/support/system.hpp"
 #include "tests/support/test.hpp"
 
 #include <unistd.h>

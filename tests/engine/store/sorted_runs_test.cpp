@@ -3,8 +3,8 @@
 #include "engine/store/sorted_runs.hpp"
 
 #include "tests/support/clouds.hpp"
-#include "tests/support/open_files.hpp"
 #include "tests/support/record.hpp"
+#include "tests/support/system.hpp"
 
 #include <unistd.h>
 

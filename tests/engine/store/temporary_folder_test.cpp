@@ -2,7 +2,7 @@
 #include "engine/store/temporary_folder.hpp"
 
 #include "tests/io/io_support.hpp"
-#include "tests/support/processes.hpp"
+#include "tests/support/system.hpp"
 
 #include <future>
 

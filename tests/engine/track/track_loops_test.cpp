@@ -2,7 +2,6 @@
 // Which loops stand, of drawn ones at several levels, and of scans.
 #include "engine/track/track_loops.hpp"
 
-#include "engine/track/near_loops.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/draws.hpp"

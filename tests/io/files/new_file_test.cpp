@@ -2,7 +2,7 @@
 #include "io/read/files/new_file.hpp"
 
 #include "tests/io/io_support.hpp"
-#include "tests/support/resource_limit.hpp"
+#include "tests/support/system.hpp"
 
 #include <sys/stat.h>
 

@@ -3,7 +3,7 @@
 
 #include "io/read/ply/ply_writer.hpp"
 #include "tests/io/io_support.hpp"
-#include "tests/support/resource_limit.hpp"
+#include "tests/support/system.hpp"
 
 namespace lacuna::test {
 

@@ -2,10 +2,8 @@
 #include "io/read/files/result_folder.hpp"
 
 #include "tests/io/io_support.hpp"
-#include "tests/support/processes.hpp"
-#include "tests/support/resource_limit.hpp"
 #include "tests/support/skip.hpp"
-#include "tests/support/small_disk.hpp"
+#include "tests/support/system.hpp"
 
 #include <sys/mount.h>
 #include <sys/stat.h>

@@ -6,7 +6,6 @@
 #include "io/read/laz/laz_encoder.hpp"
 #include "tests/io/broken_files.hpp"
 #include "tests/support/las_file.hpp"
-#include "tests/support/laz_data.hpp"
 
 namespace lacuna::test {
 namespace {

@@ -4,7 +4,7 @@
 #include "io/read/files/little_endian.hpp"
 #include "io/read/laz/laz_encoder.hpp"
 #include "tests/io/mutation.hpp"
-#include "tests/support/laz_data.hpp"
+#include "tests/support/las_file.hpp"
 #include "tests/support/skip.hpp"
 
 namespace lacuna::test {

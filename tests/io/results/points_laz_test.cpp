@@ -6,7 +6,7 @@
 #include "io/read/laz/laz_encoder.hpp"
 #include "io/write/results/points.hpp"
 #include "tests/io/results/points_las_support.hpp"
-#include "tests/support/laz_data.hpp"
+#include "tests/support/las_file.hpp"
 
 namespace lacuna::test {
 using namespace io;

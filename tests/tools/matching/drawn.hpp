@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drawn truths: rings of points in the plane, and loops along parts of them.
+// Drawn truths: rings of points in the plane, loops along parts of them, and rectangles of a grid.
 #pragma once
 
 #include "io/explain/matching/match_loops.hpp"
@@ -32,6 +32,16 @@ struct Drawing {
 inline matching::LoopIds part(const matching::LoopIds& loop, double share) {
   const auto count = static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(loop.size())));
   return {loop.begin(), loop.begin() + count};
+}
+
+// The places of a grid around a rectangle, from its lower left corner on, counterclockwise.
+inline std::vector<std::array<int, 2>> places_around(int x, int y, int width, int height) {
+  std::vector<std::array<int, 2>> places;
+  for (int i = 0; i < width; ++i) places.push_back({x + i, y});
+  for (int i = 0; i < height; ++i) places.push_back({x + width, y + i});
+  for (int i = width; i > 0; --i) places.push_back({x + i, y + height});
+  for (int i = height; i > 0; --i) places.push_back({x, y + i});
+  return places;
 }
 
 }  // namespace lacuna::matching

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/explain/matching/match_loops.hpp"
 
-#include "bench/evaluation/loop_scores.hpp"
-#include "tests/support/grid_places.hpp"
+#include "bench/evaluation/evaluation.hpp"
 #include "tests/tools/matching/drawn.hpp"
 
 namespace lacuna::matching {
@@ -96,7 +95,7 @@ TEST_CASE("a loop of which less than 70 percent lies on a true one is false") {
 // A square of `side` edges of length 1 to a side, with a corner at (x, y), counterclockwise.
 LoopIds square(Drawing& drawing, int side, int x, int y) {
   LoopIds ids;
-  for (const auto& [px, py] : test::places_around(x, y, side, side)) ids.push_back(drawing.point(px, py));
+  for (const auto& [px, py] : places_around(x, y, side, side)) ids.push_back(drawing.point(px, py));
   return ids;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/paper/paper_boundary.hpp"
 
-#include "engine/boundary/paper/eligible_edges.hpp"
 #include "tests/support/reference.hpp"
 #include "tests/support/tiled_scan.hpp"
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/boundary/paper/partial_spanning.hpp"
+#include "engine/boundary/paper/spanning.hpp"
 
 #include "engine/boundary/paper/loops.hpp"
-#include "engine/boundary/paper/order_edges.hpp"
-#include "engine/boundary/paper/span_whole.hpp"
 #include "engine/evaluate/evaluate.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/run_program.hpp"

@@ -2,7 +2,7 @@
 // Active points are found along inconsistent triangles, and so are those that other tiles may add.
 #include "engine/boundary/tangential/active_points.hpp"
 
-#include "engine/boundary/tangential/radius_bound.hpp"
+#include "engine/boundary/tangential/stars.hpp"
 #include "engine/evaluate/evaluate.hpp"
 #include "engine/neighbours/neighbourhoods.hpp"
 #include "tests/support/clouds.hpp"

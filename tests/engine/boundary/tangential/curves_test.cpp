@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/boundary/tangential/curves.hpp"
 
-#include "engine/boundary/tangential/tile_curves.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/test.hpp"
 

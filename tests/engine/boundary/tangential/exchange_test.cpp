@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The exchange between tiles: wedges are those of a single tile, and close to curves.
-#include "engine/boundary/tangential/border_exchange.hpp"
+#include "engine/boundary/tangential/exchange.hpp"
 
-#include "engine/boundary/tangential/tile_boundary.hpp"
+#include "engine/boundary/tangential/tangential_boundary.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/tiled_scan.hpp"
 

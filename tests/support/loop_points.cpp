@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/support/measured_loops.hpp"
-
-#include "engine/loops/measure_loop.hpp"
 #include "tests/support/loop_points.hpp"
 
-#include <cstdint>
+#include "engine/loops/measure_loop.hpp"
 
 namespace lacuna::test {
 
