@@ -40,8 +40,9 @@ class CMakeBuild(build_ext):
         jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
         subprocess.run(["cmake", "--build", str(build), "--parallel", jobs, "--target", "lacuna_python"], check=True)
         to.parent.mkdir(parents=True, exist_ok=True)
-        for library in (build / "python" / "lacuna").glob("*.so"):
-            self.copy_file(str(library), str(to.parent / library.name))
+        package = build / "python" / "lacuna"
+        for made in (*package.glob("*.so"), package / "_parameters.py"):
+            self.copy_file(str(made), str(to.parent / made.name))
 
 
 setup(

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Medians of the runs in files of results: as tables, as the table of the README, or as gnuplot's data."""
+"""Medians of the runs in files of results: as tables, or as the table of docs/results.md."""
 
 import csv
 import statistics
 import sys
 from dataclasses import dataclass, replace
 
-LEAST_POINTS = 100_000  # of the README's scans: smaller ones last milliseconds
+LEAST_POINTS = 100_000  # of the scans of docs/results.md: smaller ones last milliseconds
 KINDS = {"jittered": "jittered grid", "random": "uniformly random"}
 REAL = {"dragon_30scans_793k": "dragon, 30 raw scans", "balm_23scans_1.7M": "BALM, 23 lidar scans",
         "vol_total": "aerial survey"}
@@ -113,7 +113,7 @@ def print_phases(configurations):
         print_table(rows, 4)
 
 
-def print_readme(configurations):
+def print_results(configurations):
     """A row for each scan, order, number of threads and limit: random positions, then jittered ones, then real scans as
     they come."""
     print("| scan | points | order | memory limit | seconds | spread % | processor seconds | M points/s a core | "
@@ -130,33 +130,12 @@ def print_readme(configurations):
               f"{f'{pcl / total:.1f}' if pcl else '-'} | {f'{total / kernel:.1f}' if kernel else '-'} |")
 
 
-def print_plot(configurations):
-    """A block per line: its title, then points and points per second. Real scans are no sizes of one thing,
-    so they are in no line."""
-    lines = {}
-    synthetic = {key: phases for key, phases in configurations.items() if key.positions != "file"}
-    several_threads = len({key.threads for key in synthetic}) > 1
-    several_limits = len({key.limit for key in synthetic if key.limit}) > 1
-    for key, phases in synthetic.items():
-        title = f"{key.program}, {KINDS[key.positions]}, {key.order} order"
-        if several_threads:
-            title += f", {key.threads} threads"
-        if several_limits and key.limit:
-            title += f", {mebibytes(key.limit)} MiB"
-        lines.setdefault(title, []).append((key.points, key.points / seconds(phases)))
-    if lines:
-        print("\n\n\n".join("\n".join([f'"{title}"', *(f"{x} {y:.0f}" for x, y in sorted(values))])
-                            for title, values in lines.items()))
-
-
 def main():
-    if len(sys.argv) < 3 or sys.argv[1] not in ("table", "readme", "plot"):
-        sys.exit("usage: summarise.py table|readme|plot RESULTS.csv...")
+    if len(sys.argv) < 3 or sys.argv[1] not in ("table", "results"):
+        sys.exit("usage: summarise.py table|results RESULTS.csv...")
     configurations = read(sys.argv[2:])
-    if sys.argv[1] == "plot":
-        print_plot(configurations)
-    elif sys.argv[1] == "readme":
-        print_readme(configurations)
+    if sys.argv[1] == "results":
+        print_results(configurations)
     else:
         print_medians(configurations)
         print_phases(configurations)

@@ -10,8 +10,7 @@ usage() {
 usage: tools/bench.sh [OPTIONS] [-- DETECT_OPTIONS]
 
 Builds a release, makes the scans, runs the programs in turns, each twice of which once to warm up, and writes
-bench/results/DATE.csv with a table of medians (DATE.txt), the README's table (DATE.md) and a plot (DATE.svg). Another
-plot has the memory of one more run over time (DATE-memory.svg), with the last scan and the last limit, or 256 MiB.
+bench/results/DATE.csv with a table of medians (DATE.txt) and the table of docs/results.md (DATE.md).
 
   --points LIST         synthetic scans, millions of points           default "1 4"; all: "1 4 16 64"
   --positions LIST      near a grid or anywhere: jittered, random     default "random jittered"
@@ -72,7 +71,7 @@ for program in "$against" "$kernel"; do [[ -z $program || -x $program ]] || fail
 # ---- programs
 
 tools/install.sh
-install_packages gnuplot-nox python3 time
+install_packages python3 time
 cmake -G Ninja -S . -B "$build" -DCMAKE_BUILD_TYPE=Release >/dev/null
 cmake --build "$build" --parallel "$(nproc)" --target lacuna lacuna-bench lacuna_shared
 lacuna=$build/lacuna
@@ -106,7 +105,7 @@ at_most() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a <= b) }'; }
 
 # ---- runs
 
-cleanup() { rm -rf "$work/out" "$work/printed" "$work/time" "$work/plot.dat"; }
+cleanup() { rm -rf "$work/out" "$work/printed" "$work/time"; }
 trap cleanup EXIT
 
 # Runs one program on the current case (scan, case, kind, order) with the current number of threads. Its lines go to the
@@ -208,13 +207,7 @@ fi
   [[ ! -e $csv ]] || python3 bench/summarise.py table "$csv"
 } | tee "$stem.txt"
 
-if [[ -e $csv ]]; then
-  python3 bench/summarise.py readme "$csv" >"$stem.md"
-  # Paths as arguments: they may hold what gnuplot takes for its own.
-  python3 bench/summarise.py plot "$csv" >"$work/plot.dat"
-  [[ ! -s $work/plot.dat ]] || gnuplot -c bench/plot.gp "$work/plot.dat" "$stem.svg"
-  bench/memory.sh "$lacuna" "$scan" "${memory_limit[-1]/default/256MiB}" "$stem-memory.svg" "${detect_options[@]}"
-fi
+[[ ! -e $csv ]] || python3 bench/summarise.py results "$csv" >"$stem.md"
 echo
-ls -1 "$stem"[.-]*
+ls -1 "$stem".*
 ((${#failures[@]} == 0))

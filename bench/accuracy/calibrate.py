@@ -20,6 +20,8 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from degrade import Scan, doubled, falling_by_ten, halved, kept_with  # noqa: E402
 from range_map import SCENES, range_map  # noqa: E402
@@ -167,7 +169,7 @@ def verdicts(arguments, case, result):
 
 
 def probability(log_odds):
-    return (1 + math.tanh(log_odds / 2)) / 2  # never overflows
+    return (1 + np.tanh(log_odds / 2)) / 2  # never overflows
 
 
 def octaves(ratio):
@@ -232,24 +234,6 @@ def by_group(loops):
     return groups
 
 
-def solve(rows, right):
-    """Gaussian elimination, of a positive definite matrix."""
-    rows = [[*row, value] for row, value in zip(rows, right)]
-    for i, pivot in enumerate(rows):
-        for row in rows[i + 1:]:
-            factor = row[i] / pivot[i]
-            row[i:] = [a - factor * b for a, b in zip(row[i:], pivot[i:])]
-    solution = []  # from the last one on
-    for row in reversed(rows):
-        known = sum(a * x for a, x in zip(row[-2::-1], solution))
-        solution.append((row[-1] - known) / row[-2 - len(solution)])
-    return solution[::-1]
-
-
-def log_odds(coefficients, loop):
-    return sum(a * b for a, b in zip(coefficients, loop.terms))
-
-
 def weighted(loops):
     """Each loop with its weight. In each group the true loops weigh the same in total; rated loops weigh alike."""
     groups = by_group(loops)
@@ -264,23 +248,14 @@ def weighted(loops):
 def fit(loops):
     """The coefficients under which the truth is likeliest, by Newton's method."""
     pairs = weighted(loops)
-    size = len(loops[0].terms)
-    coefficients = [0.0] * size
+    terms, truth, weights = (np.array(values, float) for values in zip(*((loop.terms, loop.is_true, weight) for loop, weight in pairs)))
+    coefficients = np.zeros(terms.shape[1])
     for _ in range(50):
-        gradient = [0.0] * size  # of the log likelihood
-        bends = [[0.0] * size for _ in range(size)]  # its second derivatives, negated
-        for loop, weight in pairs:
-            sure = probability(log_odds(coefficients, loop))
-            error, bend = weight * (loop.is_true - sure), weight * sure * (1 - sure)
-            for i, term in enumerate(loop.terms):
-                gradient[i] += error * term
-                for j in range(i + 1):
-                    bends[i][j] += bend * term * loop.terms[j]
-        for i, j in itertools.combinations(range(size), 2):
-            bends[i][j] = bends[j][i]
-        steps = solve(bends, gradient)
-        coefficients = [a + step for a, step in zip(coefficients, steps)]
-        if max(map(abs, steps)) < 1e-9:
+        sure = probability(terms @ coefficients)
+        bends = terms.T @ (terms * (weights * sure * (1 - sure))[:, None])  # second derivatives of the log likelihood, negated
+        steps = np.linalg.solve(bends, terms.T @ (weights * (truth - sure)))
+        coefficients += steps
+        if abs(steps).max() < 1e-9:
             return coefficients
     return fail("the fit does not converge")
 
@@ -351,7 +326,7 @@ def main():
         coefficients[kind] = fit([loop for loop in decided(loops) if loop.kind == kind])
         print(f"{kind}: {formula(kind, coefficients[kind])}", flush=True)
     print_section("The loops that stand on the scans of the fit, with these coefficients:", loops,
-                  lambda loop: probability(log_odds(coefficients[loop.kind], loop)))
+                  lambda loop: probability(np.dot(coefficients[loop.kind], loop.terms)))
     print_section("The loops that stand on the test scans, as the program has them:",
                   of_all(arguments, tested, standing_loops), lambda loop: loop.confidence)
 

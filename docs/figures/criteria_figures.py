@@ -3,25 +3,33 @@
 
 import math
 
-from common import CENTROID, CHARACTERISTIC, evaluate, kernel_width, neighbourhoods
+from reference import find
 from scans import density_step, nearest_to, patch
 from svg import BLUE, GREEN, INK, LINE, MUTED, ORANGE, RED, Page
 
 HOLE = (8.0, 8.0, 3.2)
+CHARACTERISTIC = {"boundary": (2 / 3, 1 / 3, 0), "interior": (1 / 2, 1 / 2, 0), "corner": (1 / 3, 1 / 3, 1 / 3),
+                  "line": (1, 0, 0)}
+CENTROID = (11 / 18, 5 / 18, 1 / 9)
+
+
+def kernel_width(characteristic):
+    return math.dist(characteristic, CENTROID) / 3
 
 
 def neighbourhood(path):
     points = density_step()
-    nearest, around = neighbourhoods(points, 15)
     p = nearest_to(points, (-0.45, 0.1))
+    around = find(points).levels[0].points[p].around
+    nearest = around[:15]
     page = Page(700, 400, "Symmetric neighbourhood at a density step")
     panel = page.panel(20, 20, 410, 360, (0.3, 0.0), 8.2)
-    added = [q for q in around[p] if q not in nearest[p]]
+    added = around[15:]
     panel.dots(points, LINE, 3.4)
-    panel.lines([(points[p], points[q]) for q in nearest[p]], BLUE, 1.4)
+    panel.lines([(points[p], points[q]) for q in nearest], BLUE, 1.4)
     panel.lines([(points[p], points[q]) for q in added], ORANGE, 1.4)
-    panel.circle(points[p], math.dist(points[p], points[nearest[p][-1]]), BLUE, 1.2, dash=True)
-    panel.dots([points[q] for q in nearest[p]], BLUE, 4.5)
+    panel.circle(points[p], math.dist(points[p], points[nearest[-1]]), BLUE, 1.2, dash=True)
+    panel.dots([points[q] for q in nearest], BLUE, 4.5)
     panel.dots([points[q] for q in added], ORANGE, 4.5)
     panel.dots([points[p]], INK, 6)
     panel.label(points[p], "p", -16, 5, weight="bold")
@@ -29,7 +37,7 @@ def neighbourhood(path):
                           ("dot", ORANGE, "points that count p"), ])
     page.text(473, 111, "among their 15 nearest")
     page.text(448, 150, "Neighbourhood of p:")
-    page.text(448, 170, f"{len(around[p])} points, blue and orange.", weight="bold")
+    page.text(448, 170, f"{len(around)} points, blue and orange.", weight="bold")
     page.text(448, 205, "The 15 nearest alone reach", MUTED)
     page.text(448, 225, "hardly beyond the density step:", MUTED)
     page.text(448, 245, "p would look like a boundary.", MUTED)
@@ -39,33 +47,31 @@ def neighbourhood(path):
 def two_points():
     """A scan with a hole, an interior point and a boundary point."""
     points = patch(17, [HOLE], 0.3, seed=5)
-    _, around = neighbourhoods(points, 15)
+    found = find(points).levels[0].points
     places = {"interior point": (3.4, 3.2), "boundary point": (4.6, 8.1)}
-    found = {name: nearest_to(points, place) for name, place in places.items()}
-    return points, around, found
+    return points, {name: found[nearest_to(points, place)] for name, place in places.items()}
 
 
 def angle(path):
-    points, around, found = two_points()
+    points, found = two_points()
     page = Page(700, 424, "Angle criterion: the largest gap")
     for i, (name, p) in enumerate(found.items()):
-        e = evaluate(points, p, around[p])
-        at = points[p]
+        at = p.place
+        directions = sorted((math.atan2(points[q][1] - at[1], points[q][0] - at[0]), q) for q in p.around)
+        gaps = [((b - a) % (2 * math.pi), a, (q, r)) for (a, q), (b, r) in zip(directions, directions[1:] + directions[:1])]
+        gap, start, ends = max(gaps)
         panel = page.panel(20 + 340 * i, 20, 320, 300, at, 6.6)
         panel.dots(points, LINE, 3.4)
         # the gap, counterclockwise from its first neighbour
-        start = next(a for a, q in e.directions if q == e.gap[0])
-        sector = [at] + [(at[0] + 2.6 * math.cos(start + e.gap_angle * j / 40), at[1] + 2.6 * math.sin(start + e.gap_angle * j / 40))
+        sector = [at] + [(at[0] + 2.6 * math.cos(start + gap * j / 40), at[1] + 2.6 * math.sin(start + gap * j / 40))
                          for j in range(41)]
-        if e.normal[2] < 0:
-            raise ValueError("normals point up here")
         panel.path(sector, "none", 0, ORANGE, closed=True, opacity=0.3)
-        panel.lines([(at, points[q]) for _, q in e.directions], BLUE, 1.3)
-        panel.dots([points[q] for q in around[p]], BLUE, 4)
-        panel.dots([points[q] for q in e.gap], ORANGE, 5.5)
+        panel.lines([(at, points[q]) for _, q in directions], BLUE, 1.3)
+        panel.dots([points[q] for q in p.around], BLUE, 4)
+        panel.dots([points[q] for q in ends], ORANGE, 5.5)
         panel.dots([at], INK, 6)
         page.text(20 + 340 * i, 345, name[0].upper() + name[1:], weight="bold")
-        words = f"{len(e.directions)} directions, gap {math.degrees(e.gap_angle):.0f}\u00b0, criterion {e.angle:.2f}"
+        words = f"{len(directions)} directions, gap {math.degrees(gap):.0f}\u00b0, criterion {p.angle:.2f}"
         page.text(20 + 340 * i, 366, words)
     page.legend(20, 402, [("fill", "#f5d7b0", "largest gap"), ("dot", ORANGE, "gap neighbours"),
                           ("dot", BLUE, "other neighbours"), ("dot", INK, "point p")], 170)
@@ -73,24 +79,23 @@ def angle(path):
 
 
 def halfdisc(path):
-    points, around, found = two_points()
+    points, found = two_points()
     page = Page(700, 420, "Halfdisc criterion: the mean of the neighbours")
     for i, (name, p) in enumerate(found.items()):
-        e = evaluate(points, p, around[p])
-        at = points[p]
+        at = p.place
         panel = page.panel(20 + 340 * i, 20, 320, 300, at, 5.6)
         panel.dots(points, LINE, 3.4)
-        panel.circle(at, e.r, MUTED, 1.2, dash=True)
-        panel.circle(at, 4 * e.r / (3 * math.pi), GREEN, 1.6, dash=True)
-        for q in around[p]:
-            weight = math.exp(-(math.dist(points[q], at) / e.r) ** 2)
+        panel.circle(at, p.r, MUTED, 1.2, dash=True)
+        panel.circle(at, 4 * p.r / (3 * math.pi), GREEN, 1.6, dash=True)
+        for q in p.around:
+            weight = math.exp(-(math.dist(points[q], at) / p.r) ** 2)
             panel.dots([points[q]], BLUE, round(2 + 6 * weight, 1))
-        mean = (at[0] + e.mean[0], at[1] + e.mean[1])
+        mean = (at[0] + p.mean[0], at[1] + p.mean[1])
         panel.path([at, mean], RED, 3)
         panel.dots([at], INK, 5)
         panel.dots([mean], RED, 5)
         page.text(20 + 340 * i, 345, name[0].upper() + name[1:], weight="bold")
-        page.text(20 + 340 * i, 366, f"mean moved by {math.hypot(*e.mean[:2]) / e.r:.2f} r, halfdisc {e.halfdisc:.2f}")
+        page.text(20 + 340 * i, 366, f"mean moved by {math.hypot(*p.mean[:2]) / p.r:.2f} r, halfdisc {p.halfdisc:.2f}")
     page.legend(20, 400, [("dash", MUTED, "radius r"), ("dash", GREEN, "4r / 3\u03c0"), ("dot", BLUE, "size: weight"),
                           ("dot", RED, "weighted mean"), ("dot", INK, "point p")], 138)
     page.write(path)
@@ -98,7 +103,6 @@ def halfdisc(path):
 
 def shape(path):
     points = patch(34, [(11.0, 11.0, 4.2), (22.0, 20.0, 3.4)], 0.5, 0.2, seed=2)
-    _, around = neighbourhoods(points, 15)
 
     def is_boundary(p):
         x, y, _ = p
@@ -116,7 +120,7 @@ def shape(path):
     for name, color in (("boundary", ORANGE), ("interior", BLUE), ("corner", MUTED), ("line", MUTED)):
         center = CHARACTERISTIC[name]
         panel.circle(place(center), kernel_width(center), color, 1.2, color, dash=True, opacity=0.10)
-    shapes = [(is_boundary(points[p]), place(evaluate(points, p, around[p]).shape)) for p in range(len(points))]
+    shapes = [(is_boundary(p.place), place(p.shape)) for p in find(points).levels[0].points]
     panel.dots([s for boundary, s in shapes if not boundary], BLUE, 1.7)
     panel.dots([s for boundary, s in shapes if boundary], ORANGE, 1.9)
     for name, dx, dy, words in (("boundary", -36, 36, "boundary"), ("interior", -8, 24, "interior"),

@@ -5,38 +5,35 @@ import math
 import re
 from pathlib import Path
 
+from reference import find
 from scans import scan_lines
 from svg import BLUE, GREEN, INK, LINE, MUTED, ORANGE, RED, Page
-from tracking import choose, levels_of, rated
 
 HOLE = (15, 13, 5.5)
 
 
 def levels(path):
-    found = levels_of(scan_lines((30, 26), HOLE))
-    loops, near, ranks = rated(found)
-    standing = choose(loops, near, ranks)
+    found = find(scan_lines((30, 26), HOLE))
     page = Page(820, 400, "The loops of a hole at three levels of a scan")
-    for i, (surface, edge) in enumerate(found):
-        x = 20 + 265 * i
+    for i, level in enumerate(found.levels):
+        edge, x = level.edge, 20 + 265 * i
         panel = page.panel(x, 46, 250, 250, HOLE[:2], 17)
         if edge:
             ends = range(-40, 40)
             panel.lines([((j * edge, -40), (j * edge, 40)) for j in ends] + [((-40, j * edge), (40, j * edge)) for j in ends])
-        panel.dots(surface.points, MUTED, 1.6 + 0.5 * i)
-        of_hole = [loop for loop in loops if loop.level == i and
+        panel.dots(level.places, MUTED, 1.6 + 0.5 * i)
+        of_hole = [loop for loop in found.loops if loop.level == i and
                    all(math.dist(p[:2], HOLE[:2]) < HOLE[2] + 4 for p in loop.places)]
-        loop = max(of_hole, key=lambda x: ranks[loops.index(x)])
-        stands = any(loop is other for other in standing)
-        panel.path(loop.places, RED if stands else BLUE, 2.8, closed=True)
+        loop = max(of_hole, key=lambda x: x.rank)
+        panel.path(loop.places, RED if loop.stands else BLUE, 2.8, closed=True)
         page.text(x, 30, f"Cells of edge {edge:.0f}" if edge else "All points", weight="bold")
-        page.text(x, 320, f"{len(surface.points)} points, surface share {loop.surface:.2f},", MUTED)
+        page.text(x, 320, f"{len(level.points)} points, surface share {loop.surface:.2f},", MUTED)
         page.text(x, 341, f"clearness {loop.clearness:.2f}, confidence {loop.confidence:.2f}", MUTED)
     page.legend(20, 376, [("line", BLUE, "surest loop of the level"), ("line", RED, "the one that stands")], 230)
     page.write(path)
 
 
-# bench/accuracy/results/2026-11-23-min-hole.csv: holes of 960, of all noises.
+# Printed by bench/accuracy/min_hole.py on 23 November 2026: shares of 960 holes, of all noises.
 DIAMETERS = (0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.5)
 REPORTED = {
     "eight points in a cell": (BLUE, (0.0, 0.0, 0.0, 0.009, 0.24, 0.965, 0.998, 0.999, 0.999)),

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the figures of docs/method.md, as SVG, into this folder. Each is computed from a small synthetic scan with the method
-itself, so that a figure cannot contradict the text. Needs Python 3 and no package.
+"""Draws the figures of docs/method.md, as SVG, into this folder. Each shows what the plain method of the tests finds in a
+small synthetic scan, so that a figure cannot contradict the program. Needs build/tests/figure_data.
 
     docs/figures/make.py                # all
     docs/figures/make.py star wedges    # these

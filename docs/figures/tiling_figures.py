@@ -4,7 +4,7 @@
 import math
 import random
 
-from common import neighbourhoods
+from reference import find
 from svg import BLUE, FILL, MUTED, ORANGE, RED, Page
 
 CELL = 2.0
@@ -56,7 +56,7 @@ def tiles(path):
         cells.setdefault((int(x // CELL), int(y // CELL)), []).append(p)
     parts = split(cells, LIMIT)
     tile_of = {p: t for t, part in enumerate(parts) for ids in part.values() for p in ids}
-    _, around = neighbourhoods(points, K)
+    around = [p.around for p in find(points, K).levels[0].points]
     middle = min(range(len(parts)), key=lambda t: math.dist(
         [sum(c[i] * CELL for c in parts[t]) / len(parts[t]) for i in range(2)], (10, 9)))
     own = [p for p in range(len(points)) if tile_of[p] == middle]

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Draws the pictures of README.md, choosing.md, confidence.md and examples.md into this folder. Prints the numbers of these pages:
-# points, what `lacuna-bench evaluate` says of each synthetic scan, and sizes of files.
+# Draws the pictures of README.md, first-run.md, choosing.md, confidence.md and examples.md into this folder. Prints the
+# numbers of these pages: points, what `lacuna-bench evaluate` says of each synthetic scan, and sizes of files.
 #
 #     docs/pictures/draw.sh build/lacuna build/lacuna-bench [FOLDER]
 #
-# FOLDER has the real scans: autzen_trim.laz and its part autzen_river.ply, and dragon_30scans_793k.ply,
-# 30 registered scans of Stanford's dragon. Without it, their pictures stay.
+# FOLDER has the real scans: autzen_river.ply, and dragon_30scans_793k.ply, 30 registered scans of Stanford's dragon.
+# Without it, their pictures stay.
 set -euo pipefail
 
 lacuna=$(realpath "$1")
@@ -44,16 +44,6 @@ for size in 0.06 0.10 0.15; do
   detect "min-hole-$size" rough.ply --min-hole "$size"
   render "min-hole-$size" "${small[@]}"
 done
-detect weight-angle rough.ply --weight-halfdisc 0 --weight-shape 0
-detect weight-halfdisc rough.ply --weight-angle 0 --weight-shape 0
-detect weight-shape rough.ply --weight-angle 0 --weight-halfdisc 0
-for criterion in angle halfdisc shape; do render "weight-$criterion" "${small[@]}"; done
-
-"$bench" synth surface step.ply --kind plane --points 16000 --holes 5 --hole-radius 3 8 --density-step 9 --seed 3
-for eps in 0 0.035; do
-  detect "eps-$eps" step.ply --eps "$eps"
-  render "eps-$eps" "${small[@]}"
-done
 
 "$bench" synth scan room.ply --stations 1 --points 400000 --seed 2
 detect room room.ply --stations room.stations.txt --report
@@ -67,8 +57,6 @@ if [[ -e $page ]]; then
 fi
 
 if [[ -n $scans ]]; then
-  detect ground "$scans/autzen_trim.laz" --where 'Classification == 2'
-  render ground --view top --size 760x420
   detect river "$scans/autzen_river.ply"
   render river --view top --size 560x490
   detect dragon "$scans/dragon_30scans_793k.ply"

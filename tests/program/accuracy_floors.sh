@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Finds the holes of known scans, and fails where fewer than the floors are found, or more than the ceilings are false:
-# bench/accuracy/floors.csv. A group that has run has to have the numbers of bench/accuracy/README.md and README.md, too, and so have
+# bench/accuracy/floors.csv. A group that has run has to have the numbers of bench/accuracy/README.md and docs/results.md, too, and so have
 # the rated loops of real scans. Takes an expression for GROUP/NAME of the sets. LACUNA_PROGRAM names the program.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -19,7 +19,7 @@ import sys
 from collections import defaultdict
 from pathlib import Path
 
-README = {  # the beginning of a row, and its groups
+RESULTS = {  # the beginning of a row, and its groups
     "25 synthetic surfaces": ["synth"], "15 synthetic surfaces": ["uneven"], "Stanford bunny": ["meshes"],
     "the same with half": ["half-meshes"], "5 meshes": ["uneven-meshes"], "9 scans with density": ["density", "density-meshes"],
     "3 real range maps": ["range"], "12 synthetic range maps": ["range-made"], "6 synthetic lidar": ["lidar"],
@@ -39,18 +39,18 @@ def compare(page, begin, groups):
         return
     counts = [str(sum(values)) for values in zip(*(measured[group] for group in groups))][:4 if "(" in begin else 3]
     rows = re.findall(rf"^\| {re.escape(begin)}[^|]*\| (.*) \|$", (root / page).read_text(encoding="utf-8"), re.MULTILINE)
-    said = [re.findall(r"\d+", begin.partition(" (")[2] + " " + row) for row in rows]
+    said = [re.findall(r"\d+", begin.partition(" (")[2] + " " + row)[:len(counts)] for row in rows]
     if counts not in said:
         failed.append(f"{page}: {begin}: true, found, false, joined or parted are {counts}")
 
 
-for begin, groups in README.items():
-    compare("README.md", begin, groups)
+for begin, groups in RESULTS.items():
+    compare("docs/results.md", begin, groups)
 for group in list(measured):
     if group != "quick":
         compare("bench/accuracy/README.md", f"{group} ({measured[group][0]})", [group])
 # Holes by width: the page has the first five columns, of the default method, and nothing where the table has "-". Sums are of all groups.
-is_whole = all(set(groups) <= set(measured) for groups in README.values())
+is_whole = all(set(groups) <= set(measured) for groups in RESULTS.values())
 page = (root / "bench/accuracy/README.md").read_text(encoding="utf-8")
 tables = Path(sys.argv[2]).read_text(encoding="utf-8")
 for group, cells in re.findall(r"^\| ([a-z -]+?) +\|((?: +(?:-|\d+ of \d+) \|){5})", tables, re.MULTILINE):

@@ -85,53 +85,6 @@ END
 grep -q '^found . of 2 true loops' "$scratch/told" || fail "the cut mesh has not two true loops: $(cat "$scratch/told")"
 grep -q '^found 2 of 2' "$scratch/told" || fail "the loops of the cut mesh are not found: $(cat "$scratch/told")"
 
-# Rays hit shapes where they should. A range map has edges that do not touch, and the wanted strays.
-python3 - "$root/bench/accuracy" <<'END'
-import math
-import sys
-from collections import Counter
-
-sys.path.insert(0, sys.argv[1])
-from range_map import (MISS, SCENES, box, cylinder, grid_triangles, height_field, nearest, range_map, sphere, tilted,
-                       torus)
-
-
-def meets(shape, x, y, distance, cosine):
-    """Seen from a height of 3, straight down."""
-    found = shape((x, y, 3.0), (0.0, 0.0, -1.0))
-    return math.isclose(found[0], distance, abs_tol=1e-6) and math.isclose(found[1], cosine, abs_tol=1e-4)
-
-
-ball, brick, half = sphere((0, 0, 1), 1), box((0, 0, 0), (1, 2, 0.5)), math.sqrt(0.5)
-lying, standing = cylinder((0, 0, 0), (1, 0, 0), 0.5, 1), cylinder((0, 0, 0), (0, 0, 1), 0.5, 1)
-slope = height_field(lambda x, y: x / 2, -1, 1)
-assert meets(ball, 0.6, 0, 1.2, 0.8) and meets(ball, 1.1, 0, *MISS)
-assert meets(brick, 0.9, -1.9, 2.5, 1) and meets(brick, 1.1, 0, *MISS)
-assert meets(tilted(90, brick), 0.9, 0.4, 1, 1) and meets(tilted(45, brick), 0.9, 0, 3 - half, half)
-assert meets(lying, 0.9, 0.3, 2.6, 0.8) and meets(lying, 1.1, 0, *MISS)
-assert meets(tilted(45, standing), 0, -half, 3 - half, half)
-assert meets(torus(1, 0.5), 1.3, 0, 2.6, 0.8) and meets(torus(1, 0.5), 0.4, 0, *MISS)
-assert meets(slope, 0.4, 0.7, 2.8, 2 / math.sqrt(5))
-assert meets(nearest(slope, ball), 0.6, 0, 1.2, 0.8)
-
-# In 3 x 3 squares, the four about one ray have one triangle each where it is lost or far off.
-for ray, triangles in (((1.0, 1.0, 0.0), 18), (None, 14), ((1.0, 1.0, 5.0), 14)):
-    seen = [(float(i % 4), float(i // 4), 0.0) for i in range(16)]
-    seen[5] = ray
-    assert len(grid_triangles(seen, 4)) == triangles
-
-SCENES["ball"] = (60, nearest(sphere((0, 0, 0), 0.9), box((0, 0, -1), (1.2, 1.2, 0.1))))
-maps = [range_map("ball", perspective, 0.3, True, 7) for perspective in (False, True)]
-for mesh in maps:
-    edges = Counter(frozenset(pair) for a, b, c in mesh.faces for pair in ((a, b), (b, c), (c, a)))
-    ends = Counter(vertex for edge, count in edges.items() if count == 1 for vertex in edge)
-    assert set(edges.values()) == {1, 2} and set(ends.values()) == {2}
-assert maps[0].positions == range_map("ball", False, 0.3, True, 7).positions != maps[1].positions
-clean = range_map("ball", False, 0.3, False, 7)
-assert len(clean.faces) == len(maps[0].faces) and len(clean.positions) < len(maps[0].positions)
-assert set(range(len(clean.positions))) == {vertex for face in clean.faces for vertex in face}
-END
-
 # Two holes that share a vertex are two true loops, besides the outer edge. Degraded scans keep what is left of each true loop.
 python3 - "$root/bench/accuracy" <<'END'
 import math
@@ -175,27 +128,6 @@ assert strewn.points[:n**2] == positions and strewn.loops == loops and len(outli
 assert all(-2 <= x <= 42 and -2 <= y <= 42 and -2 <= z <= 2 for x, y, z in outliers)
 assert max(z for _, _, z in outliers) > 1
 END
-
-# Holes by width are summed for each group, and for lidar scans apart from others.
-python3 - "$root/bench/accuracy" <<'END' >"$scratch/table"
-import sys
-
-sys.path.insert(0, sys.argv[1])
-from measure import WIDTHS
-from table import print_widths
-
-
-def row(group, true, found):
-    return {"group": group, "method": "default", **{f"true {width}": 0 for width in WIDTHS},
-            **{f"found {width}": 0 for width in WIDTHS}, "true 2 to 3": true, "found 2 to 3": found}
-
-
-print_widths([[row("lidar-view", 4, 1)], [row("aerial", 5, 3)], [row("synth", 2, 2)], [row("synth", 3, 0)]], ["default"])
-END
-tr -s ' ' <"$scratch/table" >"$scratch/squeezed"
-for line in '| synth | - | 2 of 5 | - | - | - |' '| lidar and aerial | - | 4 of 9 | - | - | - |' '| others | - | 2 of 5 | - | - | - |'; do
-  grep -qxF "$line" "$scratch/squeezed" || fail "$(cat "$scratch/table")"
-done
 
 # The table shows the best of CGAL's bounds for a group, and sums of columns that only some methods have.
 python3 - "$root/bench/accuracy" <<'END' >"$scratch/table"

@@ -55,7 +55,7 @@ for page in $*; do  # patterns become names here
   mkdir -p "$HOME" "$work/$name/scans"
   cd "$work/$name"
   ln -s "$build_folder" build
-  ln -s "$scans"/{las/autzen_trim.laz,autzen_river.ply} .
+  ln -s "$scans/autzen_river.ply" .
   ln -s "$scans/dragon_30scans_793k.ply" scans/dragon.ply
   awk -v heading="$heading" -v to="$work/$name" '$0 ~ heading { ++part } sub(/^    /, "") { print > (to "." part ".sh") }' \
     "$source_folder/$page"

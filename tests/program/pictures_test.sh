@@ -13,7 +13,7 @@ scans=${LACUNA_SHARED:-$PWD/../../../shared}/data
 real=()
 if [[ -d $scans ]]; then
   mkdir "$scratch/scans"
-  ln -s "$scans"/{las/autzen_trim.laz,autzen_river.ply,dragon_30scans_793k.ply} "$scratch/scans"
+  ln -s "$scans"/{autzen_river.ply,dragon_30scans_793k.ply} "$scratch/scans"
   real=("$scratch/scans")
 fi
 "$scratch/draw.sh" "$LACUNA_PROGRAM" "$LACUNA_BENCH_PROGRAM" "${real[@]}" | tee "$scratch/numbers"
@@ -30,7 +30,8 @@ from pathlib import Path
 numbers = Path(sys.argv[1]).read_text(encoding="utf-8")
 points = {name: int(count) for name, count in re.findall(r"^(\w+)\.ply: (\d+) points", numbers, re.MULTILINE)}
 found = dict(re.findall(r"^(\S+): found (.*)$", numbers, re.MULTILINE))
-choosing, readme = (Path(page).read_text(encoding="utf-8") for page in ("../choosing.md", "../../README.md"))
+choosing, first_run, readme = (Path(page).read_text(encoding="utf-8")
+                               for page in ("../choosing.md", "../first-run.md", "../../README.md"))
 failed = []
 
 # In a table of choosing.md, the cell below a picture says what is found.
@@ -60,10 +61,10 @@ says("README.md", readme, f"{points['room']:,} points of one scanner. Lacuna fin
 if of_room[0] != of_room[1] or of_room[2] != of_room[3]:
     failed.append(f"README.md: not all true loops of the room are found: {found['room']}")
 sizes = {name: int(count) for count, name in re.findall(r"(\d+) room[/.](\S+)", numbers)}
-says("README.md", readme, f"for the demo's scan of {size(sizes.pop('ply'))}")
+says("first-run.md", first_run, f"for the demo's scan of {size(sizes.pop('ply'))}")
 for name, count in sizes.items():
-    if not re.search(rf"^\| `{name}` \|.*\| {size(count)} \|$", readme, re.MULTILINE):
-        failed.append(f"README.md: {name}: has {size(count)}")
+    if not re.search(rf"^\| `{name}` \|.*\| {size(count)} \|$", first_run, re.MULTILINE):
+        failed.append(f"first-run.md: {name}: has {size(count)}")
 sys.exit("\n".join(failed) or 0)
 END
 exit "$status"

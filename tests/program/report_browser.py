@@ -7,8 +7,11 @@ import time
 try:
     from selenium import webdriver
     from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.support.ui import Select
 except ImportError:
-    webdriver = None
+    webdriver = By = Keys = Select = None
 
 WAIT_SECONDS = 60
 

@@ -6,16 +6,9 @@ import io
 import math
 import re
 
-from report_browser import next_picture, press, require, still
+from report_browser import By, Keys, Select, next_picture, press, require, still
 from report_marks import show_details, show_loops, value
 from report_tools import saved
-
-try:
-    from selenium.webdriver.common.by import By
-    from selenium.webdriver.common.keys import Keys
-    from selenium.webdriver.support.ui import Select
-except ImportError:
-    pass
 
 TITLES = {"hidden": "hidden", "opening": "opening", "out_of_view": "out of view", "no_return": "no return", "filtered": "filtered",
           "none": ""}

@@ -5,14 +5,7 @@ import json
 import tempfile
 from pathlib import Path
 
-from report_browser import camera, next_picture, press, require, still, wait_for
-
-try:
-    from selenium.webdriver.common.by import By
-    from selenium.webdriver.common.keys import Keys
-    from selenium.webdriver.support.ui import Select
-except ImportError:
-    pass
+from report_browser import By, Keys, Select, camera, next_picture, press, require, still, wait_for
 
 NOTE = "</script><img src=x onerror='window.foreign = true'> \"a, b\""
 NO_STORAGE = "Object.defineProperty(window, 'localStorage', {get() { throw new DOMException('none', 'SecurityError'); }});"

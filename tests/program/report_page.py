@@ -28,13 +28,7 @@ import report_marks
 import report_print
 import report_section
 import report_tools
-from report_browser import Failed, camera, move_slider, open_browser, press, require, still, wait_for
-
-try:
-    from selenium.webdriver.common.by import By
-    from selenium.webdriver.common.keys import Keys
-except ImportError:
-    pass
+from report_browser import By, Keys, Failed, camera, move_slider, open_browser, press, require, still, wait_for
 
 LEAST_COVERED = 0.02  # of the canvas
 # Counts, in the page, the pixels that are not background and those of the colours of holes and outer curves.

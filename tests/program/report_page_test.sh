@@ -21,15 +21,14 @@ if [ "$1" = room ]; then
   /usr/bin/python3 report_page.py "$scratch/out/report.html" --size 1280x800 --dark --causes
 fi
 # All causes, and so many stations that their names would overlap.
-/usr/bin/python3 mock_report.py "$scratch/mock.html" --points 30000 --stations 9
+/usr/bin/python3 mock_report.py "$scratch/out/report.html" "$scratch/mock.html" --stations 9
 /usr/bin/python3 report_page.py "$scratch/mock.html" --size "$mock_size" --causes
 /usr/bin/python3 report_page.py "$scratch/out/report.html" --size 1280x800 --save-marks "$scratch/marks.json"
 /usr/bin/python3 report_page.py "$scratch/out/report.html" --no-webgl
 
 "$LACUNA_PROGRAM" detect "$scratch/scan.ply" --out "$scratch/other" --quiet --k 30
-/usr/bin/python3 mock_report.py "$scratch/without.html" --points 5000 --stations 0
-/usr/bin/python3 report_page.py "$scratch/without.html" --causes
 "$LACUNA_PROGRAM" report "$scratch/other" > "$scratch/log"
+/usr/bin/python3 report_page.py "$scratch/other/report.html" --causes  # without stations
 if [ "$1" = flat ]; then
   # A hole is scanned, and the outer curve is as it was.
   "$LACUNA_BENCH_PROGRAM" synth surface --points 40000 --holes 5 --hole-radius 5 12 "$scratch/later.ply" > "$scratch/log"

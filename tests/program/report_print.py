@@ -4,13 +4,7 @@
 import base64
 import re
 
-from report_browser import camera, press, require, still
-
-try:
-    from selenium.webdriver.common.by import By
-    from selenium.webdriver.common.keys import Keys
-except ImportError:
-    pass
+from report_browser import By, Keys, camera, press, require, still
 
 NOTE = "<b>on paper</b>"
 PAGES = "return Array.from(document.querySelectorAll('.print-page'), (page) => page.querySelector('h2').textContent)"

@@ -1,13 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks the section of a report: it hides points and loops by their height, in the view alone."""
 
-from report_browser import camera, move_slider, press, require, still
-
-try:
-    from selenium.webdriver.common.by import By
-    from selenium.webdriver.common.keys import Keys
-except ImportError:
-    pass
+from report_browser import By, Keys, camera, move_slider, press, require, still
 
 LINE_PIXELS = 4  # half of the widest line, and its soft edge
 # Number of pixels that are not background, the highest and the lowest row that has one (from the bottom).

@@ -8,13 +8,7 @@ import math
 import re
 import struct
 
-from report_browser import camera, next_picture, press, require, still, wait_for
-
-try:
-    from selenium.webdriver.common.by import By
-    from selenium.webdriver.common.keys import Keys
-except ImportError:
-    pass
+from report_browser import By, Keys, camera, next_picture, press, require, still, wait_for
 
 # Places of the window with a point of the scan, near the middle of the view and away from it.
 CLICK = """
@@ -25,6 +19,9 @@ for (const type of ['pointerdown', 'pointerup']) {
 }
 return [document.getElementById('measure-text').textContent, lacuna.measured()];
 """
+# Places of the names of the axes. In one script, since the page draws them anew.
+TRIAD = "return Object.fromEntries(Array.from(document.querySelectorAll('#triad text')," \
+        "(text) => [text.textContent, ['x', 'y'].map((key) => Number(text.getAttribute(key)))]))"
 CATCH_BLOB = """
 window.caught = null;
 const make = URL.createObjectURL;
@@ -100,8 +97,7 @@ def check_north(driver):
         driver.execute_script("document.getElementById('canvas').focus()")
         press(driver, Keys.ARROW_LEFT * 3)
         still(driver)
-        name = next(text for text in driver.find_elements(By.CSS_SELECTOR, "#triad text") if text.get_attribute("textContent") == "y")
-        x, y = (float(name.get_attribute(key)) for key in "xy")
+        x, y = driver.execute_script(TRIAD)["y"]
         wanted = math.degrees(math.atan2(x, 3.5 - y))
         require(abs(wanted) > 1 and abs(needle_turn(needle) - wanted) < 0.5, f"it turns with the view, as y does ({wanted:.1f} degrees)")
 
@@ -125,8 +121,8 @@ def check_up(driver):
         require(eye[axis] > 0.999 * math.hypot(*eye), f"with {'xyz'[axis]} up, Top looks along it")
         driver.find_element(By.CSS_SELECTOR, "[data-side=front]").click()
         still(driver)
-        name = next(text for text in driver.find_elements(By.CSS_SELECTOR, "#triad text") if text.get_attribute("textContent") == "xyz"[axis])
-        require(abs(float(name.get_attribute("x"))) < 0.5 and float(name.get_attribute("y")) < -20, "from the front it goes up")
+        x, y = driver.execute_script(TRIAD)["xyz"[axis]]
+        require(abs(x) < 0.5 and y < -20, "from the front it goes up")
         low, high = driver.execute_script("return lacuna.bounds()[arguments[0]]", axis)
         slider = driver.find_element(By.ID, "above-slider")
         ends = [float(slider.get_attribute(name)) for name in ("min", "max")]

@@ -1143,8 +1143,10 @@ double own_log_odds(const FoundLoop& loop, const Positions& points) {
 }
 
 struct Tracked {
-  std::vector<FoundLoop> loops;
+  std::vector<FoundLoop> loops;  // those that stand
   std::vector<double> confidences;
+  std::set<std::size_t> chosen;  // of the loops as they are given, which also have these
+  std::vector<double> odds, ranks;
 };
 
 // `edges`, and the edges of the lattices on which loops are compared: by level.
@@ -1215,7 +1217,7 @@ Tracked track(const Loops& loops, const std::vector<double>& edges, const std::v
       }
     }
   }
-  Tracked tracked;
+  Tracked tracked{.loops = {}, .confidences = {}, .chosen = chosen, .odds = odds, .ranks = ranks};
   std::vector<std::size_t> sorted(chosen.begin(), chosen.end());
   std::sort(sorted.begin(), sorted.end(),
             [&](std::size_t a, std::size_t b) { return order_of(loops[a]) < order_of(loops[b]); });
