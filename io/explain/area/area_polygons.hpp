@@ -3,12 +3,15 @@
 #pragma once
 
 #include "engine/export.hpp"
+#include "engine/run/error.hpp"
 #include "io/explain/area/plan_raster.hpp"
 #include "io/read/crs/conversion_accuracy.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lacuna::io {
@@ -25,18 +28,47 @@ struct HeldPolygons {
   std::uint64_t corners = 0, most_in_one = 0, memory = 0;
 };
 
+// Bytes of a corner in the list, and while its polygon is read, drawn or written. These are copies, crossings
+// with rows, and buffers of GDAL and SQLite.
+inline constexpr std::uint64_t kBytesHeld = 40, kBytesAtWork = 40;
+
 // Returns the bytes that so many corners take, with those of the one polygon that is read, drawn or written.
-std::uint64_t bytes_of_corners(std::uint64_t all, std::uint64_t most_in_one);
+inline std::uint64_t bytes_of_corners(std::uint64_t all, std::uint64_t most_in_one) {
+  return all * kBytesHeld + most_in_one * kBytesAtWork;
+}
 
 // Throws `Error` if a further polygon with so many corners takes more than the memory.
-void check_corners(const HeldPolygons& polygons, std::uint64_t more);
+inline void check_corners(const HeldPolygons& polygons, std::uint64_t more) {
+  const std::uint64_t all = polygons.corners + more, most = std::max(polygons.most_in_one, more);
+  if (bytes_of_corners(all, most) <= polygons.memory) return;
+  throw Error(polygons.file + ": " + std::to_string(all) + " corners of polygons, " + std::to_string(most) +
+              " of them in one, take more than the " + std::to_string(polygons.memory >> 20) +
+              " MiB that the memory limit leaves for them; allowed: " +
+              std::to_string(polygons.memory / (kBytesHeld + kBytesAtWork)) + " in one, or a higher limit");
+}
 
 // Adds a ring without its repeated corner. One of fewer than three corners is left out.
-void add_ring(Ring2 ring, PlanPolygon& polygon);
+inline void add_ring(Ring2 ring, PlanPolygon& polygon) {
+  if (!ring.empty() && ring.front() == ring.back()) ring.pop_back();
+  if (ring.size() < 3) return;
+  ring.shrink_to_fit();
+  polygon.push_back(std::move(ring));
+}
 
-// Adds a polygon that was read, and counts its corners. Throws `Error` if one is not within
-// 1e30.
-void take_polygon(PlanPolygon polygon, HeldPolygons& polygons);
+// Adds a polygon that was read, and counts its corners. Throws `Error` if one is not within 1e30, as
+// points are.
+inline void take_polygon(PlanPolygon polygon, HeldPolygons& polygons) {
+  std::uint64_t corners = 0;
+  for (const Ring2& ring : polygon) {
+    corners += ring.size();
+    if (!std::ranges::all_of(
+            ring, [](const Eigen::Vector2d& corner) { return (corner.array().abs() <= 1e30).all(); }))
+      throw Error(polygons.file + ": has a corner beyond 1e30, or one that is not finite");
+  }
+  polygons.corners += corners;
+  polygons.most_in_one = std::max(polygons.most_in_one, corners);
+  polygons.polygons.push_back(std::move(polygon));
+}
 
 // Fills in the polygons of all layers, unless they are there, as those of GeoJSON are: in the system
 // `file_crs`. They are converted where both systems are known and differ. Edges are straight in the system of

@@ -2,8 +2,8 @@
 // The truth about a scan: the loops of its holes and outer edges. Decides which of them were found, and which
 // loops are false.
 //
-// Idea: a loop is a true one if most of each lies near the other: its points at the true edges, the true
-// vertices at its edges. One of the two alone is a part of a loop, or several in one.
+// Idea: a loop is a true one if most of each lies near the other. The loop's points lie at the true edges,
+// and the true vertices at the loop's edges. One of the two alone is a part of a loop, or several in one.
 #pragma once
 
 #include "engine/model/loop.hpp"
