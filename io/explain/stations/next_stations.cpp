@@ -63,7 +63,7 @@ bool Obstacles::touch(const Eigen::AlignedBox3d& box) const {
 
 namespace {
 
-constexpr double kLeastShare = 0.01;  // of the hidden area, for one more station
+constexpr double kLeastGain = 0.01;  // of the hidden area, for one more station
 constexpr std::size_t kMostEyes = 500;
 
 bool sees(const Eigen::Vector3d& eye, const InnerSample& place, const Obstacles& obstacles,
@@ -148,7 +148,7 @@ std::vector<NextStation> choose_stations(std::span<const InnerSample> hidden,
       for (std::size_t i = 0; i < hidden.size(); ++i) area += seen[eye][i] ? left[i] : 0;
       if (area > most_area) best = eye, most_area = area;
     }
-    if (!(most_area > kLeastShare * all)) break;
+    if (!(most_area > kLeastGain * all)) break;
     chosen.push_back({best, eyes[best], most_area});
     for (std::size_t i = 0; i < hidden.size(); ++i)
       if (seen[best][i]) left[i] = 0;
