@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/evaluation/cloud_score.hpp"
 
-#include "io/explain/lids/triangulate_polygon.hpp"
-#include "io/explain/matching/edge_tree.hpp"
-#include "io/explain/matching/point_tree.hpp"
+#include "io/explain/lids/make_lid.hpp"
+#include "io/explain/matching/nearest.hpp"
 
 #include <algorithm>
 #include <array>

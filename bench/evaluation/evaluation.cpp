@@ -3,8 +3,7 @@
 
 #include "bench/evaluation/loops_reader.hpp"
 #include "engine/run/error.hpp"
-#include "io/explain/matching/edge_tree.hpp"
-#include "io/explain/matching/point_tree.hpp"
+#include "io/explain/matching/nearest.hpp"
 #include "io/read/files/input_file.hpp"
 #include "io/read/ply/ply_reader.hpp"
 #include "io/read/scan/scan_pass.hpp"

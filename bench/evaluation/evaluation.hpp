@@ -10,7 +10,6 @@
 
 #include "bench/evaluation/measures.hpp"
 #include "io/explain/matching/match_loops.hpp"
-#include "io/explain/matching/true_loops.hpp"
 #include "io/read/scan/scan_files.hpp"
 
 #include <cstddef>

@@ -8,7 +8,7 @@
 // Source: docs/evaluate.md, which says what the files hold. Cost: n log n.
 #pragma once
 
-#include "io/explain/matching/true_loops.hpp"
+#include "io/explain/matching/match_loops.hpp"
 
 #include <array>
 #include <cstdint>

@@ -9,8 +9,7 @@
 
 #include "engine/model/loop.hpp"
 #include "io/explain/matching/match_loops.hpp"
-#include "io/explain/matching/point_tree.hpp"
-#include "io/explain/matching/true_loops.hpp"
+#include "io/explain/matching/nearest.hpp"
 
 #include <array>
 #include <cstddef>

@@ -509,7 +509,7 @@ with sqlite3.connect("view.gpkg") as file:
 END
 refuse "view.gpkg: layer endless is no table, but a view, which may have no end; .ogr2ogr" check "${some[@]}" \
   --area view.gpkg --void-rule 4
-# A polygon of a table or of a Shapefile that does not fit in memory is refused before it is read (memory_test: of GeoJSON).
+# A polygon of a table or of a Shapefile that does not fit in memory is refused (memory_test: of GeoJSON).
 python3 - <<'END'
 import json, math
 corners = 600_000

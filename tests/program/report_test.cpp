@@ -2,7 +2,7 @@
 // lacuna report and lacuna render on the results of runs. tests/program/report_page.sh has the page in a
 // browser.
 #include "engine/store/temporary_folder.hpp"
-#include "io/write/loops/loop_colours.hpp"
+#include "io/write/loops/loop_measures.hpp"
 #include "io/write/report/render.hpp"
 #include "io/write/report/scene.hpp"
 #include "tests/support/clouds.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/run/scan_warnings.hpp"
 
-#include "io/explain/stations/own_frames.hpp"
+#include "io/explain/stations/scan_axes.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/io/results/fake_detection.hpp"
 #include "tests/support/drawn_files.hpp"
@@ -183,8 +183,9 @@ TEST_CASE("stations and paths that do not count are warnings that say why and wh
   station.one_range = 0.9;
   station.farthest = 3;
   station.certainty = 1;
-  CHECK_THAT(only(station_warnings({station})), Contains("many rays end 0.9 from it") &&
-                                                    Contains("--leave-out=-0.91,-0.91,-0.91,0.91,0.91,0.91 drops"));
+  CHECK_THAT(only(station_warnings({station})),
+             Contains("many rays end 0.9 from it") &&
+                 Contains("--leave-out=-0.91,-0.91,-0.91,0.91,0.91,0.91 drops"));
   station.one_range = 0;
   station.certainty = 0.46;
   station.untimed = 11;

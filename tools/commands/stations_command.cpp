@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/error.hpp"
 #include "engine/run/parallel.hpp"
-#include "io/explain/stations/list_lines.hpp"
 #include "io/explain/stations/next_stations.hpp"
+#include "io/explain/stations/station.hpp"
 #include "io/read/crs/degrees.hpp"
 #include "io/read/crs/length_unit.hpp"
 #include "io/read/files/new_file.hpp"
@@ -291,7 +291,9 @@ void add_stations_command(const Command& program) {
       program.add_command("stations", "Say where a scanner should stand next, to see what is hidden");
   const auto arguments = std::make_shared<StationsArguments>();
   add_results_folder(command, arguments->folder);
-  command.add_option("--count", arguments->count, "How many places at most").whole_number(1, 1000).show_default();
+  command.add_option("--count", arguments->count, "How many places at most")
+      .whole_number(1, 1000)
+      .show_default();
   const auto length = [&](const char* name, double& value, const char* help) {
     return command.add_option(name, value, help).real_number().type("LENGTH").show_default();
   };

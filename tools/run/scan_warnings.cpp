@@ -4,7 +4,7 @@
 #include "engine/run/disk_space.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/machine_memory.hpp"
-#include "io/explain/stations/own_frames.hpp"
+#include "io/explain/stations/scan_axes.hpp"
 #include "io/explain/stations/station_views.hpp"
 #include "io/read/crs/crs_text.hpp"
 #include "io/read/crs/stated_crs.hpp"

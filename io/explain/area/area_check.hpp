@@ -2,8 +2,8 @@
 // Whether a scan covers an area: the voids within polygons, seen from above.
 #pragma once
 
-#include "io/explain/area/height_groups.hpp"
-#include "io/explain/area/plan_polygon.hpp"
+#include "io/explain/area/plan_raster.hpp"
+#include "io/explain/area/point_rules.hpp"
 #include "io/read/scan/scan_pass.hpp"
 
 #include <array>

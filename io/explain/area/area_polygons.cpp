@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "io/explain/area/area_polygons.hpp"
+
 #include "engine/run/error.hpp"
-#include "io/explain/area/held_polygons.hpp"
 #include "io/read/crs/gdal_session.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <span>
 #include <sstream>
@@ -27,11 +25,11 @@ bool is_of_degrees(const Eigen::Vector2d& place) {
 
 constexpr std::uint64_t kBytesOfCorner = 2 * sizeof(double);
 
-// Returns a name or a text as SQL has it.
-std::string in_sql(std::string_view text, char quote) {
-  std::string all(1, quote);
-  for (const char c : text) all.append(c == quote ? 2 : 1, c);
-  return all + quote;
+// Returns a text as SQL has it.
+std::string in_sql(std::string_view text) {
+  std::string all = "'";
+  for (const char c : text) all.append(c == '\'' ? 2 : 1, c);
+  return all + "'";
 }
 
 // The polygons of one file.
@@ -58,33 +56,16 @@ class Reader {
     const Dataset dataset(GDALDataset::Open(to_.file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers));
     if (!dataset) fail("cannot be read as GeoPackage, GeoJSON or Shapefile");
     const bool is_geopackage = std::string_view(dataset->GetDriverName()) == "GPKG";
-    if (!is_geopackage) check_shapefile();
     for (OGRLayer* const layer : dataset->GetLayers()) {
       if (is_geopackage && !has_geometries(*dataset, *layer)) continue;
       read(*layer);
     }
   }
 
-  // The index of the records has their lengths, in words of 16 bits. Without it, a record may be as long as
-  // the file.
-  void check_shapefile() const {
-    std::filesystem::path index = to_.file;
-    std::ifstream in(index.replace_extension(".shx"), std::ios::binary);
-    std::uint64_t longest = 0;
-    std::array<unsigned char, 8> record;
-    in.ignore(100);
-    while (in.read(reinterpret_cast<char*>(record.data()), record.size())) {
-      std::uint64_t words = 0;
-      for (std::size_t i = 4; i < 8; ++i) words = words << 8 | record[i];
-      longest = std::max(longest, 2 * words);
-    }
-    check_corners(to_, (longest > 0 ? longest : std::filesystem::file_size(to_.file)) / kBytesOfCorner);
-  }
-
-  // Whether a layer is a table of geometries; throws unless each of them fits in memory. To find the
-  // columns of a view, GDAL runs it, so the name comes first.
+  // Whether a layer is a table of geometries. To find the columns of a view, GDAL runs it, so the name comes
+  // first.
   bool has_geometries(GDALDataset& dataset, OGRLayer& layer) const {
-    const std::string name = layer.GetName(), text = in_sql(name, '\'');
+    const std::string name = layer.GetName(), text = in_sql(name);
     if (first_value(dataset, "SELECT COUNT(*) FROM gpkg_geometry_columns WHERE lower(table_name) = lower(" +
                                  text + ")") == 0)
       return false;
@@ -94,10 +75,6 @@ class Reader {
                         text + ")") == 0)
       fail("layer " + name + " is no table, but a view, which may have no end; `ogr2ogr OUT.gpkg IN.gpkg " +
            name + "` makes a table of it");
-    const std::string column = in_sql(layer.GetGeometryColumn(), '"');
-    const double longest =
-        first_value(dataset, "SELECT MAX(LENGTH(" + column + ")) FROM " + in_sql(name, '"'));
-    check_corners(to_, static_cast<std::uint64_t>(longest) / kBytesOfCorner);
     return true;
   }
 
@@ -124,11 +101,11 @@ class Reader {
     while (const OGRFeatureUniquePtr feature{layer.GetNextFeature()}) {
       const OGRGeometry* const geometry = feature->GetGeometryRef();
       if (geometry == nullptr || geometry->getDimension() != 2) continue;
-      if (geometry->hasCurveGeometry() == FALSE) {
-        add(*geometry);
-      } else {
-        add(*std::unique_ptr<OGRGeometry>(geometry->getLinearGeometry()));
-      }
+      const OGRGeometryUniquePtr straight(geometry->hasCurveGeometry() ? geometry->getLinearGeometry()
+                                                                       : nullptr);
+      const OGRGeometry& shape = straight ? *straight : *geometry;
+      check_corners(to_, shape.WkbSize() / kBytesOfCorner);
+      add(shape);
     }
     if (!failures_.first().empty()) fail("cannot be read");
     convert(first, layer.GetSpatialRef(), false);
@@ -146,7 +123,6 @@ class Reader {
   }
 
   Ring2 ring_of(const OGRLinearRing& ring) const {
-    check_corners(to_, static_cast<std::uint64_t>(ring.getNumPoints()));
     Ring2 corners;
     corners.reserve(static_cast<std::size_t>(ring.getNumPoints()));
     for (int i = 0; i < ring.getNumPoints(); ++i) corners.emplace_back(ring.getX(i), ring.getY(i));

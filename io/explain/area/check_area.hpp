@@ -1,43 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// read_area, check_area: the voids of a scan within an area.
+// check_area: the voids of a scan within an area.
+//
+// Idea: what no point covers is empty (empty_places.hpp). Circles around that are the voids.
 #pragma once
 
 #include "engine/export.hpp"
 #include "engine/run/progress.hpp"
+#include "io/explain/area/area.hpp"
 #include "io/explain/area/area_check.hpp"
-#include "io/explain/area/plan_raster.hpp"
-#include "io/read/options/options.hpp"
-#include "io/read/scan/scan_files.hpp"
-
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace lacuna::io {
-
-struct ClassPolygons {
-  std::string name;  // as in AreaClass
-  std::vector<PlanPolygon> polygons;
-};
-
-// The polygons of an area, and the cells over them.
-struct Area {
-  std::vector<PlanPolygon> polygons, exceptions;  // in coordinates of the scan
-  std::vector<ClassPolygons> classes;             // likewise
-  double off = 0;           // how far polygons and exceptions may lie off, as their conversion says
-  std::uint64_t bytes = 0;  // of all corners
-  PlanGrid grid;
-};
-
-// Returns nothing where the config has no area. Throws `Error`: a file that cannot be used, or too many
-// corners or cells for the memory limit.
-LACUNA_API std::optional<Area> read_area(const ScanFiles& scan, const FilesConfig& config);
 
 // A place is empty if no point lies nearer to it than half of the void size, seen from above. Voids are what
 // the circles around empty places cover within the area.
 //
 // The area has cells, whose edge is an eighth of the void size, and some are empty
-// (io/explain/area/empty_places.hpp). Voids are made of the cells near them: the middles of both are at most half of
+// (empty_places.hpp). Voids are made of the cells near them: the middles of both are at most half of
 // the void size apart. Cells that share edges are one void. The convex hull of the points in the bounds of
 // the area cuts voids.
 //
@@ -49,7 +27,7 @@ LACUNA_API std::optional<Area> read_area(const ScanFiles& scan, const FilesConfi
 // others. Points of about the same x, y, z and time count once. (Data voids in the Lidar Base Specification
 // of the U.S. Geological Survey: its least void has four nominal pulse spacings.)
 //
-// Points whose heights lie apart cover nothing (io/explain/area/height_groups.hpp), unless the config has bounds of
+// Points whose heights lie apart cover nothing (point_rules.hpp), unless the config has bounds of
 // heights. The gap is 100 m, or ten void sizes if that is more. Structures leave no such gap between their
 // points and those of the ground, but for lone roofs.
 //
@@ -59,7 +37,7 @@ LACUNA_API std::optional<Area> read_area(const ScanFiles& scan, const FilesConfi
 LACUNA_API AreaCheck check_area(Area area, const ScanFiles& scan, const FilesConfig& config,
                                 Progress& progress);
 
-// Checks the area of the config, or the scan's own outline (io/explain/area/plan_outline.hpp). The outline is never
+// Checks the area of the config, or the scan's own outline (area.hpp). The outline is never
 // `covered`, but covered within itself, or not decided where it has several polygons or leaves out a bay. Its
 // polygons are checked in their groups, and each group reads the scan like an area. Throws `Error`.
 LACUNA_API AreaCheck check_scan(const ScanFiles& scan, const FilesConfig& config, Progress& progress);

@@ -1,22 +1,81 @@
 // SPDX-License-Identifier: Apache-2.0
-// find_empty_places: the cells of an area with a place that no point is near.
+// find_empty_places: the cells of an area with a place that no point is near, and what is counted on the way.
+//
+// Idea: each point clears the cells whose middles it is near. What remains is empty. Cells of which only a
+// corner may be empty are divided, in a second pass, with the points near them.
 #pragma once
 
 #include "engine/run/progress.hpp"
-#include "io/explain/area/area_tiles.hpp"
-#include "io/explain/area/convex_hull.hpp"
-#include "io/explain/area/height_groups.hpp"
+#include "io/explain/area/area_check.hpp"
 #include "io/explain/area/plan_raster.hpp"
-#include "io/explain/area/point_density.hpp"
-#include "io/explain/area/repeated_points.hpp"
+#include "io/explain/area/point_rules.hpp"
 #include "io/read/scan/scan_pass.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <set>
 #include <vector>
 
 namespace lacuna::io {
+
+// Counts points in squares of kEdge x kEdge cells.
+class PointDensity {
+ public:
+  static constexpr std::size_t kEdge = 8;
+
+  explicit PointDensity(const PlanGrid& grid)
+      : columns_(grid.columns / kEdge + 1), points_(columns_ * (grid.rows / kEdge + 1)) {}
+
+  void add(std::size_t column, std::size_t row) { ++points_[row / kEdge * columns_ + column / kEdge]; }
+
+  // Returns the spacing of the points in the squares that have any; NaN without points. It is in cells;
+  // `inside` is the area.
+  double spacing(const PlanRaster& inside) const;
+
+  // Returns the spacing of the points around an outline. Squares with points count that are at most two
+  // squares away from it, and that it does not pass. NaN without such squares. It is in cells, as is the
+  // outline; `inside` is the area.
+  double spacing_around(const PlanPolygon& outline, const PlanRaster& inside) const;
+
+ private:
+  std::uint64_t area_of(std::size_t square, const PlanRaster& inside) const;  // in cells
+
+  std::size_t columns_;
+  std::vector<std::uint32_t> points_;
+};
+
+// Squares are whole multiples of their edge from 0 0. A cell belongs to the square that its middle lies in.
+// Without an edge there is no square, and nothing is counted.
+class AreaTiles {
+ public:
+  AreaTiles(double edge, const PlanGrid& grid);
+
+  void add_point(std::size_t column, std::size_t row) {
+    if (!tiles_.empty()) ++at(column, row).tile.points;
+  }
+  void add_void(std::size_t column, std::size_t row) {
+    if (!tiles_.empty()) ++at(column, row).tile.voids;
+  }
+  void add_area(const PlanRaster& inside);
+  void add_void_cells(std::size_t row, std::size_t from, std::size_t to);
+  // Returns the squares with a part of the area.
+  std::vector<AreaTile> with_area() const;
+
+ private:
+  struct Tile {
+    AreaTile tile;
+    std::uint64_t cells = 0, void_cells = 0;
+  };
+  Tile& at(std::size_t column, std::size_t row) {
+    return tiles_[of_row_[row] * columns_ + of_column_[column]];
+  }
+
+  PlanGrid grid_;
+  std::size_t columns_ = 0;
+  std::vector<std::size_t> of_column_, of_row_;  // squares of the cells
+  std::vector<Tile> tiles_;
+};
 
 // A place is empty if no point is nearer than this. In cells: half of the void size.
 inline constexpr double kEmptyRadius = PlanGrid::kCells / 2;

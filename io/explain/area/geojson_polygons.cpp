@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/explain/area/geojson_polygons.hpp"
-
 #include "engine/run/error.hpp"
+#include "io/explain/area/area_polygons.hpp"
 #include "io/read/files/input_file.hpp"
 #include "io/read/files/json_file.hpp"
 

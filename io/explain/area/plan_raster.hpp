@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A raster of bits over a plan.
+// Polygons, rasters of bits and convex hulls, seen from above.
 #pragma once
-
-#include "io/explain/area/plan_polygon.hpp"
 
 #include <bit>
 #include <cstddef>
@@ -15,6 +13,12 @@
 #include <Eigen/Geometry>
 
 namespace lacuna::io {
+
+using Ring2 = std::vector<Eigen::Vector2d>;  // closed; its first corner is not repeated
+
+// A place is inside where a ray from it crosses an odd number of edges, of all rings. So the order of rings
+// and their directions do not count.
+using PlanPolygon = std::vector<Ring2>;
 
 // Square cells, whole multiples of their edge from 0 0. Rows go from south to north, columns from west to
 // east.
@@ -108,5 +112,26 @@ void grow_row(const PlanGrid& grid, const CopyRow& copy, std::size_t row, double
 
 // Clears the cells [from, to) of a row.
 void clear_bits(std::span<std::uint64_t> row, std::size_t from, std::size_t to);
+
+// Memory: the hull, and some thousand points. Cost: the logarithm of that for each point.
+class ConvexHull {
+ public:
+  void add(const Eigen::Vector2d& point) {
+    points_.push_back(point);
+    if (points_.size() >= 2 * kept_ + kBuffer) reduce();
+  }
+  // Returns its corners counter-clockwise; fewer than three where all points lie on a line.
+  Ring2 corners() {
+    reduce();
+    return points_;
+  }
+
+ private:
+  static constexpr std::size_t kBuffer = 4096;
+  void reduce();
+
+  Ring2 points_;
+  std::size_t kept_ = 0;
+};
 
 }  // namespace lacuna::io

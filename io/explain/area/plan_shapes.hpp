@@ -4,7 +4,7 @@
 #pragma once
 
 #include "engine/export.hpp"
-#include "io/explain/area/plan_polygon.hpp"
+#include "io/explain/area/plan_raster.hpp"
 
 #include <cstddef>
 #include <cstdint>

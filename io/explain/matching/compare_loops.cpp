@@ -4,7 +4,7 @@
 #include "engine/loops/loop_plane.hpp"
 #include "engine/stitch/union_find.hpp"
 #include "io/explain/matching/match_loops.hpp"
-#include "io/explain/matching/point_tree.hpp"
+#include "io/explain/matching/nearest.hpp"
 
 #include <algorithm>
 #include <cmath>

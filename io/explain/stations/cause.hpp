@@ -4,8 +4,8 @@
 
 #include "engine/model/detection.hpp"
 #include "io/explain/area/area_check.hpp"
+#include "io/explain/stations/scan_axes.hpp"
 #include "io/explain/stations/trajectory.hpp"
-#include "io/explain/stations/upward.hpp"
 #include "io/read/scan/scan_pass.hpp"
 
 #include <array>

@@ -7,14 +7,30 @@
 
 #include "engine/model/detection.hpp"
 #include "io/explain/stations/cause.hpp"
-#include "io/explain/stations/inside_places.hpp"
 #include "io/explain/stations/station_views.hpp"
 #include "io/read/options/options.hpp"
 
+#include <cstddef>
 #include <functional>
 #include <span>
+#include <vector>
+
+#include <Eigen/Core>
 
 namespace lacuna::io {
+
+struct InnerSample {
+  Eigen::Vector3d position, normal;  // the normal of length 1, on either side
+  double area;                       // that the place represents
+};
+
+// Returns at least 256 places, spread evenly over the triangles of least area
+// (io/explain/lids/make_lid.hpp) between some 64 points of the loop. The sum of the places' areas
+// is the area of the triangles. Returns none if the loop has no area. The first kMostIslands of the islands
+// in it are left out, each by some 16 points. Cost: 0.3 ms, and reading the loop.
+std::vector<InnerSample> inside_places(const Detection& detection, std::size_t loop);
+// This overload takes the points of a loop.
+std::vector<InnerSample> inside_places(std::span<const Eigen::Vector3d> loop);
 
 // Below this cosine of the angle of incidence a surface counts as out of view: rays at less than 3 degrees.
 inline constexpr double kLeastIncidence = 0.0523;

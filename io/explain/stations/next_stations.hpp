@@ -1,22 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 // next_stations: chooses the next places of the scanner, which show most of the hidden area.
 //
-// Idea: from each place on the floor a part of the hidden area is visible. The function chooses places one
-// after the other, each with the most area that is not visible from the places before. They reach at least 63
-// % of the area of as many best places (1 - 1/e: Nemhauser, Wolsey, Fisher, Mathematical Programming 1978).
+// Idea: from each place on the floor a part of the hidden area is visible, where no voxel with points is in
+// between. The function chooses places one after the other, each with the most area that is not visible from
+// the places before. They reach at least 63 % of the area of as many best places (1 - 1/e: Nemhauser, Wolsey,
+// Fisher, Mathematical Programming 1978).
 #pragma once
 
-#include "io/explain/stations/inside_places.hpp"
-#include "io/explain/stations/obstacles.hpp"
+#include "io/explain/stations/find_causes.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace lacuna::io {
+
+class Obstacles {
+ public:
+  // `voxel`: its edge, above 0. Memory: a few bytes for each voxel with points.
+  Obstacles(std::span<const Eigen::Vector3d> points, double voxel);
+  ~Obstacles();
+
+  // Whether a voxel with points lies on the line from `eye` to `place`. The voxels around both ends do not
+  // count: up to two voxels from the place, and one from the eye. Cost: the voxels on the line.
+  bool block(const Eigen::Vector3d& eye, const Eigen::Vector3d& place) const;
+  bool touch(const Eigen::AlignedBox3d& box) const;  // whether a voxel in the box has points
+
+ private:
+  struct Grid;
+  std::unique_ptr<Grid> grid_;
+  Eigen::Vector3d origin_{0, 0, 0};  // near the points, which may be far from 0 0 0
+  double voxel_;
+};
 
 // The file is in the folder of results. A program recognises an earlier one by how it begins.
 inline constexpr const char* kNextStationsFile = "next_stations.geojson";

@@ -3,7 +3,7 @@
 
 #include "engine/run/error.hpp"
 #include "engine/store/store_file.hpp"
-#include "io/explain/stations/direction_cells.hpp"
+#include "io/explain/stations/directions.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 
 #include "engine/store/sorted_runs.hpp"
 #include "io/explain/stations/cause.hpp"
-#include "io/explain/stations/field_of_view.hpp"
+#include "io/explain/stations/directions.hpp"
 #include "io/explain/stations/trajectory.hpp"
 
 #include <compare>

@@ -4,9 +4,8 @@
 
 #include "engine/run/parallel.hpp"
 #include "io/explain/stations/cause.hpp"
-#include "io/explain/stations/field_of_view.hpp"
+#include "io/explain/stations/directions.hpp"
 #include "io/explain/stations/path_view.hpp"
-#include "io/explain/stations/range_image.hpp"
 #include "io/explain/stations/station.hpp"
 #include "io/read/scan/scan_pass.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/explain/stations/trajectory.hpp"
 
-#include "io/explain/stations/direction_cells.hpp"
-#include "io/explain/stations/list_lines.hpp"
+#include "io/explain/stations/directions.hpp"
+#include "io/explain/stations/station.hpp"
 #include "io/read/rows/column_rules.hpp"
 #include "io/read/text/text_start.hpp"
 

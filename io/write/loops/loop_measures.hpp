@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The measures of loops by name, for all writers. A new one is a line of this table. holes.json alone has its
-// own list, which its schema describes.
+// The measures of loops by name, and their colours, for all writers. A new measure is a line of this table.
+// holes.json alone has its own list, which its schema describes.
 #pragma once
 
+#include "engine/model/loop.hpp"
 #include "io/explain/stations/cause.hpp"
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <string_view>
 
@@ -44,5 +46,16 @@ inline constexpr auto kLoopMeasures = std::to_array<LoopMeasure>({
     {"no_return", share_of<Cause::kNoReturn>},
     {"filtered", share_of<Cause::kFiltered>},
 });
+
+struct LoopColour {
+  std::uint8_t red, green, blue;
+};
+
+inline constexpr LoopColour kHoleColour{230, 80, 30};
+inline constexpr LoopColour kOuterColour{30, 130, 230};
+
+constexpr const LoopColour& colour_of(LoopKind kind) {
+  return kind == LoopKind::kHole ? kHoleColour : kOuterColour;
+}
 
 }  // namespace lacuna::io

@@ -5,8 +5,6 @@
 #include "io/read/files/number.hpp"
 #include "io/read/files/result_folder.hpp"
 #include "io/write/loops/loop_measures.hpp"
-#include "io/write/report/page.hpp"
-#include "io/write/report/roof.hpp"
 #include "io/write/report/scene.hpp"
 
 #include <algorithm>
@@ -16,7 +14,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 
 namespace lacuna::io {

@@ -10,6 +10,10 @@
 
 namespace lacuna::io {
 
+// The page of io/write/report/page with its style, its scripts and three.js in it, put together by the build.
+extern const std::string_view kReportPage;
+inline constexpr std::string_view kDataPlace = "<!--{data}-->\n";  // where a report's data go
+
 struct Scene;
 
 // A report.html begins with this text, by which a program recognises an earlier one.

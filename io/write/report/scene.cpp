@@ -4,19 +4,83 @@
 #include "engine/bucket/z_curve.hpp"
 #include "engine/run/error.hpp"
 #include "io/explain/stations/next_stations.hpp"
+#include "io/read/files/property_name.hpp"
 #include "io/read/formats.hpp"
-#include "io/read/rows/scan_reader.hpp"
+#include "io/read/rows/scalar.hpp"
 #include "io/read/rows/vectors.hpp"
-#include "io/write/report/area_section.hpp"
-#include "io/write/report/scene_colours.hpp"
+#include "io/write/report/area_page.hpp"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <limits>
 #include <numeric>
+#include <utility>
 
 namespace lacuna::io {
+namespace {
+
+constexpr float kRounded = 1.01f;                               // the most that a colour from 0 to 1 may be
+constexpr std::pair<double, double> kStretched = {0.02, 0.98};  // percentiles
+
+// The values that become 0 and 255.
+std::pair<float, float> range_of(std::span<const float> values, bool is_intensity, Scalar type) {
+  if (is_intensity) {
+    std::vector<float> sorted(values.begin(), values.end());
+    return {percentile(sorted, kStretched.first), percentile(sorted, kStretched.second)};
+  }
+  const float most = *std::max_element(values.begin(), values.end());
+  if (!is_integer(type) && most <= kRounded) return {0.0f, 1.0f};
+  return {0.0f, most > 255 ? 65535.0f : 255.0f};
+}
+
+}  // namespace
+
+ColourColumns::ColourColumns(const RowLayout& layout) : layout_(layout) {
+  const auto [red, green, blue, intensity] = kColourNames;
+  if (layout.find(red) && layout.find(green) && layout.find(blue)) {
+    properties_ = {layout.find(red), layout.find(green), layout.find(blue)};
+  } else if (layout.find(intensity)) {
+    properties_ = {layout.find(intensity)};
+  }
+  loaded_.resize(properties_.size());
+}
+
+void ColourColumns::load(const RowBatch& rows) {
+  for (std::size_t i = 0; i < properties_.size(); ++i) {
+    load_column(rows, layout_.stride, *properties_[i], loaded_[i]);
+  }
+}
+
+void ColourColumns::take(std::size_t row) {
+  for (const std::vector<double>& column : loaded_) {
+    taken_.push_back(std::isfinite(column[row]) ? static_cast<float>(column[row]) : 0.0f);
+  }
+}
+
+void ColourColumns::begin_file() {
+  if (taken_.size() > files_.back()) files_.push_back(taken_.size());
+}
+
+std::vector<Colour> ColourColumns::finish() const {
+  std::vector<Colour> colours;
+  if (taken_.empty()) return colours;
+  const std::size_t width = properties_.size();
+  const bool is_intensity = width == 1;
+  colours.reserve(taken_.size() / width);
+  for (std::size_t file = 0; file < files_.size(); ++file) {
+    const bool is_last = is_intensity || file + 1 == files_.size();  // one range of all intensities
+    const std::size_t end = is_last ? taken_.size() : files_[file + 1];
+    const std::span values(taken_.data() + files_[file], end - files_[file]);
+    if (values.empty()) break;
+    const auto [low, high] = range_of(values, is_intensity, properties_.front()->type);
+    const auto byte = [low = low, span = std::max(high - low, 1e-30f)](float value) {
+      return static_cast<std::uint8_t>(std::clamp((value - low) / span, 0.0f, 1.0f) * 255.0f + 0.5f);
+    };
+    for (std::size_t i = 0; i < values.size(); i += width)
+      colours.push_back({byte(values[i]), byte(values[i + width / 3]), byte(values[i + 2 * (width / 3)])});
+    if (is_last) break;
+  }
+  return colours;
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -309,6 +373,103 @@ Json read_next_stations(const fs::path& folder) {
     throw Error(file.string() + ": is not as lacuna stations writes it: " + error.what());
   }
   return stations;
+}
+
+namespace {
+
+constexpr int kCells = 24;            // along each side of the plan
+constexpr float kLeastRoofed = 0.6f;  // share of the cells with something below their highest point
+constexpr float kThickness = 0.12f;   // of a roof: share of the heights
+constexpr float kLeastRoom = 0.4f;    // below a roof: share of the heights
+constexpr float kNone = -std::numeric_limits<float>::infinity();
+
+// Lowest and highest of most positions along an axis, so that a few outliers do not count.
+std::pair<float, float> usual_range(const std::vector<Eigen::Vector3f>& positions, int axis) {
+  std::vector<float> values;
+  for (const Eigen::Vector3f& p : positions) values.push_back(p[axis]);
+  const float low = percentile(values, 0.005), high = percentile(values, 0.995);
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const float margin = 0.02f * (high - low);
+  return {std::max(*least, low - margin), std::min(*most, high + margin)};
+}
+
+}  // namespace
+
+std::optional<double> roof_height(const Scene& scene) {
+  const std::vector<Eigen::Vector3f>& positions = scene.points.positions;
+  if (positions.empty()) return std::nullopt;
+  const std::pair<float, float> sides[] = {usual_range(positions, 0), usual_range(positions, 1)};
+  const auto [bottom, top] = usual_range(positions, 2);
+  const float tall = top - bottom;
+  const auto cell_of = [&](const Eigen::Vector3f& p) -> std::optional<std::size_t> {
+    std::size_t cell = 0;
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto [low, high] = sides[axis];
+      const float part = kCells * (p[axis] - low) / std::max(1e-30f, high - low);
+      if (!(part >= 0 && part < kCells)) return std::nullopt;
+      cell = cell * kCells + static_cast<std::size_t>(part);
+    }
+    return cell;
+  };
+  std::vector<float> highest(kCells * kCells, kNone);
+  for (const Eigen::Vector3f& p : positions)
+    if (const auto cell = cell_of(p); cell && p.z() <= top) highest[*cell] = std::max(highest[*cell], p.z());
+  std::vector<bool> is_roofed(highest.size());
+  for (const Eigen::Vector3f& p : positions) {
+    if (const auto cell = cell_of(p))
+      if (highest[*cell] > top - 2 * kThickness * tall && p.z() < highest[*cell] - kLeastRoom * tall)
+        is_roofed[*cell] = true;
+  }
+  std::vector<float> roofs;
+  std::ptrdiff_t occupied = 0;
+  for (std::size_t cell = 0; cell < highest.size(); ++cell) {
+    occupied += highest[cell] > kNone;
+    if (is_roofed[cell]) roofs.push_back(highest[cell]);
+  }
+  if (roofs.empty() || static_cast<float>(roofs.size()) < kLeastRoofed * static_cast<float>(occupied))
+    return std::nullopt;
+  return scene.origin.z() + double(percentile(roofs, 0.05) - kThickness * tall);
+}
+
+namespace {
+
+// Keeps the values of the given rows, in order.
+template <class Value>
+void keep(std::vector<Value>& values, const std::vector<std::size_t>& rows) {
+  if (values.empty()) return;
+  for (std::size_t i = 0; i < rows.size(); ++i) values[i] = values[rows[i]];
+  values.resize(rows.size());
+}
+
+void hide_points_above(float height, Scene::Points& points) {
+  std::vector<std::size_t> shown;
+  for (std::size_t i = 0; i < points.positions.size(); ++i)
+    if (points.positions[i].z() <= height) shown.push_back(i);
+  keep(points.positions, shown);
+  keep(points.probabilities, shown);
+  keep(points.normals, shown);
+  keep(points.colours, shown);
+}
+
+void hide_loops_above(float height, Scene::Loops& loops) {
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<std::size_t> first = {0};
+  for (std::size_t loop = 0; loop < loops.ids.size(); ++loop) {
+    const std::span<const Eigen::Vector3f> all = loops.vertices_of(loop);
+    if (std::ranges::any_of(all, [&](const Eigen::Vector3f& v) { return v.z() <= height; }))
+      vertices.insert(vertices.end(), all.begin(), all.end());
+    first.push_back(vertices.size());
+  }
+  loops.vertices = std::move(vertices);
+  loops.first = std::move(first);
+}
+
+}  // namespace
+
+void hide_above(Scene& scene, double height) {
+  const auto relative = static_cast<float>(height - scene.origin.z());
+  hide_points_above(relative, scene.points);
+  hide_loops_above(relative, scene.loops);
 }
 
 }  // namespace lacuna::io

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // The content of a report and a picture: a sample of the scan and the loops, from the folder of a run's
-// results.
+// results. And what both leave out of it, as a roof hides all else from above.
 #pragma once
 
 #include "io/explain/stations/cause.hpp"
+#include "io/read/rows/scan_reader.hpp"
 #include "io/write/loops/json.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -83,5 +87,43 @@ void extend(Scene& scene, const Eigen::AlignedBox3d& places);
 // null if the file is not there. It is apart from read_scene(), since `lacuna stations` replaces a damaged
 // file. Throws `Error` if the file is not as that command writes it.
 Json read_next_stations(const std::filesystem::path& folder);
+
+// Returns the value at a share of all values, in ascending order. `share` is from 0 to 1. There is at least
+// one value; the order of the values changes. Cost: linear.
+inline float percentile(std::vector<float>& values, double share) {
+  const auto at = values.begin() + std::llround(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+// The colours of points as the scan has them: red, green and blue of any type, or grey by intensity.
+class ColourColumns {
+ public:
+  explicit ColourColumns(const RowLayout& layout);
+
+  void load(const RowBatch& rows);
+  void take(std::size_t row);  // of the batch that was loaded last
+  void begin_file();           // the rows that are taken from now on are of another file
+
+  // Returns one colour for each row taken; none if the layout has no colours. Values of a file have 16 bits
+  // if any is above 255, as some programs write bytes there. Floats up to 1, or hardly more, are shares.
+  // Intensities are stretched from their 2nd to their 98th percentile, of all files.
+  std::vector<Colour> finish() const;
+
+ private:
+  const RowLayout& layout_;
+  std::vector<const Property*> properties_;  // three, one or none
+  std::vector<std::vector<double>> loaded_;  // of each
+  std::vector<float> taken_;                 // row by row
+  std::vector<std::size_t> files_ = {0};     // of each file, the first in taken_
+};
+
+// Returns the height below which a view sees into the scan, in coordinates of the scan; none without a roof.
+// A roof covers at least 0.6 of the plan, with points at least 0.4 of all heights below it. Cost: linear.
+std::optional<double> roof_height(const Scene& scene);
+
+// Leaves out the points above `height`, in coordinates of the scan. Loops that lie above it with all of their
+// vertices have none afterwards, as loops through strays. Cost: linear.
+void hide_above(Scene& scene, double height);
 
 }  // namespace lacuna::io

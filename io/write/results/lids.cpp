@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/write/results/lids.hpp"
-
 #include "engine/run/error.hpp"
 #include "engine/run/parallel.hpp"
 #include "io/explain/lids/make_lid.hpp"
 #include "io/read/ply/ply_writer.hpp"
-#include "io/write/results/local_coordinates.hpp"
+#include "io/write/results/results.hpp"
 
 #include <algorithm>
 #include <cmath>

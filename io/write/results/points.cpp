@@ -4,8 +4,8 @@
 #include "engine/run/error.hpp"
 #include "io/read/las/las_writer.hpp"
 #include "io/read/ply/ply_writer.hpp"
-#include "io/write/results/local_coordinates.hpp"
 #include "io/write/results/points_form.hpp"
+#include "io/write/results/results.hpp"
 
 #include <algorithm>
 #include <cstdint>

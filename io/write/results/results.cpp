@@ -4,17 +4,18 @@
 #include "engine/run/error.hpp"
 #include "engine/run/parallel.hpp"
 #include "io/read/crs/gis_module.hpp"
+#include "io/read/rows/scalar.hpp"
+#include "io/read/rows/vectors.hpp"
 #include "io/read/scan/plan_system.hpp"
 #include "io/read/scan/scan_identity.hpp"
 #include "io/write/report/report.hpp"
 #include "io/write/report/scene.hpp"
-#include "io/write/results/gis_library.hpp"
-#include "io/write/results/local_coordinates.hpp"
+#include "io/write/results/gis_results.hpp"
 #include "io/write/results/points.hpp"
 #include "io/write/results/voids.hpp"
 
+#include <cmath>
 #include <functional>
-#include <limits>
 #include <string>
 
 namespace lacuna::io {
@@ -48,8 +49,7 @@ std::vector<ResultFile> results_of(const ExplainedDetection& detection, const st
            Writer::kLibrary},
           {"loops.geojson", output.geojson,
            [&](OutputFile& out) { write_loops_gis(detection, scan, output, GisFormat::kGeoJson, out); }},
-          {"lids.ply", output.lids,
-           [&](OutputFile& out) { write_lids(lids, detection, scan, output, out); }},
+          {"lids.ply", output.lids, [&](OutputFile& out) { write_lids(lids, detection, scan, output, out); }},
           {"coverage.tif", output.coverage > 0,
            [&](OutputFile& out) { write_coverage(detection, scan, config, out); }, Writer::kLibrary},
           {"holes.csv", true, [&](OutputFile& out) { write_table(detection, lids, out); }},
@@ -105,6 +105,25 @@ std::vector<PlyProperty> position_and_id(const Detection& detection, const ScanF
           {"y", coordinate, {}},
           {"z", coordinate, {}},
           {"scalar_id", small ? Scalar::kUint32 : Scalar::kFloat64, {}}};
+}
+
+LocalOffset local_offset(const Detection& detection, const OutputConfig& config) {
+  if (!config.local_coordinates) return std::nullopt;
+  const Eigen::AlignedBox3d& bounds = detection.summary.strays.rest;
+  if (bounds.isEmpty()) return Eigen::Vector3d(0, 0, 0);
+  // Added to 0, -0 is 0.
+  return bounds.center().unaryExpr([](double middle) { return std::round(middle) + 0.0; });
+}
+
+Scalar coordinate_type(const ScanFiles& scan, const OutputConfig& config) {
+  return config.local_coordinates || has_single_precision(scan) ? Scalar::kFloat32 : Scalar::kFloat64;
+}
+
+std::vector<RowLayout> written_layouts(const ScanFiles& scan, const OutputConfig& config) {
+  std::vector<RowLayout> layouts = layouts_of(scan);
+  if (!config.local_coordinates) return layouts;
+  for (RowLayout& layout : layouts) layout = with_components_as(Scalar::kFloat32, kPositionNames, layout);
+  return layouts;
 }
 
 }  // namespace lacuna::io

@@ -5,16 +5,45 @@
 #include "engine/export.hpp"
 #include "engine/model/detection.hpp"
 #include "io/explain/stations/cause.hpp"
+#include "io/read/files/output_file.hpp"
 #include "io/read/files/result_folder.hpp"
 #include "io/read/options/options.hpp"
 #include "io/read/ply/ply_header.hpp"
+#include "io/read/rows/local_offset.hpp"
 #include "io/read/scan/scan_files.hpp"
-#include "io/write/results/lids.hpp"
 
 #include <filesystem>
+#include <limits>
 #include <vector>
 
 namespace lacuna::io {
+
+// Returns the middle of the bounds of the scan without its strays, in whole units; 0 0 0 without points. It
+// depends on the scan alone. Without --local-coordinates there is no offset. With it, floats keep 2^-24 of
+// the extent around the offset.
+LocalOffset local_offset(const Detection& detection, const OutputConfig& config);
+
+// Returns the type of the coordinates of vertices.
+Scalar coordinate_type(const ScanFiles& scan, const OutputConfig& config);
+
+// Returns the columns of the scan's files as a run writes them: with --local-coordinates, x y z are floats.
+std::vector<RowLayout> written_layouts(const ScanFiles& scan, const OutputConfig& config);
+
+struct LidMeasures {
+  std::uint64_t vertices = 0, triangles = 0;
+  double area = std::numeric_limits<double>::quiet_NaN();  // without a lid
+};
+
+// Returns the measures of each loop's lid, by its id. Outer curves have no lid. One warning counts the holes
+// without one, and has the reason of the first. The threads make several lids at once: kLidBytes for each,
+// within a quarter of the memory limit if one fits. Throws `Error`.
+std::vector<LidMeasures> measure_lids(const Detection& detection);
+
+// lids.ply: element vertex with x y z in the coordinates of loops.ply, and scalar_loop, the id of the hole.
+// Element face has list vertex_indices alone, since meshio 5 reads no faces with more. Lids are made once
+// more, as they may be larger than memory, and the file has all vertices first. Throws `Error`.
+void write_lids(const std::vector<LidMeasures>& lids, const Detection& detection, const ScanFiles& scan,
+                const OutputConfig& config, OutputFile& out);
 
 // Throws `Error` if an input is an earlier result that the folder replaces. Throws, too, if the annotated
 // scan cannot be written in its format. write_results checks it, too; a program checks before the work.
@@ -47,8 +76,8 @@ void write_table(const ExplainedDetection& detection, const std::vector<LidMeasu
 
 // Names as CloudCompare ("scalar_", of which it shows the first one) and MeshLab (quality: the probability)
 // have them. Element vertex: x y z, scalar_loop (an index into the report's loops), scalar_id, scalar_outer
-// (0: hole, 1: outer), quality, red green blue (io/write/loops/loop_colours.hpp). Element edge: vertex1 vertex2,
-// closing each loop. Coordinates here and below: io/write/results/local_coordinates.hpp.
+// (0: hole, 1: outer), quality, red green blue (io/write/loops/loop_colours.hpp). Element edge: vertex1
+// vertex2, closing each loop. Coordinates here and below: see `local_offset`.
 void write_loops(const Detection& detection, const ScanFiles& scan, const OutputConfig& config,
                  OutputFile& out);
 

@@ -3,8 +3,8 @@
 
 #include "io/read/files/number.hpp"
 #include "io/write/loops/json.hpp"
-#include "io/write/report/area_sheet.hpp"
-#include "io/write/results/gis_library.hpp"
+#include "io/write/report/area_page.hpp"
+#include "io/write/results/gis_results.hpp"
 #include "io/write/results/results.hpp"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/evaluation/evaluation.hpp"
 
-#include "io/explain/matching/edge_tree.hpp"
-#include "io/explain/matching/true_loops.hpp"
+#include "io/explain/matching/match_loops.hpp"
+#include "io/explain/matching/nearest.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/test.hpp"
 #include "tests/tools/matching/drawn.hpp"

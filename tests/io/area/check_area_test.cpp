@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/explain/area/height_groups.hpp"
-#include "io/explain/area/repeated_points.hpp"
+#include "io/explain/area/point_rules.hpp"
 #include "tests/support/test.hpp"
 
 namespace lacuna::io {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/explain/area/geojson_polygons.hpp"
-
+#include "io/explain/area/area_polygons.hpp"
 #include "tests/io/io_support.hpp"
 
 namespace lacuna::io {

@@ -2,9 +2,7 @@
 // The raster of an area against plain loops over its cells.
 #include "io/explain/area/plan_raster.hpp"
 
-#include "io/explain/area/area_tiles.hpp"
-#include "io/explain/area/convex_hull.hpp"
-#include "io/explain/area/point_density.hpp"
+#include "io/explain/area/empty_places.hpp"
 #include "tests/support/draws.hpp"
 
 namespace lacuna::io {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/explain/lids/make_lid.hpp"
 
-#include "io/explain/lids/triangulate_polygon.hpp"
 #include "tests/io/lids/drawn_loops.hpp"
 #include "tests/io/lids/watertight.hpp"
 #include "tests/support/clouds.hpp"
@@ -135,9 +134,11 @@ TEST_CASE("islands that touch each other and their hole have a lid that is a sur
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     Random random(seed);
     const auto square_at = [&](double x, double y, double half) {
-      return hole_in_plane(with_points(
-          {{x - half, y - half, 0}, {x + half, y - half, 0}, {x + half, y + half, 0}, {x - half, y + half, 0}},
-          static_cast<int>(random.whole(1, 3))));
+      return hole_in_plane(with_points({{x - half, y - half, 0},
+                                        {x + half, y - half, 0},
+                                        {x + half, y + half, 0},
+                                        {x - half, y + half, 0}},
+                                       static_cast<int>(random.whole(1, 3))));
     };
     std::vector<Loop> islands;
     for (int i = 0; i < 4; ++i)

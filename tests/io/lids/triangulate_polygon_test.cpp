@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/explain/lids/triangulate_polygon.hpp"
-
+#include "io/explain/lids/make_lid.hpp"
 #include "tests/io/lids/drawn_loops.hpp"
 #include "tests/io/lids/watertight.hpp"
 #include "tests/support/clouds.hpp"

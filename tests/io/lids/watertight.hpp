@@ -2,7 +2,7 @@
 // Whether the triangles of a lid are a surface on its loops.
 #pragma once
 
-#include "io/explain/lids/lid_mesh.hpp"
+#include "io/explain/lids/make_lid.hpp"
 #include "tests/support/test.hpp"
 
 namespace lacuna::test {

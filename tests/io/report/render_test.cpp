@@ -2,10 +2,8 @@
 #include "io/write/report/render.hpp"
 
 #include "io/read/rows/scalar.hpp"
-#include "io/write/report/labels.hpp"
-#include "io/write/report/roof.hpp"
-#include "io/write/report/scene_colours.hpp"
-#include "io/write/report/section.hpp"
+#include "io/write/report/canvas.hpp"
+#include "io/write/report/scene.hpp"
 #include "tests/support/test.hpp"
 
 namespace lacuna::io {

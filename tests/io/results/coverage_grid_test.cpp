@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/write/results/coverage_grid.hpp"
-
+#include "io/write/results/gis_results.hpp"
 #include "tests/support/test.hpp"
 
 namespace lacuna::io {

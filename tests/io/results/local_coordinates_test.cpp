@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // PLY files with coordinates relative to an offset, written and read.
-#include "io/write/results/local_coordinates.hpp"
-
 #include "io/write/results/points.hpp"
 #include "io/write/results/results.hpp"
 #include "tests/io/io_support.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/explain/stations/list_lines.hpp"
+#include "io/explain/stations/station.hpp"
 #include "tests/io/io_support.hpp"
 
 namespace lacuna::io {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/explain/stations/station.hpp"
 
-#include "io/explain/stations/range_image.hpp"
+#include "io/explain/stations/directions.hpp"
 #include "tests/io/io_support.hpp"
 
 namespace lacuna::io {

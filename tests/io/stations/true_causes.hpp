@@ -4,7 +4,7 @@
 
 #include "bench/synth/scanner.hpp"
 #include "io/explain/stations/cause.hpp"
-#include "io/explain/stations/inside_places.hpp"
+#include "io/explain/stations/find_causes.hpp"
 #include "tests/support/test.hpp"
 
 namespace lacuna::test {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/explain/stations/upward.hpp"
-
+#include "io/explain/stations/scan_axes.hpp"
 #include "tests/support/test.hpp"
 
 namespace lacuna::io {

@@ -2,7 +2,7 @@
 // Drawn truths: rings of points in the plane, loops along parts of them, and rectangles of a grid.
 #pragma once
 
-#include "io/explain/matching/true_loops.hpp"
+#include "io/explain/matching/match_loops.hpp"
 #include "tests/support/test.hpp"
 
 namespace lacuna::matching {

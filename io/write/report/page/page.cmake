@@ -68,7 +68,7 @@ string(REPLACE "{scripts}" "${script_sources}" page "${page}")
 string(REPLACE "{styles}" "${style_sources}" page "${page}")
 
 set(REPORT_PAGE ${CMAKE_CURRENT_BINARY_DIR}/page.cpp)
-file(WRITE ${REPORT_PAGE}.new "#include \"io/write/report/page.hpp\"
+file(WRITE ${REPORT_PAGE}.new "#include \"io/write/report/report.hpp\"
 
 namespace lacuna::io {
 

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/run/machine_memory.hpp"
+#include "io/read/files/number.hpp"
+#include "io/write/loops/json.hpp"
+#include "io/write/loops/loop_measures.hpp"
+#include "io/write/results/results.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <tuple>
+#include <vector>
+
+namespace lacuna::io {
+namespace {
+
+// Returns the pose's 4 x 4 matrix, row by row.
+Json rows_of(const Pose& pose) {
+  Json rows = Json::array();
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) rows.push_back(pose.matrix()(row, column));
+  }
+  return rows;
+}
+
+Json inputs(const ScanFiles& scan, const ScanCounts& counts) {
+  const std::vector<std::uint64_t> rows = rows_of(scan, counts);
+  Json files = Json::array();
+  std::uint64_t first_id = 0;
+  for (std::size_t i = 0; i < scan.files().size(); ++i) {
+    Json file = Json::object();
+    file["file"] = scan.files()[i].name.string();
+    if (const auto& pose = scan.files()[i].pose) file["pose"] = rows_of(*pose);
+    if (!scan.files()[i].crs.empty()) file["crs"] = scan.files()[i].crs;
+    file["first_id"] = first_id;
+    file["points"] = rows[i];
+    first_id += rows[i];
+    Json::object_t properties;  // names differ, so none is searched for
+    for (const Property& property : scan.files()[i].layout.properties) {
+      properties.emplace_back(property.name, ply_name(property.type));
+    }
+    file["properties"] = std::move(properties);
+    files.push_back(std::move(file));
+  }
+  return files;
+}
+
+Json counts(const Counts& counts, const FilteredOut& filtered, const std::vector<LoopMeasures>& loops) {
+  std::uint64_t holes = 0;
+  for (const LoopMeasures& loop : loops) holes += loop.kind == LoopKind::kHole ? 1 : 0;
+  return {{"points", counts.points},
+          {"dropped", counts.dropped - filtered.total()},
+          {"filtered_out", counts_of(filtered)},
+          {"thinned_out", counts.thinned_out},
+          {"duplicates", counts.duplicates},
+          {"candidates", counts.candidates},
+          {"coherent", counts.coherent},
+          {"boundary_points", counts.boundary_points},
+          {"boundary_edges", counts.boundary_edges},
+          {"components", counts.components},
+          {"raw_loops", counts.raw_loops},
+          {"loops", loops.size()},
+          {"holes", holes},
+          {"outer", loops.size() - holes},
+          {"undefined_normals", counts.undefined_normals}};
+}
+
+Json levels_json(const std::vector<LevelSummary>& levels) {
+  Json list = Json::array();
+  for (const LevelSummary& level : levels)
+    list.push_back({{"edge", level.edge}, {"points", level.points}, {"loops", level.loops}});
+  return list;
+}
+
+// Returns null if the value is not known.
+Json cause_json(const LoopCause& cause) {
+  if (cause.name().empty()) return {};
+  Json json = {{"main", cause.name()}, {"shares", Json::object()}, {"hidden_by", Json()}};
+  for (std::size_t i = 0; i < kCauses; ++i) json["shares"][std::string(kCauseNames[i])] = cause.shares[i];
+  if (cause.hidden_from >= 0) {
+    json["hidden_by"] = {{"place", list(cause.hidden_by)},
+                         {"extent", cause.hidden_by_extent},
+                         {"station", cause.hidden_from},
+                         {"from", list(cause.hidden_from_place)}};
+  }
+  return json;
+}
+
+Json head(const ExplainedDetection& detection, const ScanFiles& scan, const FilesConfig& config) {
+  const Summary& summary = detection.summary;
+  Json json = begin_json(kHolesSchema);
+  put_crs(scan, json);
+  json["parameters"] = parameter_values(config, [](std::string_view section) { return section != "run"; });
+  json["inputs"] = inputs(scan, detection.counts);
+  json["counts"] = counts(summary.counts, detection.counts.filtered_out, detection.loops);
+  json["bounds"] = corners(summary.bounds);
+  json["strays"] = strays_json(summary.strays);
+  const LocalOffset offset = local_offset(detection, config.output);
+  json["offset"] = offset ? list(*offset) : Json();
+  json["probability"] = summary.probabilities;
+  json["resolution"] = summary.resolution;
+  json["levels"] = levels_json(summary.levels);
+  json["mean_neighbours"] = summary.mean_neighbours;
+  json["mean_edge_length"] = summary.mean_edge_length;
+  json["median_distance"] = summary.median_distance;
+  json["stations"] = stations_json(detection.stations);
+  json["surface_area"] = summary.surface_area;
+  json["hole_area"] = summary.hole_area;
+  const auto openings = detection.opening_area();
+  json["opening_area"] = openings ? Json(*openings) : Json();
+  json["eps"] = summary.eps;
+  json["e"] = summary.e;
+  return json;
+}
+
+// Writes `"key":[...]` of a list that may be larger than memory: `put(element)` writes an element.
+void write_list(std::string_view key, OutputFile& out,
+                const std::function<void(const std::function<void(const Json&)>& put)>& for_each) {
+  out.write(",\"" + std::string(key) + "\":[");
+  bool is_first = true;
+  for_each([&](const Json& element) {
+    out.write((is_first ? "" : ",") + print(element, -1));
+    is_first = false;
+  });
+  out.write("]");
+}
+
+Json evidence_json(const LoopEvidence& evidence) {
+  return {{"clearness", evidence.clearness},
+          {"surface", evidence.surface},
+          {"spacing", evidence.spacing},
+          {"sampling_gap", evidence.sampling_gap},
+          {"width", evidence.width},
+          {"compactness", evidence.compactness},
+          {"persistence", evidence.persistence}};
+}
+
+// Writes point by point, since a loop may be larger than memory.
+void write_loop(std::size_t id, const ExplainedDetection& detection, bool with_coordinates, OutputFile& out) {
+  const ExplainedLoop measures = detection.loop(id);
+  const Json head = {{"id", id},
+                     {"kind", name_of(measures.kind)},
+                     {"parent", measures.parent < 0 ? Json() : Json(measures.parent)},
+                     {"confidence", measures.track.confidence},
+                     {"prominence", measures.track.evidence.prominence},
+                     {"evidence", evidence_json(measures.track.evidence)},
+                     {"first_scale", measures.track.first_scale},
+                     {"last_scale", measures.track.last_scale},
+                     {"perimeter", measures.perimeter},
+                     {"area", measures.area},
+                     {"diameter", measures.diameter},
+                     {"planarity", measures.planarity},
+                     {"mean_probability", measures.mean_probability},
+                     {"centroid", list(measures.centroid)},
+                     {"normal", list(measures.normal)},
+                     {"cause", cause_json(measures.cause)},
+                     {"tiles", measures.tiles},
+                     {"points", measures.points}};
+  std::string text = print(head, -1);
+  text.pop_back();  // its closing brace
+  out.write(text);
+  write_list("ids", out, [&](const auto& put) {
+    detection.for_each_loop_point(id, [&](const LoopPoint& point) { put(value(point.id)); });
+  });
+  if (with_coordinates) {
+    write_list("coordinates", out, [&](const auto& put) {
+      detection.for_each_loop_point(id, [&](const LoopPoint& point) { put(list(point.position())); });
+    });
+  }
+  out.write("}");
+}
+
+}  // namespace
+
+void write_holes(const ExplainedDetection& detection, const ScanFiles& scan, const FilesConfig& config,
+                 OutputFile& out) {
+  std::string text = print(head(detection, scan, config), 2);
+  text.resize(text.size() - 2);  // without its "\n}": the loops follow
+  out.write(text);
+  out.write(",\n  \"loops\": [");
+  for (std::size_t i = 0; i < detection.loops.size(); ++i) {
+    out.write(i == 0 ? "\n    " : ",\n    ");
+    write_loop(i, detection, !config.output.no_coordinates, out);
+  }
+  out.write(detection.loops.empty() ? "]\n}\n" : "\n  ]\n}\n");
+}
+
+namespace {
+
+double points_per_second(std::uint64_t points, double seconds) {
+  return static_cast<double>(points) / seconds;
+}
+
+}  // namespace
+
+void write_run(const Detection& detection, const ScanFiles& scan, const FilesConfig& config,
+               OutputFile& out) {
+  const Summary& summary = detection.summary;
+  Json json = begin_json("run 1");
+  json["parameters"] = parameter_values(config, [](std::string_view section) { return section == "run"; });
+  put_crs(scan, json);
+  json["points"] = summary.counts.points;
+  json["tiling"] = {{"tiles", summary.tiles},
+                    {"tile_points", summary.tile_points},
+                    {"threads", summary.threads},
+                    {"memory_limit_bytes", summary.memory_limit}};
+  json["phases"] = Json::array();
+  double total_seconds = 0;
+  for (const PhaseTime& phase : summary.phases) {
+    json["phases"].push_back(
+        {{"name", phase.name},
+         {"seconds", phase.seconds},
+         {"points_per_second", points_per_second(summary.counts.points, phase.seconds)}});
+    total_seconds += phase.seconds;
+  }
+  json["total_seconds"] = total_seconds;
+  json["points_per_second"] = points_per_second(summary.counts.points, total_seconds);
+  const std::uint64_t peak = peak_memory();
+  json["peak_memory_bytes"] = peak > 0 ? Json(peak) : Json();
+  json["cores"] = std::thread::hardware_concurrency();
+  out.write(print(json, 2) + "\n");
+}
+
+namespace {
+
+// Writes an empty field if the value is not finite.
+void append(std::string& line, double value) {
+  line += ',';
+  if (std::isfinite(value)) append_shortest(line, value);
+}
+
+std::string table_header(bool has_lids) {
+  std::string names = "id,kind";
+  for (const LoopMeasure& measure : kLoopMeasures) names.append(",").append(measure.name);
+  if (has_lids) names += ",lid_area";
+  return names + ",x,y,z,nx,ny,nz,cause,hidden_by_x,hidden_by_y,hidden_by_z\n";
+}
+
+// Holes before outer curves, each the largest first.
+std::vector<std::size_t> by_size(const std::vector<LoopMeasures>& loops) {
+  std::vector<std::size_t> order(loops.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto rank = [&](std::size_t id) {
+    const double area = std::isfinite(loops[id].area) ? loops[id].area : std::numeric_limits<double>::max();
+    return std::tuple(loops[id].kind, -area, id);
+  };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+  return order;
+}
+
+}  // namespace
+
+void write_table(const ExplainedDetection& detection, const std::vector<LidMeasures>& lids, OutputFile& out) {
+  constexpr int kDigits = 7, kDigitsOfCount = 16;
+  const int decimals = place_decimals(detection.summary.median_distance);
+  const auto place = [decimals](double value) { return reread(value, std::chars_format::fixed, decimals); };
+  out.write(table_header(!lids.empty()));
+  for (const std::size_t id : by_size(detection.loops)) {
+    const ExplainedLoop loop = detection.loop(id);
+    std::string line = std::to_string(id) + "," + name_of(loop.kind);
+    for (const LoopMeasure& measure : kLoopMeasures) {
+      const int digits = measure.is_count ? kDigitsOfCount : kDigits;
+      append(line, reread(measure.of(loop), std::chars_format::general, digits));
+    }
+    if (!lids.empty()) append(line, reread(lids[id].area, std::chars_format::general, kDigits));
+    for (const double coordinate : loop.centroid) append(line, place(coordinate));
+    for (const double component : loop.normal)
+      append(line, reread(component, std::chars_format::general, kDigits));
+    line.append(",").append(loop.cause.name());
+    for (const double coordinate : loop.cause.hidden_by) append(line, place(coordinate));
+    out.write(line + "\n");
+  }
+}
+
+namespace {
+
+std::string head_of(std::size_t id, const ExplainedLoop& loop) {
+  const std::string name = std::string(name_of(loop.kind)) + "_" + std::to_string(id);
+  std::string text = "\n";
+  if (!loop.cause.name().empty()) text.append("# cause ").append(loop.cause.name()).append("\n");
+  for (const LoopMeasure& measure : kLoopMeasures) {
+    if (!std::isfinite(measure.of(loop))) continue;
+    text += "# " + std::string(measure.name) + " ";
+    append_plain(text, measure.of(loop));
+    text += "\n";
+  }
+  return text + "o " + name + "\n";
+}
+
+}  // namespace
+
+void write_loops_obj(const ExplainedDetection& detection, OutputFile& out) {
+  out.write("# lacuna detect, loops\n");
+  std::uint64_t next = 1;  // vertices count from 1, over all objects
+  for (std::size_t id = 0; id < detection.loops.size(); ++id) {
+    const ExplainedLoop loop = detection.loop(id);
+    out.write(head_of(id, loop));
+    std::string line;
+    detection.for_each_loop_point(id, [&](const LoopPoint& point) {
+      line = "v";
+      for (const double component : point.position()) append_plain(line += " ", component);
+      out.write(line += "\n");
+    });
+    const std::uint64_t first = next;
+    next += loop.points;
+    for (std::uint64_t a = first; a < next; ++a) {
+      const std::uint64_t b = a + 1 < next ? a + 1 : first;
+      out.write("l " + std::to_string(a) + " " + std::to_string(b) + "\n");
+    }
+  }
+}
+
+}  // namespace lacuna::io
