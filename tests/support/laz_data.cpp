@@ -2,7 +2,7 @@
 #include "tests/support/laz_data.hpp"
 
 #include "io/read/files/little_endian.hpp"
-#include "io/read/laz/laz_encoder.hpp"
+#include "io/read/laz/laz.hpp"
 
 namespace lacuna::test {
 using namespace io;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/error.hpp"
-#include "io/read/las/las_extra.hpp"
+#include "io/read/las/las_header.hpp"
 #include "io/read/las/las_points.hpp"
 #include "io/read/las/las_writer.hpp"
-#include "io/read/laz/laz_encoder.hpp"
+#include "io/read/laz/laz.hpp"
 #include "io/read/rows/scan_reader.hpp"
 #include "io/write/results/points_form.hpp"
 

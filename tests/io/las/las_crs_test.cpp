@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/read/las/las_crs.hpp"
+#include "io/read/las/las_header.hpp"
 
 #include "tests/support/las_file.hpp"
 

@@ -2,7 +2,6 @@
 #include "io/read/laz/laz.hpp"
 
 #include "io/read/files/little_endian.hpp"
-#include "io/read/laz/laz_encoder.hpp"
 #include "tests/io/mutation.hpp"
 #include "tests/support/laz_data.hpp"
 #include "tests/support/skip.hpp"
