@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/explain/stations/list_lines.hpp"
 
-#include "io/read/text/text_cells.hpp"
+#include "io/read/text/text_lines.hpp"
 
 #include <algorithm>
 #include <cmath>

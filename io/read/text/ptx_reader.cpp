@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/read/text/ptx_reader.hpp"
+#include "io/read/text/text_reader.hpp"
 
 #include "engine/run/error.hpp"
 #include "io/read/files/input_file.hpp"
