@@ -2,9 +2,7 @@
 #include "bench/evaluation/mesh_reader.hpp"
 
 #include "io/read/files/input_file.hpp"
-#include "io/read/ply/ply_body.hpp"
-#include "io/read/ply/ply_header.hpp"
-#include "io/read/ply/ply_rows.hpp"
+#include "io/read/ply/ply.hpp"
 #include "io/read/rows/scalar.hpp"
 
 #include <span>

@@ -3,8 +3,7 @@
 
 #include "engine/run/error.hpp"
 #include "io/read/files/input_file.hpp"
-#include "io/read/ply/ply_body.hpp"
-#include "io/read/ply/ply_header.hpp"
+#include "io/read/ply/ply.hpp"
 #include "io/read/rows/scalar.hpp"
 #include "io/read/rows/vectors.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/read/formats.hpp"
 
-#include "io/read/e57/e57_reader.hpp"
+#include "io/read/e57/e57.hpp"
 #include "io/read/files/input_file.hpp"
 #include "io/read/files/little_endian.hpp"
 #include "io/read/files/property_name.hpp"
@@ -9,7 +9,6 @@
 #include "io/read/mesh/obj_reader.hpp"
 #include "io/read/pcd/pcd_reader.hpp"
 #include "io/read/ply/ply_reader.hpp"
-#include "io/read/text/ptx_reader.hpp"
 #include "io/read/text/text_reader.hpp"
 
 #include <algorithm>

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/read/ply/ply_header.hpp"
+#include "io/read/ply/ply.hpp"
 
+#include "io/read/files/little_endian.hpp"
 #include "io/read/files/number.hpp"
 #include "io/read/files/property_name.hpp"
 #include "io/read/rows/scalar.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstring>
 #include <set>
-#include <span>
 
 namespace lacuna::io {
 namespace {
@@ -192,6 +195,292 @@ std::string print_ply_header(const PlyHeader& header, std::string_view comment) 
     }
   }
   return text + "end_header\n";
+}
+
+namespace {
+
+[[noreturn]] void fail_few_rows(const InputFile& in, const PlyElement& element, std::uint64_t missing) {
+  in.fail_at_line(in.line() + 1, "the file ends here, but " + std::to_string(missing) + " more of the " +
+                                     std::to_string(element.count) + " rows of element " +
+                                     in_quotes(element.name) + " should follow");
+}
+
+std::string few_values(const PlyElement& element) {
+  return "fewer values than element " + in_quotes(element.name) +
+         " has properties; one row per line is needed";
+}
+
+std::string many_values(const PlyElement& element) {
+  return "more values than element " + in_quotes(element.name) +
+         " has properties; one row per line is needed";
+}
+
+template <class T>
+std::string not_a_value(const PlyProperty& property, std::string_view word) {
+  return in_quotes(word) + " for property " + in_quotes(property.name) + " is not " + describe_number<T>();
+}
+
+// Returns the number before the values of a list.
+std::uint32_t parse_count(const InputFile& in, std::uint64_t line, const PlyProperty& property,
+                          std::string_view word) {
+  std::uint32_t count = 0;
+  if (!parse_number(word, count)) in.fail_at_line(line, not_a_value<std::uint32_t>(property, word));
+  return count;
+}
+
+// Takes the values of one row off its line.
+struct RowParser {
+  const InputFile& in;
+  const PlyElement& element;
+  std::string_view rest;
+
+  std::string_view word() {
+    std::string_view word;
+    if (!next_field(rest, ' ', word)) in.fail_at_line(in.line(), few_values(element));
+    return word;
+  }
+
+  void skip_list(const PlyProperty& property) {
+    for (auto left = parse_count(in, in.line(), property, word()); left > 0; --left) word();
+  }
+
+  // Moves `to` behind the value.
+  void scalar(const PlyProperty& property, std::byte*& to) {
+    const std::string_view text = word();
+    with_type(property.type, [&](auto value) {
+      using T = decltype(value);
+      if (!parse_number(text, value)) in.fail_at_line(in.line(), not_a_value<T>(property, text));
+      store_next(to, value);
+    });
+  }
+};
+
+bool is_blank_line(std::string_view line) {
+  std::string_view word;
+  return !next_field(line, ' ', word);
+}
+
+std::int64_t parse_integer(const InputFile& in, const PlyProperty& property, std::string_view word) {
+  return with_type(property.type, [&](auto value) {
+    using T = decltype(value);
+    if (!parse_number(word, value)) in.fail_at_line(in.line() + 1, not_a_value<T>(property, word));
+    return static_cast<std::int64_t>(value);
+  });
+}
+
+// Passes over rows and hands on one list of each. `list` is an index into the properties; an index beyond
+// them hands on no list. The function reads by words, since a list (of a triangle strip, say) may be longer
+// than any buffer.
+template <class Visit>
+void pass_rows(InputFile& in, const PlyElement& element, std::uint64_t count, std::size_t list,
+               const Visit& visit) {
+  if (element.properties.empty()) return;
+  const auto word = [&] {
+    const auto word = in.next_word();
+    if (!word) in.fail_at_line(in.line() + 1, few_values(element));
+    return *word;
+  };
+  std::vector<std::int64_t> values;
+  for (; count > 0; --count) {
+    if (!in.next_row()) fail_few_rows(in, element, count);
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+      const PlyProperty& property = element.properties[i];
+      const std::string_view first = word();
+      if (!property.count_type) continue;
+      if (i == list) values.clear();
+      for (auto left = parse_count(in, in.line() + 1, property, first); left > 0; --left) {
+        const std::string_view value = word();
+        if (i == list) values.push_back(parse_integer(in, property, value));
+      }
+    }
+    if (!in.end_row()) in.fail_at_line(in.line() + 1, many_values(element));
+    visit(values);
+  }
+}
+
+}  // namespace
+
+void read_ascii_rows(InputFile& in, const PlyElement& element, std::uint64_t count, std::byte* rows) {
+  while (count > 0) {
+    const auto line = in.next_line();
+    if (!line) fail_few_rows(in, element, count);
+    if (is_blank_line(*line)) continue;
+    RowParser parser{.in = in, .element = element, .rest = *line};
+    for (const PlyProperty& property : element.properties) {
+      if (property.count_type) {
+        parser.skip_list(property);
+      } else {
+        parser.scalar(property, rows);
+      }
+    }
+    if (!is_blank_line(parser.rest)) in.fail_at_line(in.line(), many_values(element));
+    --count;
+  }
+}
+
+void skip_ascii_rows(InputFile& in, const PlyElement& element, std::uint64_t count) {
+  pass_rows(in, element, count, element.properties.size(), [](std::span<const std::int64_t>) {});
+}
+
+void skip_ascii_lines(InputFile& in, const PlyElement& element) {
+  if (element.properties.empty()) return;
+  for (std::uint64_t left = element.count; left > 0; --left) {
+    if (!in.next_row()) fail_few_rows(in, element, left);
+    in.next_line();
+  }
+}
+
+void visit_ascii_lists(InputFile& in, const PlyElement& element, std::size_t list, const ListVisitor& visit) {
+  pass_rows(in, element, element.count, list, visit);
+}
+
+namespace {
+
+template <class T>
+T read_value(InputFile& in, bool swapped) {
+  std::array<std::byte, sizeof(T)> bytes;
+  in.read(bytes.data(), bytes.size());
+  if (swapped) std::reverse(bytes.begin(), bytes.end());
+  T value;
+  std::memcpy(&value, bytes.data(), bytes.size());
+  return value;
+}
+
+// Returns at most 2^32 - 1.
+std::uint64_t read_count(InputFile& in, const PlyProperty& property, bool swapped) {
+  const std::uint64_t place = in.position();
+  return with_type(*property.count_type, [&](auto zero) -> std::uint64_t {
+    const auto value = read_value<decltype(zero)>(in, swapped);
+    if (value < 0) in.fail_at_byte(place, "list " + in_quotes(property.name) + " has a negative count");
+    return static_cast<std::uint64_t>(value);
+  });
+}
+
+void skip_list(InputFile& in, const PlyProperty& property, bool swapped) {
+  in.skip(read_count(in, property, swapped) * size_of(property.type));
+}
+
+void read_list(InputFile& in, const PlyProperty& property, bool swapped, std::vector<std::int64_t>& values) {
+  const std::uint64_t count = read_count(in, property, swapped);
+  const std::uint64_t bytes = count * size_of(property.type);
+  if (bytes > in.remaining()) in.skip(bytes);  // says what is missing
+  values.clear();
+  values.reserve(count);
+  with_type(property.type, [&](auto zero) {
+    for (std::uint64_t i = 0; i < count; ++i) {
+      values.push_back(static_cast<std::int64_t>(read_value<decltype(zero)>(in, swapped)));
+    }
+  });
+}
+
+}  // namespace
+
+void read_binary_rows(InputFile& in, const PlyElement& element, bool swapped, std::uint64_t count,
+                      std::byte* rows) {
+  const RowLayout layout = element.layout();
+  if (!element.has_lists()) {
+    in.read(rows, count * layout.stride);
+  } else {
+    std::byte* to = rows;
+    for (std::uint64_t row = 0; row < count; ++row) {
+      for (const PlyProperty& property : element.properties) {
+        if (property.count_type) {
+          skip_list(in, property, swapped);
+        } else {
+          in.read(to, size_of(property.type));
+          to += size_of(property.type);
+        }
+      }
+    }
+  }
+  if (!swapped) return;
+  for (const Property& property : layout.properties) {
+    swap_bytes({.data = rows + property.offset, .stride = layout.stride, .type = property.type}, count);
+  }
+}
+
+void skip_binary_rows(InputFile& in, const PlyElement& element, bool swapped, std::uint64_t count) {
+  if (!element.has_lists()) {
+    in.skip(count * element.layout().stride);  // cannot overflow: require_size has seen the count
+    return;
+  }
+  for (; count > 0; --count) {
+    for (const PlyProperty& property : element.properties) {
+      if (property.count_type) {
+        skip_list(in, property, swapped);
+      } else {
+        in.skip(size_of(property.type));
+      }
+    }
+  }
+}
+
+void visit_binary_lists(InputFile& in, const PlyElement& element, bool swapped, std::size_t list,
+                        const ListVisitor& visit) {
+  std::vector<std::int64_t> values;
+  for (std::uint64_t row = 0; row < element.count; ++row) {
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+      const PlyProperty& property = element.properties[i];
+      if (i == list) {
+        read_list(in, property, swapped, values);
+      } else if (property.count_type) {
+        skip_list(in, property, swapped);
+      } else {
+        in.skip(size_of(property.type));
+      }
+    }
+    visit(values);
+  }
+}
+
+namespace {
+
+// A row takes at least so many bytes. ASCII: a digit and a blank for each value.
+std::uint64_t least_row_bytes(const PlyElement& element, PlyFormat format) {
+  if (format == PlyFormat::kAscii) return 2 * element.properties.size();
+  std::uint64_t bytes = 0;
+  for (const PlyProperty& property : element.properties) {
+    bytes += size_of(property.count_type.value_or(property.type));
+  }
+  return bytes;
+}
+
+}  // namespace
+
+void require_size(const InputFile& in, const PlyHeader& header) {
+  const std::uint64_t size = in.position() + in.remaining();
+  std::uint64_t left = in.remaining();
+  if (header.format == PlyFormat::kAscii) ++left;  // the last line may have no end
+  for (const PlyElement& element : header.elements) {
+    const std::uint64_t least = least_row_bytes(element, header.format);
+    if (least > 0 && element.count > left / least) {
+      in.fail_at_byte(size, "the file ends here, too early for the " + std::to_string(element.count) +
+                                " rows of element " + in_quotes(element.name) +
+                                " that its header declares; it must be complete");
+    }
+    left -= element.count * least;
+  }
+}
+
+bool is_swapped(PlyFormat format) {
+  return format != PlyFormat::kLittleEndian;
+}
+
+void read_rows(InputFile& in, PlyFormat format, const PlyElement& element, std::uint64_t count,
+               std::byte* rows) {
+  if (format == PlyFormat::kAscii) {
+    read_ascii_rows(in, element, count, rows);
+  } else {
+    read_binary_rows(in, element, is_swapped(format), count, rows);
+  }
+}
+
+void skip_rows(InputFile& in, PlyFormat format, const PlyElement& element) {
+  if (format == PlyFormat::kAscii) {
+    skip_ascii_rows(in, element, element.count);
+  } else {
+    skip_binary_rows(in, element, is_swapped(format), element.count);
+  }
 }
 
 }  // namespace lacuna::io

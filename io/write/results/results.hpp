@@ -7,7 +7,7 @@
 #include "io/explain/stations/cause.hpp"
 #include "io/read/files/result_folder.hpp"
 #include "io/read/options/options.hpp"
-#include "io/read/ply/ply_header.hpp"
+#include "io/read/ply/ply.hpp"
 #include "io/read/scan/scan_files.hpp"
 #include "io/write/results/lids.hpp"
 
