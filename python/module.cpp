@@ -3,7 +3,7 @@
 #include "bench/evaluation/evaluation.hpp"
 #include "bench/evaluation/print.hpp"
 #include "engine/run/error.hpp"
-#include "io/read/files/new_file.hpp"
+#include "io/read/files/output_file.hpp"
 #include "io/write/report/report.hpp"
 #include "io/write/report/scene.hpp"
 #include "io/write/results/results.hpp"

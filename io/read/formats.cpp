@@ -3,7 +3,7 @@
 
 #include "io/read/e57/e57.hpp"
 #include "io/read/files/input_file.hpp"
-#include "io/read/files/little_endian.hpp"
+#include "io/read/files/number.hpp"
 #include "io/read/files/property_name.hpp"
 #include "io/read/las/las_reader.hpp"
 #include "io/read/mesh/obj_reader.hpp"

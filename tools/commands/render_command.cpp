@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/memory.hpp"
-#include "io/read/files/new_file.hpp"
 #include "io/read/files/number.hpp"
+#include "io/read/files/output_file.hpp"
 #include "io/write/report/render.hpp"
 #include "io/write/report/roof.hpp"
 #include "io/write/report/section.hpp"

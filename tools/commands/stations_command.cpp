@@ -5,7 +5,7 @@
 #include "io/explain/stations/next_stations.hpp"
 #include "io/read/crs/degrees.hpp"
 #include "io/read/crs/length_unit.hpp"
-#include "io/read/files/new_file.hpp"
+#include "io/read/files/output_file.hpp"
 #include "io/read/files/result_folder.hpp"
 #include "io/read/rows/vectors.hpp"
 #include "io/write/report/scene.hpp"

@@ -3,7 +3,7 @@
 
 #include "engine/run/error.hpp"
 #include "engine/store/temporary_folder.hpp"
-#include "io/read/files/file_state.hpp"
+#include "io/read/files/input_file.hpp"
 #include "tools/console/terminal.hpp"
 #include "tools/run/folders.hpp"
 

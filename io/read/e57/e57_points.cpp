@@ -2,7 +2,7 @@
 #include "io/read/e57/e57.hpp"
 
 #include "engine/simd/maths.hpp"
-#include "io/read/files/little_endian.hpp"
+#include "io/read/files/number.hpp"
 
 #include <cassert>
 #include <cmath>

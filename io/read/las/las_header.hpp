@@ -5,7 +5,7 @@
 #pragma once
 
 #include "io/read/files/input_file.hpp"
-#include "io/read/files/little_endian.hpp"
+#include "io/read/files/number.hpp"
 #include "io/read/files/output_file.hpp"
 #include "io/read/rows/scan_reader.hpp"
 

@@ -2,7 +2,7 @@
 #include "io/read/las/las_points.hpp"
 
 #include "engine/run/parallel.hpp"
-#include "io/read/files/little_endian.hpp"
+#include "io/read/files/number.hpp"
 #include "io/read/laz/laz.hpp"
 
 #include <algorithm>

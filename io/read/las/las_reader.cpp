@@ -3,7 +3,7 @@
 
 #include "engine/run/parallel.hpp"
 #include "io/read/files/input_file.hpp"
-#include "io/read/files/little_endian.hpp"
+#include "io/read/files/number.hpp"
 #include "io/read/files/property_name.hpp"
 #include "io/read/las/las_header.hpp"
 #include "io/read/las/las_points.hpp"

@@ -2,7 +2,7 @@
 // The items of a point that both kinds of chunks code alike: extra bytes, colours and places of waveforms.
 #pragma once
 
-#include "io/read/files/little_endian.hpp"
+#include "io/read/files/number.hpp"
 #include "io/read/laz/arithmetic_coder.hpp"
 #include "io/read/laz/predicted_values.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/read/laz/laz.hpp"
 
-#include "io/read/files/little_endian.hpp"
+#include "io/read/files/number.hpp"
 #include "io/read/laz/arithmetic_coder.hpp"
 #include "io/read/laz/chunks.hpp"
 #include "io/read/laz/predicted_values.hpp"

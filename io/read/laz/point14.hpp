@@ -2,7 +2,7 @@
 // The layers of a chunk of point formats 6 to 8: a stream for each attribute (LAZ, compressor 3).
 #pragma once
 
-#include "io/read/files/little_endian.hpp"
+#include "io/read/files/number.hpp"
 #include "io/read/laz/arithmetic_coder.hpp"
 #include "io/read/laz/predicted_values.hpp"
 

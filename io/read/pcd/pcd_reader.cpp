@@ -2,8 +2,6 @@
 #include "io/read/pcd/pcd_reader.hpp"
 
 #include "io/read/files/input_file.hpp"
-#include "io/read/files/line_words.hpp"
-#include "io/read/files/little_endian.hpp"
 #include "io/read/files/number.hpp"
 #include "io/read/files/property_name.hpp"
 #include "io/read/pcd/lzf.hpp"

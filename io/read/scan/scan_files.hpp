@@ -4,7 +4,7 @@
 
 #include "engine/export.hpp"
 #include "io/read/crs/stated_crs.hpp"
-#include "io/read/files/file_state.hpp"
+#include "io/read/files/input_file.hpp"
 #include "io/read/formats.hpp"
 #include "io/read/rows/pose.hpp"
 #include "io/read/rows/scan_reader.hpp"

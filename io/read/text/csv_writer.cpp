@@ -3,7 +3,6 @@
 
 #include "engine/run/parallel.hpp"
 #include "engine/run/utf8.hpp"
-#include "io/read/files/little_endian.hpp"
 #include "io/read/files/number.hpp"
 #include "io/read/files/property_name.hpp"
 #include "io/read/rows/scalar.hpp"

@@ -3,7 +3,6 @@
 
 #include "engine/run/error.hpp"
 #include "io/read/files/input_file.hpp"
-#include "io/read/files/little_endian.hpp"
 #include "io/read/files/number.hpp"
 #include "io/read/rows/pose.hpp"
 #include "io/read/rows/scalar.hpp"

@@ -2,7 +2,6 @@
 #include "io/read/text/text_reader.hpp"
 
 #include "io/read/files/input_file.hpp"
-#include "io/read/files/little_endian.hpp"
 #include "io/read/files/number.hpp"
 #include "io/read/rows/column_rules.hpp"
 #include "io/read/rows/scalar.hpp"

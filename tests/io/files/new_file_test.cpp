@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/read/files/new_file.hpp"
+#include "io/read/files/output_file.hpp"
 
 #include "tests/io/io_support.hpp"
 #include "tests/support/resource_limit.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/read/laz/laz.hpp"
 
-#include "io/read/files/little_endian.hpp"
+#include "io/read/files/number.hpp"
 #include "tests/io/mutation.hpp"
 #include "tests/support/laz_data.hpp"
 #include "tests/support/skip.hpp"
