@@ -3,7 +3,7 @@
 
 #include "io/read/files/input_file.hpp"
 #include "io/read/ply/ply.hpp"
-#include "io/read/rows/scalar.hpp"
+#include "io/read/rows/columns.hpp"
 
 #include <span>
 

@@ -4,8 +4,7 @@
 #include "engine/run/error.hpp"
 #include "io/read/files/input_file.hpp"
 #include "io/read/ply/ply.hpp"
-#include "io/read/rows/scalar.hpp"
-#include "io/read/rows/vectors.hpp"
+#include "io/read/rows/columns.hpp"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,7 @@
 #include "io/read/crs/length_unit.hpp"
 #include "io/read/files/output_file.hpp"
 #include "io/read/files/result_folder.hpp"
-#include "io/read/rows/vectors.hpp"
+#include "io/read/rows/columns.hpp"
 #include "io/write/report/scene.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"

@@ -3,7 +3,7 @@
 
 #include "io/explain/stations/list_lines.hpp"
 #include "io/read/files/number.hpp"
-#include "io/read/rows/vectors.hpp"
+#include "io/read/rows/columns.hpp"
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 #include "io/explain/stations/list_lines.hpp"
 #include "io/read/crs/length_unit.hpp"
 #include "io/read/rows/column_rules.hpp"
-#include "io/read/rows/vectors.hpp"
+#include "io/read/rows/columns.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -7,8 +7,8 @@
 #pragma once
 
 #include "io/read/e57/paged_file.hpp"
+#include "io/read/rows/columns.hpp"
 #include "io/read/rows/pose.hpp"
-#include "io/read/rows/scalar.hpp"
 #include "io/read/rows/scan_reader.hpp"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 #include "io/read/e57/e57.hpp"
 
 #include "io/read/files/number.hpp"
-#include "io/read/files/property_name.hpp"
-#include "io/read/rows/vectors.hpp"
+#include "io/read/rows/columns.hpp"
+#include "io/read/rows/scan_reader.hpp"
 
 #include <cassert>
 #include <limits>

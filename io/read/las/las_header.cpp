@@ -4,7 +4,7 @@
 #include "io/read/crs/crs_text.hpp"
 #include "io/read/crs/length_unit.hpp"
 #include "io/read/crs/stated_crs.hpp"
-#include "io/read/rows/scalar.hpp"
+#include "io/read/rows/columns.hpp"
 
 #include <cmath>
 #include <cstring>

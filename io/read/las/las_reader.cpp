@@ -4,10 +4,10 @@
 #include "engine/run/parallel.hpp"
 #include "io/read/files/input_file.hpp"
 #include "io/read/files/number.hpp"
-#include "io/read/files/property_name.hpp"
 #include "io/read/las/las_header.hpp"
 #include "io/read/las/las_points.hpp"
-#include "io/read/rows/scalar.hpp"
+#include "io/read/rows/columns.hpp"
+#include "io/read/rows/scan_reader.hpp"
 
 #include <algorithm>
 #include <cassert>

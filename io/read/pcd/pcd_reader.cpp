@@ -3,10 +3,10 @@
 
 #include "io/read/files/input_file.hpp"
 #include "io/read/files/number.hpp"
-#include "io/read/files/property_name.hpp"
 #include "io/read/pcd/lzf.hpp"
+#include "io/read/rows/columns.hpp"
 #include "io/read/rows/pose.hpp"
-#include "io/read/rows/scalar.hpp"
+#include "io/read/rows/scan_reader.hpp"
 
 #include <algorithm>
 #include <array>

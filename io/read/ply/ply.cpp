@@ -2,8 +2,8 @@
 #include "io/read/ply/ply.hpp"
 
 #include "io/read/files/number.hpp"
-#include "io/read/files/property_name.hpp"
-#include "io/read/rows/scalar.hpp"
+#include "io/read/rows/columns.hpp"
+#include "io/read/rows/scan_reader.hpp"
 
 #include <algorithm>
 #include <array>

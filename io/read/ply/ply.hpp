@@ -4,7 +4,7 @@
 #pragma once
 
 #include "io/read/files/input_file.hpp"
-#include "io/read/rows/local_offset.hpp"
+#include "io/read/rows/pose.hpp"
 #include "io/read/rows/scan_reader.hpp"
 
 #include <cstddef>

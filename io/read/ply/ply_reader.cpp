@@ -3,8 +3,8 @@
 
 #include "io/read/files/input_file.hpp"
 #include "io/read/ply/ply.hpp"
-#include "io/read/rows/moved_reader.hpp"
-#include "io/read/rows/vectors.hpp"
+#include "io/read/rows/columns.hpp"
+#include "io/read/rows/pose.hpp"
 
 #include <algorithm>
 #include <cassert>

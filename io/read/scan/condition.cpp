@@ -4,8 +4,8 @@
 #include "engine/run/error.hpp"
 #include "io/read/files/input_file.hpp"
 #include "io/read/files/number.hpp"
-#include "io/read/files/property_name.hpp"
-#include "io/read/rows/vectors.hpp"
+#include "io/read/rows/columns.hpp"
+#include "io/read/rows/scan_reader.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -4,7 +4,7 @@
 #include "engine/run/error.hpp"
 #include "io/read/crs/crs_text.hpp"
 #include "io/read/crs/degrees.hpp"
-#include "io/read/rows/vectors.hpp"
+#include "io/read/rows/columns.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "io/read/scan/row_filter.hpp"
 
 #include "io/read/files/number.hpp"
-#include "io/read/rows/vectors.hpp"
+#include "io/read/rows/columns.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/read/scan/scan_files.hpp"
 
-#include "io/read/rows/moved_reader.hpp"
-#include "io/read/rows/vectors.hpp"
+#include "io/read/rows/columns.hpp"
+#include "io/read/rows/pose.hpp"
 #include "io/read/scan/like_degrees.hpp"
 #include "io/read/scan/row_filter.hpp"
 #include "io/read/scan/scan_systems.hpp"

@@ -2,7 +2,7 @@
 #include "io/read/scan/scan_pass.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/read/rows/vectors.hpp"
+#include "io/read/rows/columns.hpp"
 #include "io/read/scan/scan_identity.hpp"
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 #include "engine/run/parallel.hpp"
 #include "engine/run/utf8.hpp"
 #include "io/read/files/number.hpp"
-#include "io/read/files/property_name.hpp"
-#include "io/read/rows/scalar.hpp"
+#include "io/read/rows/columns.hpp"
+#include "io/read/rows/scan_reader.hpp"
 
 #include <algorithm>
 #include <cmath>

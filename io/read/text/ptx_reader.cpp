@@ -4,8 +4,8 @@
 #include "engine/run/error.hpp"
 #include "io/read/files/input_file.hpp"
 #include "io/read/files/number.hpp"
+#include "io/read/rows/columns.hpp"
 #include "io/read/rows/pose.hpp"
-#include "io/read/rows/scalar.hpp"
 
 #include <algorithm>
 #include <array>

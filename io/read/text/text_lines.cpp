@@ -2,8 +2,8 @@
 #include "io/read/text/text_lines.hpp"
 
 #include "io/read/files/number.hpp"
-#include "io/read/files/property_name.hpp"
 #include "io/read/rows/column_rules.hpp"
+#include "io/read/rows/scan_reader.hpp"
 
 #include <algorithm>
 #include <charconv>

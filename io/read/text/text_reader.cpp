@@ -4,7 +4,7 @@
 #include "io/read/files/input_file.hpp"
 #include "io/read/files/number.hpp"
 #include "io/read/rows/column_rules.hpp"
-#include "io/read/rows/scalar.hpp"
+#include "io/read/rows/columns.hpp"
 #include "io/read/text/text_lines.hpp"
 
 #include <algorithm>

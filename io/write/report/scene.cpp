@@ -5,8 +5,8 @@
 #include "engine/run/error.hpp"
 #include "io/explain/stations/next_stations.hpp"
 #include "io/read/formats.hpp"
+#include "io/read/rows/columns.hpp"
 #include "io/read/rows/scan_reader.hpp"
-#include "io/read/rows/vectors.hpp"
 #include "io/write/report/area_section.hpp"
 #include "io/write/report/scene_colours.hpp"
 

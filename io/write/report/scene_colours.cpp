@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/write/report/scene_colours.hpp"
 
-#include "io/read/files/property_name.hpp"
-#include "io/read/rows/scalar.hpp"
-#include "io/read/rows/vectors.hpp"
+#include "io/read/rows/columns.hpp"
+#include "io/read/rows/scan_reader.hpp"
 #include "io/write/report/percentile.hpp"
 
 #include <algorithm>

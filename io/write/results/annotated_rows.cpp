@@ -2,7 +2,7 @@
 #include "io/write/results/annotated_rows.hpp"
 
 #include "engine/criteria/criteria.hpp"
-#include "io/read/rows/vectors.hpp"
+#include "io/read/rows/columns.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions for a `Scalar` that is known only at run time.
+// Columns of rows: scalars whose type is known only at run time, and three of them together as positions or
+// normals.
 #pragma once
 
 #include "io/read/rows/scan_reader.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
+#include <vector>
+
+#include <Eigen/Core>
 
 namespace lacuna::io {
+
+// Functions for a `Scalar` that is known only at run time.
 
 // Accepts both spellings of the PLY format, "char" and "int8", and so on. "bool" is a byte.
 std::optional<Scalar> scalar_from_name(std::string_view name);
@@ -73,5 +80,29 @@ void swap_bytes(Column column, std::size_t count);
 
 // Lays the properties one after the other without padding.
 RowLayout packed_layout(std::span<const std::pair<std::string, Scalar>> properties);
+
+// Columns of rows as numbers: one by one, and three together as positions or normals.
+
+// A property of all rows, which are `stride` bytes apart.
+ConstColumn column_of(const RowBatch& rows, std::size_t stride, const Property& property);
+Column column_of(RowBatch& rows, std::size_t stride, const Property& property);
+
+// A value of each row.
+void load_column(const RowBatch& rows, std::size_t stride, const Property& property,
+                 std::vector<double>& values);
+
+using VectorNames = std::array<const char*, 3>;
+inline constexpr VectorNames kPositionNames = {"x", "y", "z"};
+inline constexpr VectorNames kNormalNames = {"nx", "ny", "nz"};
+
+// Returns the same columns, packed. The components have this type.
+RowLayout with_components_as(Scalar type, const VectorNames& names, const RowLayout& layout);
+bool has_vectors(const RowLayout& layout, const VectorNames& names);
+
+// All three columns must exist. `store_vectors` needs them as doubles.
+void load_vectors(const RowBatch& rows, const RowLayout& layout, const VectorNames& names,
+                  std::vector<Eigen::Vector3d>& vectors);
+void store_vectors(std::span<const Eigen::Vector3d> vectors, const RowLayout& layout,
+                   const VectorNames& names, RowBatch& rows);
 
 }  // namespace lacuna::io
