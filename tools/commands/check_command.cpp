@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `lacuna check`: whether a scan covers an area. It reads the scan once and finds no loops.
 #include "io/explain/area/check_area.hpp"
-#include "io/read/scan/scan_identity.hpp"
+#include "io/read/scan/scan_files.hpp"
 #include "io/write/results/voids.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/detect_command.hpp"

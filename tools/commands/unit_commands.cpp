@@ -5,7 +5,7 @@
 #include "engine/run/disk_space.hpp"
 #include "engine/run/error.hpp"
 #include "engine/steps.hpp"
-#include "io/read/scan/scan_identity.hpp"
+#include "io/read/scan/scan_files.hpp"
 #include "io/read/scan/scan_pass.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/detect_command.hpp"

@@ -10,7 +10,7 @@
 #include "io/read/crs/stated_crs.hpp"
 #include "io/read/files/number.hpp"
 #include "io/read/scan/plan_system.hpp"
-#include "io/read/scan/scan_identity.hpp"
+#include "io/read/scan/scan_files.hpp"
 #include "tools/console/measures_text.hpp"
 #include "tools/console/visible_text.hpp"
 #include "tools/run/coordinate_steps.hpp"

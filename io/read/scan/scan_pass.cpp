@@ -3,7 +3,7 @@
 
 #include "engine/run/error.hpp"
 #include "io/read/rows/columns.hpp"
-#include "io/read/scan/scan_identity.hpp"
+#include "io/read/scan/scan_files.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -5,7 +5,7 @@
 #include "engine/run/parallel.hpp"
 #include "io/read/crs/gis_module.hpp"
 #include "io/read/scan/plan_system.hpp"
-#include "io/read/scan/scan_identity.hpp"
+#include "io/read/scan/scan_files.hpp"
 #include "io/write/report/report.hpp"
 #include "io/write/report/scene.hpp"
 #include "io/write/results/gis_library.hpp"
