@@ -10,8 +10,7 @@
 #include "io/explain/area/geojson_polygons.hpp"
 #include "io/explain/area/plan_outline.hpp"
 #include "io/explain/area/plan_shapes.hpp"
-#include "io/read/crs/gis_module.hpp"
-#include "io/read/crs/length_unit.hpp"
+#include "io/read/crs/crs.hpp"
 #include "io/read/scan/plan_system.hpp"
 
 #include <algorithm>

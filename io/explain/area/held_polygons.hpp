@@ -4,7 +4,7 @@
 
 #include "engine/export.hpp"
 #include "io/explain/area/plan_polygon.hpp"
-#include "io/read/crs/conversion_accuracy.hpp"
+#include "io/read/crs/crs_lookup.hpp"
 
 #include <cstdint>
 #include <string>

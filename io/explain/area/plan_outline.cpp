@@ -3,7 +3,7 @@
 
 #include "io/explain/area/plan_raster.hpp"
 #include "io/explain/area/plan_shapes.hpp"
-#include "io/read/crs/gis_module.hpp"
+#include "io/read/crs/crs.hpp"
 #include "io/read/scan/scan_pass.hpp"
 
 #include <algorithm>

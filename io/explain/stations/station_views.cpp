@@ -4,7 +4,7 @@
 #include "engine/model/points.hpp"
 #include "engine/run/error.hpp"
 #include "io/explain/stations/list_lines.hpp"
-#include "io/read/crs/length_unit.hpp"
+#include "io/read/crs/crs.hpp"
 #include "io/read/rows/column_rules.hpp"
 #include "io/read/rows/columns.hpp"
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/read/las/las_header.hpp"
 
+#include "io/read/crs/crs.hpp"
 #include "io/read/crs/crs_text.hpp"
-#include "io/read/crs/length_unit.hpp"
-#include "io/read/crs/stated_crs.hpp"
 #include "io/read/rows/columns.hpp"
 
 #include <cmath>

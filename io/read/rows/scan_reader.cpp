@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/read/rows/scan_reader.hpp"
 
+#include "io/read/crs/crs.hpp"
 #include "io/read/crs/crs_text.hpp"
-#include "io/read/crs/length_unit.hpp"
 
 namespace lacuna::io {
 

@@ -2,8 +2,8 @@
 #include "io/read/scan/plan_system.hpp"
 
 #include "engine/run/error.hpp"
+#include "io/read/crs/crs.hpp"
 #include "io/read/crs/crs_text.hpp"
-#include "io/read/crs/degrees.hpp"
 #include "io/read/rows/columns.hpp"
 
 #include <algorithm>

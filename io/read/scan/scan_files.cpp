@@ -2,8 +2,8 @@
 #include "io/read/scan/scan_files.hpp"
 
 #include "engine/run/error.hpp"
+#include "io/read/crs/crs.hpp"
 #include "io/read/crs/crs_text.hpp"
-#include "io/read/crs/length_unit.hpp"
 #include "io/read/rows/columns.hpp"
 #include "io/read/scan/plan_system.hpp"
 #include "io/read/scan/row_filter.hpp"

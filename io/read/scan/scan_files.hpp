@@ -4,7 +4,7 @@
 #pragma once
 
 #include "engine/export.hpp"
-#include "io/read/crs/stated_crs.hpp"
+#include "io/read/crs/crs.hpp"
 #include "io/read/files/input_file.hpp"
 #include "io/read/files/result_folder.hpp"
 #include "io/read/formats.hpp"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/write/results/gis_library.hpp"
 
-#include "io/read/crs/degrees.hpp"
-#include "io/read/crs/gis_module.hpp"
+#include "io/read/crs/crs.hpp"
 #include "io/write/results/coverage_tif.hpp"
 #include "io/write/results/voids_gis.hpp"
 

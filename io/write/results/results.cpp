@@ -3,7 +3,7 @@
 
 #include "engine/run/error.hpp"
 #include "engine/run/parallel.hpp"
-#include "io/read/crs/gis_module.hpp"
+#include "io/read/crs/crs.hpp"
 #include "io/read/scan/plan_system.hpp"
 #include "io/read/scan/scan_files.hpp"
 #include "io/write/report/report.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/read/crs/crs_text.hpp"
 
-#include "io/read/crs/length_unit.hpp"
+#include "io/read/crs/crs.hpp"
 #include "tests/support/test.hpp"
 
 namespace lacuna::test {

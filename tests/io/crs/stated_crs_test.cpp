@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Without lacuna_gis.so, which is not in the folder of this program.
-#include "io/read/crs/stated_crs.hpp"
+#include "io/read/crs/crs.hpp"
 
 #include "tests/support/test.hpp"
 
