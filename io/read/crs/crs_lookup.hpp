@@ -56,7 +56,7 @@ using LookUpCrs = void(CrsLookup& lookup);
 // False where the system is not projected, or does not have the place.
 using FindScale = bool(const std::string& crs, const Eigen::Vector3d& place, ProjectionScale& scale);
 using IsSameCrs = bool(const std::string& a, const std::string& b);  // false where GDAL does not understand
-// Works as to_degrees() of io/read/crs/degrees.hpp. Returns false if GDAL does not convert all places; then
+// Works as to_degrees() of io/read/crs/crs.hpp. Returns false if GDAL does not convert all places; then
 // some may be changed.
 using ConvertToDegrees = bool(const std::string& crs, std::span<Eigen::Vector3d> places);
 

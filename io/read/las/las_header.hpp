@@ -38,7 +38,7 @@ class LasCrs {
   const std::string& other_text() const { return other_; }
   // Whether positions are longitude and latitude.
   bool is_geographic() const;
-  // Returns "m", "ft", "us-ft"; empty if the unit is not known (io/read/crs/length_unit.hpp).
+  // Returns "m", "ft", "us-ft"; empty if the unit is not known (io/read/crs/crs.hpp).
   std::string length_unit() const;
   // Returns the unit of what does not hold, if it is another one; else nothing.
   std::string other_unit() const;

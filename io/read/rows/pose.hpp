@@ -4,7 +4,6 @@
 
 #include "engine/export.hpp"
 #include "io/read/files/input_file.hpp"
-#include "io/read/rows/scan_reader.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -18,6 +17,8 @@
 #include <Eigen/Geometry>
 
 namespace lacuna::io {
+
+class ScanReader;
 
 // The pose of a scan in the registered scan: a rotation, a scale and a translation.
 

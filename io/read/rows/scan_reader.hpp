@@ -64,7 +64,7 @@ struct RowLayout {
   std::size_t stride = 0;            // bytes per row, no padding
 
   LACUNA_API const Property* find(std::string_view name) const;  // one after the other
-  // Returns the ones whose names are spelled alike (bare_name in io/read/files/property_name.hpp); the one of
+  // Returns the ones whose names are spelled alike (bare_name); the one of
   // this very name alone, if there is one.
   std::vector<const Property*> all_alike(std::string_view name) const;
   // Returns the first of them.
@@ -126,7 +126,7 @@ class LACUNA_API ScanReader {
   virtual std::string other_crs() const { return {}; }
   // Whether positions are longitude and latitude.
   virtual bool is_geographic() const;
-  // Returns the unit of length, as unit_of_metres (io/read/crs/length_unit.hpp); empty if not known.
+  // Returns the unit of length, as unit_of_metres (io/read/crs/crs.hpp); empty if not known.
   virtual std::string length_unit() const;
   // Returns another unit of length that the file states as well; empty: none contradicts.
   virtual std::string other_unit() const { return {}; }
