@@ -10,8 +10,8 @@
 #include "python/arrays.hpp"
 #include "python/command.hpp"
 #include "python/run.hpp"
+#include "tools/commands/commands.hpp"
 #include "tools/commands/compare_command.hpp"
-#include "tools/commands/info_command.hpp"
 #include "tools/run/input_files.hpp"
 #include "tools/run/parameter_options.hpp"
 

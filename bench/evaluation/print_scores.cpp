@@ -3,7 +3,7 @@
 #include "bench/evaluation/cloud_score.hpp"
 #include "bench/evaluation/json.hpp"
 #include "tools/console/measures_text.hpp"
-#include "tools/console/visible_text.hpp"
+#include "tools/console/terminal.hpp"
 
 #include <algorithm>
 #include <optional>

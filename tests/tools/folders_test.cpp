@@ -3,7 +3,6 @@
 
 #include "tests/support/processes.hpp"
 #include "tests/support/resource_limit.hpp"
-#include "tools/run/folder_lock.hpp"
 
 namespace lacuna::test {
 using namespace tools;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/console/visible_text.hpp"
+#include "tools/console/terminal.hpp"
 
 #include "engine/run/utf8.hpp"
 #include "tests/support/test.hpp"

@@ -8,7 +8,6 @@
 #include "tools/console/command_line.hpp"
 #include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
-#include "tools/console/visible_text.hpp"
 #include "tools/run/scan_warnings.hpp"
 
 #include <algorithm>

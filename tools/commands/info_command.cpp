@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/commands/info_command.hpp"
+#include "tools/commands/commands.hpp"
 
 #include "engine/config/config.hpp"
 #include "engine/inspect.hpp"
@@ -12,12 +12,10 @@
 #include "io/read/rows/scan_reader.hpp"
 #include "io/read/scan/scan_files.hpp"
 #include "io/write/loops/json.hpp"
-#include "tools/commands/commands.hpp"
 #include "tools/commands/summary.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
-#include "tools/console/visible_text.hpp"
 #include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
 #include "tools/run/parameter_options.hpp"

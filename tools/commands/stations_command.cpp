@@ -11,7 +11,7 @@
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/measures_text.hpp"
-#include "tools/console/visible_text.hpp"
+#include "tools/console/terminal.hpp"
 #include "tools/run/folders.hpp"
 #include "tools/run/scan_warnings.hpp"
 

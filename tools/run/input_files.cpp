@@ -10,7 +10,7 @@
 #include "io/read/formats.hpp"
 #include "io/read/rows/pose.hpp"
 #include "io/read/rows/scan_reader.hpp"
-#include "tools/console/visible_text.hpp"
+#include "tools/console/terminal.hpp"
 
 #include <algorithm>
 #include <array>

@@ -12,7 +12,7 @@
 #include "io/read/scan/plan_system.hpp"
 #include "io/read/scan/scan_files.hpp"
 #include "tools/console/measures_text.hpp"
-#include "tools/console/visible_text.hpp"
+#include "tools/console/terminal.hpp"
 #include "tools/run/coordinate_steps.hpp"
 
 #include <algorithm>
