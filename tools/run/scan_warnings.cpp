@@ -375,7 +375,8 @@ std::string nothing_warning(const Detection& detection, const SelectionConfig& s
   }
   return found +
          "do not lie on one thin surface, as after noise, or a voxel filter that moves points into layers; "
-         "the scan before the filter shows its holes (--resolution thins without moving), unless it is closed";
+         "the scan before the filter shows its holes (--resolution thins without moving), unless it is "
+         "closed";
 }
 
 std::vector<std::string> scan_warnings(const ScanFiles& scan, const ExplainedDetection& detection,
