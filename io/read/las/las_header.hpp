@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The header of a LAS file, versions 1.0 to 1.5: the public header block, and what its variable length
-// records say: the coordinate reference system, extra bytes of points, the layout of compressed points.
-// Source: ASPRS LAS specification 1.4 R15, sections 2.4 to 2.7; GeoTIFF 1.1, 7.2 and annex B.
+// records say. They name the coordinate reference system, extra bytes of points, and the layout of
+// compressed points. Source: ASPRS LAS specification 1.4 R15, sections 2.4 to 2.7; GeoTIFF 1.1, 7.2 and
+// annex B.
 #pragma once
 
 #include "io/read/files/input_file.hpp"

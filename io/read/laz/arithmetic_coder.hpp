@@ -3,9 +3,9 @@
 // coding").
 //
 // Idea: each symbol takes its share of an interval, which narrows from symbol to symbol. The bytes are a
-// number within the last interval. A decoder asks in which share the number lies, and narrows its interval in
-// the same way. The shares follow the counts of the symbols so far. Cost: two products for each symbol; a
-// decoder searches among the shares, too.
+// number within the last interval. A decoder finds the share in which the number lies, and narrows its
+// interval likewise. The shares follow the counts of the symbols so far. Cost: two products for each symbol,
+// and for a decoder a search among the shares.
 #pragma once
 
 #include "io/read/laz/laz.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values coded as their difference to a prediction, which POINT10 and POINT14 share: integers, medians that
-// predict coordinates, GPS times, and the contexts that choose the models.
+// Values coded as their difference to a prediction, which POINT10 and POINT14 share. They are integers, GPS
+// times, medians that predict coordinates, and the contexts that choose the models.
 #pragma once
 
 #include "io/read/laz/arithmetic_coder.hpp"
