@@ -72,15 +72,6 @@ struct Summary {
   std::vector<PhaseTime> phases;
 };
 
-// What the points of a scan lie on, by how their number falls from level to level, and by the sampled area.
-enum class ScanShape : std::uint8_t {
-  kTooFewNeighbours,  // to show a surface
-  kLines,             // as of a wire or a single profile
-  kSurface,           // one thin surface
-  kNoSurface,         // a volume or layers, as after noise
-};
-ScanShape shape_of(const Summary& summary);
-
 inline constexpr std::size_t kMostCriteria = 8;
 
 // The result of one point of the input. A duplicate has the result of the point that it copies. A point that

@@ -34,8 +34,6 @@ RunSteps steps_of_check();
 // It is empty where the run has no such step.
 std::optional<double> run_share(const RunSteps& steps, std::string_view step, double step_share);
 
-// The progress of a run on stderr, one line for the current step.
-
 struct StepProgress {
   std::string step;
   std::uint64_t done = 0, total = 0;  // of the step; total 0: not known

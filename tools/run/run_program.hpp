@@ -8,8 +8,6 @@
 
 namespace lacuna::tools {
 
-// The frame of both programs, `lacuna` and `lacuna-bench`: the process, its errors, its exit codes.
-
 class CommandLine;
 
 // Ends a command whose answer is no, such as that an area has voids. It is no error: all was done.

@@ -4,6 +4,7 @@
 #include "engine/run/disk_space.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/machine_memory.hpp"
+#include "engine/summarise.hpp"
 #include "io/explain/stations/own_frames.hpp"
 #include "io/explain/stations/station_views.hpp"
 #include "io/read/crs/crs.hpp"

@@ -38,8 +38,6 @@ using FindDegreesAccuracy = bool(const std::string& crs, const Eigen::Vector3d& 
 inline constexpr const char* kFindDegreesAccuracy = "lacuna_find_degrees_accuracy";
 extern "C" LACUNA_API FindDegreesAccuracy lacuna_find_degrees_accuracy;
 
-// Coordinate reference systems in the database of PROJ, through GDAL: functions of lacuna_gis.so.
-
 struct CrsLookup {
   std::string given;       // a code or well-known text
   std::string known_text;  // of the system; empty if GDAL does not understand it

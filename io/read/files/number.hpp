@@ -17,8 +17,6 @@
 
 namespace lacuna::io {
 
-// Numbers as text, read and written.
-
 // Returns the value that std::from_chars leaves open: infinite if a number is too large for the type, 0 or
 // denormal if it is too small.
 float parse_extreme(std::string_view text, float);

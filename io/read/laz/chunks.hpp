@@ -12,8 +12,6 @@
 
 namespace lacuna::io::laz {
 
-// The interface that the two kinds of chunks share.
-
 // Decodes the records of a chunk after the first, from front to back.
 class RecordDecoder {
  public:

@@ -3,7 +3,7 @@
 //
 // Idea: a chunk of points begins with a whole one. Of each other point, every field is predicted from the
 // points before it, and an adaptive arithmetic coder takes the difference. Points of formats 0 to 5 are one
-// stream (pointwise.cpp). Those of formats 6 to 10 have a stream for each attribute (layered.cpp, point14.hpp).
+// stream (pointwise.cpp). Those of formats 6 to 10 have a stream for each attribute (layered.cpp).
 // Memory has the bounds decoder_bytes() and encoder_bytes().
 //
 // The format: M. Isenburg, "LASzip: lossless compression of LiDAR data", Photogrammetric Engineering & Remote

@@ -56,8 +56,6 @@ class Condition {
   std::size_t root_ = 0;
 };
 
-// Chooses the rows of a scan that take part, by place and by attributes.
-
 // Which rows were left out. Each is counted by the first filter that refuses it: withheld and noise first,
 // then in this order. No filter counts a row that is not finite.
 struct FilteredOut {
