@@ -2,7 +2,7 @@
 #include "io/read/laz/laz.hpp"
 
 #include "io/read/files/number.hpp"
-#include "tests/io/mutation.hpp"
+#include "tests/io/broken_files.hpp"
 #include "tests/support/laz_data.hpp"
 #include "tests/support/skip.hpp"
 
