@@ -4,7 +4,9 @@
 #include "engine/bucket/strays.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 namespace lacuna {
@@ -17,6 +19,16 @@ double median_area(std::span<const LevelLoops> levels) {
   const auto middle = areas.begin() + static_cast<std::ptrdiff_t>((areas.size() - 1) / 2);
   std::nth_element(areas.begin(), middle, areas.end());
   return *middle;
+}
+
+// Along a line, half as many cells have points where their edge doubles; on a surface, a quarter.
+bool are_lines(std::span<const LevelSummary> levels) {
+  constexpr double kMostDimension = 1.4;
+  const auto first = std::ranges::find_if(levels, [](const LevelSummary& level) { return level.edge > 0; });
+  if (levels.end() - first < 2) return false;
+  const LevelSummary& last = levels.back();
+  return std::log(static_cast<double>(first->points) / static_cast<double>(last.points)) <
+         kMostDimension * std::log(last.edge / first->edge);
 }
 
 }  // namespace
@@ -59,6 +71,19 @@ void add_findings(const Totals& totals, const FoundLoops& found, std::span<const
   summary.surface_area = median_area(levels);
   summary.eps = eps;
   summary.e = found.minimum_loop;
+}
+
+ScanShape shape_of(const Summary& summary) {
+  constexpr double kSurface = 0.9, kLeastNeighbours = 4;
+  if (summary.mean_neighbours < kLeastNeighbours) return ScanShape::kTooFewNeighbours;
+  if (are_lines(summary.levels)) return ScanShape::kLines;
+  // On a thin surface, all levels have the area that follows from the distances of the first one. Points that
+  // fill a volume, or lie in layers, have less of it at coarse levels.
+  const double points = summary.levels.empty() ? 0 : static_cast<double>(summary.levels.front().points);
+  const double distance = summary.median_distance;
+  const double area =
+      2.25 * std::numbers::pi * points * distance * distance / (summary.mean_neighbours + 2.5);
+  return summary.surface_area > kSurface * area ? ScanShape::kSurface : ScanShape::kNoSurface;
 }
 
 }  // namespace lacuna

@@ -9,6 +9,7 @@
 #include "engine/thin/level.hpp"
 #include "engine/track/level_loops.hpp"
 
+#include <cstdint>
 #include <span>
 
 namespace lacuna {
@@ -21,5 +22,14 @@ Summary summarise(const Level& level, const Workers& workers);
 // effect.
 void add_findings(const Totals& totals, const FoundLoops& found, std::span<const LevelLoops> levels,
                   double eps, Summary& summary);
+
+// What the points of a scan lie on, by how their number falls from level to level, and by the sampled area.
+enum class ScanShape : std::uint8_t {
+  kTooFewNeighbours,  // to show a surface
+  kLines,             // as of a wire or a single profile
+  kSurface,           // one thin surface
+  kNoSurface,         // a volume or layers, as after noise
+};
+ScanShape shape_of(const Summary& summary);
 
 }  // namespace lacuna

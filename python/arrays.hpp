@@ -4,7 +4,7 @@
 
 #include "engine/model/detection.hpp"
 #include "io/explain/stations/cause.hpp"
-#include "io/read/scan/scan_arrays.hpp"
+#include "io/read/scan/scan_files.hpp"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>

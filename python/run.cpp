@@ -7,7 +7,7 @@
 #include "io/explain/area/check_area.hpp"
 #include "io/explain/stations/find_causes.hpp"
 #include "io/write/results/voids.hpp"
-#include "tools/console/area_text.hpp"
+#include "tools/commands/summary.hpp"
 #include "tools/console/progress.hpp"
 #include "tools/run/scan_warnings.hpp"
 

@@ -4,12 +4,9 @@
 #include "engine/run/error.hpp"
 #include "io/read/files/input_file.hpp"
 #include "io/read/files/number.hpp"
-#include "io/read/ply/ply_body.hpp"
-#include "io/read/ply/ply_header.hpp"
+#include "io/read/ply/ply.hpp"
 #include "io/read/ply/ply_reader.hpp"
-#include "io/read/ply/ply_rows.hpp"
-#include "io/read/rows/scalar.hpp"
-#include "io/read/rows/vectors.hpp"
+#include "io/read/rows/columns.hpp"
 
 #include <algorithm>
 #include <cmath>

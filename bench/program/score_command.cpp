@@ -6,7 +6,7 @@
 #include "engine/run/error.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/measures_text.hpp"
-#include "tools/console/visible_text.hpp"
+#include "tools/console/terminal.hpp"
 
 #include <algorithm>
 #include <filesystem>

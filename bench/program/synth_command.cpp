@@ -4,7 +4,7 @@
 #include "bench/synth/surface.hpp"
 #include "engine/run/error.hpp"
 #include "tools/console/command_line.hpp"
-#include "tools/console/visible_text.hpp"
+#include "tools/console/terminal.hpp"
 
 #include <algorithm>
 #include <array>

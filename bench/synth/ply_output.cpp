@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/synth/ply_output.hpp"
 
-#include "io/read/files/little_endian.hpp"
+#include "io/read/files/number.hpp"
 
 #include <array>
 #include <span>

@@ -5,7 +5,7 @@
 #include "bench/synth/permutation.hpp"
 #include "bench/synth/ply_output.hpp"
 #include "bench/synth/scene.hpp"
-#include "io/read/files/new_file.hpp"
+#include "io/read/files/output_file.hpp"
 
 #include <array>
 #include <cstdint>

@@ -4,7 +4,7 @@
 
 #include "bench/synth/permutation.hpp"
 #include "bench/synth/ply_output.hpp"
-#include "io/read/files/new_file.hpp"
+#include "io/read/files/output_file.hpp"
 
 #include <array>
 #include <cstdint>

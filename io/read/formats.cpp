@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/read/formats.hpp"
 
-#include "io/read/e57/e57_reader.hpp"
+#include "io/read/e57/e57.hpp"
 #include "io/read/files/input_file.hpp"
-#include "io/read/files/little_endian.hpp"
-#include "io/read/files/property_name.hpp"
+#include "io/read/files/number.hpp"
 #include "io/read/las/las_reader.hpp"
 #include "io/read/mesh/obj_reader.hpp"
 #include "io/read/pcd/pcd_reader.hpp"
 #include "io/read/ply/ply_reader.hpp"
-#include "io/read/text/ptx_reader.hpp"
+#include "io/read/rows/scan_reader.hpp"
 #include "io/read/text/text_reader.hpp"
 
 #include <algorithm>

@@ -1,12 +1,173 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/io/broken_files.hpp"
 
-#include "tests/io/mutation.hpp"
 #include "tests/support/draws.hpp"
 
 #include <sys/resource.h>
 
 namespace lacuna::test {
+namespace {
+
+constexpr std::string_view kOfNumbers = "0123456789+-.eE";
+
+class Mutation {
+ public:
+  Mutation(std::string whole, std::uint32_t seed, std::uint32_t number) : bytes_(std::move(whole)) {
+    std::seed_seq both = {seed, number};
+    random_.seed(both);
+  }
+
+  std::string apply() {
+    using Change = void (Mutation::*)();
+    constexpr std::array<Change, 10> kChanges = {
+        &Mutation::set_byte,    &Mutation::flip_bit,      &Mutation::remove_span, &Mutation::repeat_span,
+        &Mutation::insert_span, &Mutation::swap_spans,    &Mutation::set_integer, &Mutation::add_to_integer,
+        &Mutation::set_digit,   &Mutation::replace_number};
+    constexpr std::array<std::size_t, 8> kCounts = {1, 1, 1, 1, 2, 2, 3, 4};
+    const std::size_t changes = one_of(kCounts);
+    for (std::size_t i = 0; i < changes && !bytes_.empty(); ++i) (this->*one_of(kChanges))();
+    if (below(50) == 0) bytes_.resize(below(bytes_.size() + 1));
+    return std::move(bytes_);
+  }
+
+ private:
+  std::size_t below(std::size_t end) { return end == 0 ? 0 : random_() % end; }
+
+  template <class Values>
+  typename Values::const_reference one_of(const Values& values) {
+    return values[below(values.size())];
+  }
+
+  // Bytes near each other: short ones are more frequent.
+  struct Span {
+    std::size_t begin, length;
+  };
+  Span span() {
+    const std::size_t begin = below(bytes_.size());
+    const std::size_t longest = std::min(bytes_.size() - begin, std::size_t{1} << below(9));
+    return {begin, 1 + below(longest)};
+  }
+
+  char byte() {
+    constexpr std::string_view kBoundaries("\x00\xff\x7f\x80\x01\n\r \t#", 10);
+    return below(2) ? one_of(kBoundaries) : static_cast<char>(random_());
+  }
+
+  void set_byte() { bytes_[below(bytes_.size())] = byte(); }
+
+  void flip_bit() { bytes_[below(bytes_.size())] ^= static_cast<char>(1 << below(8)); }
+
+  void remove_span() {
+    const Span some = span();
+    bytes_.erase(some.begin, some.length);
+  }
+
+  void repeat_span() {
+    const Span some = span();
+    const std::string copy = bytes_.substr(some.begin, some.length);
+    for (std::size_t times = 1 + below(3); times > 0; --times) bytes_.insert(some.begin, copy);
+  }
+
+  void insert_span() {
+    std::string some(1 + below(std::size_t{1} << below(8)), byte());
+    if (below(2)) std::generate(some.begin(), some.end(), [&] { return byte(); });
+    bytes_.insert(below(bytes_.size() + 1), some);
+  }
+
+  void swap_spans() {
+    const Span a = span(), b = span();
+    const Span &first = a.begin < b.begin ? a : b, &second = a.begin < b.begin ? b : a;
+    const std::size_t length = std::min({first.length, second.length, second.begin - first.begin});
+    std::swap_ranges(bytes_.begin() + static_cast<std::ptrdiff_t>(first.begin),
+                     bytes_.begin() + static_cast<std::ptrdiff_t>(first.begin + length),
+                     bytes_.begin() + static_cast<std::ptrdiff_t>(second.begin));
+  }
+
+  // An integer of 1 to 8 bytes, mostly at a multiple of its size.
+  Span integer() {
+    const std::size_t size = std::min(std::size_t{1} << below(4), bytes_.size());
+    const std::size_t place = below(bytes_.size() - size + 1);
+    return {below(4) ? place / size * size : place, size};
+  }
+
+  std::uint64_t load(const Span& at) const {
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < at.length; ++i)
+      value |= std::uint64_t{static_cast<unsigned char>(bytes_[at.begin + i])} << 8 * i;
+    return value;
+  }
+
+  void store(const Span& at, std::uint64_t value, bool swapped = false) {
+    for (std::size_t i = 0; i < at.length; ++i)
+      bytes_[at.begin + (swapped ? at.length - 1 - i : i)] = static_cast<char>(value >> 8 * i);
+  }
+
+  void set_integer() {
+    const Span at = integer();
+    const std::uint64_t sign = std::uint64_t{1} << (8 * at.length - 1);
+    const std::array<std::uint64_t, 9> values = {
+        0, 1, ~std::uint64_t{0}, ~std::uint64_t{1}, sign, sign - 1, sign >> 1, 1 + below(1000), random_()};
+    store(at, one_of(values), below(4) == 0);
+  }
+
+  void add_to_integer() {
+    const Span at = integer();
+    store(at, load(at) + below(9) - 4);
+  }
+
+  // Places of characters that numbers have.
+  std::vector<std::size_t> digits() const {
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < bytes_.size(); ++i)
+      if (bytes_[i] >= '0' && bytes_[i] <= '9') places.push_back(i);
+    return places;
+  }
+
+  void set_digit() {
+    constexpr std::string_view kInstead = "0123456789+-.eE,/";
+    const std::vector<std::size_t> places = digits();
+    if (!places.empty()) bytes_[one_of(places)] = one_of(kInstead);
+  }
+
+  void replace_number() {
+    constexpr std::array<const char*, 20> kInstead = {"0",
+                                                      "1",
+                                                      "-1",
+                                                      "2",
+                                                      "65535",
+                                                      "65536",
+                                                      "2147483647",
+                                                      "4294967295",
+                                                      "4294967296",
+                                                      "1e999",
+                                                      "-nan",
+                                                      "nan",
+                                                      "inf",
+                                                      "1e-999",
+                                                      "0.5",
+                                                      "00000000",
+                                                      "1000000",
+                                                      "",
+                                                      "18446744073709551615",
+                                                      "9223372036854775808"};
+    const std::vector<std::size_t> places = digits();
+    if (places.empty()) return;
+    std::size_t begin = one_of(places), end = begin;
+    while (begin > 0 && kOfNumbers.find(bytes_[begin - 1]) != kOfNumbers.npos) --begin;
+    while (end < bytes_.size() && kOfNumbers.find(bytes_[end]) != kOfNumbers.npos) ++end;
+    bytes_.replace(begin, end - begin, one_of(kInstead));
+  }
+
+  std::string bytes_;
+  std::mt19937_64 random_;
+};
+
+}  // namespace
+
+std::string mutated(const std::string& whole, std::uint32_t seed, std::uint32_t number) {
+  return Mutation(whole, seed, number).apply();
+}
+
 namespace {
 
 void require(bool holds, const char* what) {

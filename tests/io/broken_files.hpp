@@ -42,4 +42,11 @@ void check_broken_files(const std::vector<WholeFile>& files, std::uint32_t seed)
 // Every length of each file, and 10,000 changed ones of each. For slow tests.
 void check_many_broken_files(const std::vector<WholeFile>& files, std::uint32_t seed);
 
+// Files changed at random, the same for the same seed.
+
+// Returns `whole` with one to four random changes. Bytes are set, bits flipped, spans removed, repeated,
+// inserted or swapped. Integers become extreme values, numbers of text change, or the end is cut off. Each
+// `number` gives a file of its own, on every machine the same.
+std::string mutated(const std::string& whole, std::uint32_t seed, std::uint32_t number);
+
 }  // namespace lacuna::test

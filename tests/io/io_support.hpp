@@ -3,7 +3,7 @@
 #pragma once
 
 #include "io/read/formats.hpp"
-#include "io/read/rows/scalar.hpp"
+#include "io/read/rows/columns.hpp"
 #include "io/read/rows/scan_reader.hpp"
 #include "tests/support/drawn_files.hpp"
 

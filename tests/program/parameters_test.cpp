@@ -2,7 +2,7 @@
 // Every parameter changes the results of a small scan, or the list says what it needs for that. Each command
 // offers the parameters that change what it does, and no others.
 #include "io/read/options/options.hpp"
-#include "io/read/rows/vectors.hpp"
+#include "io/read/rows/columns.hpp"
 #include "io/read/scan/scan_pass.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/draws.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/las_file.hpp"
 
-#include "io/read/files/little_endian.hpp"
-#include "io/read/laz/laz_encoder.hpp"
+#include "io/read/files/number.hpp"
+#include "io/read/laz/laz.hpp"
 
 namespace lacuna::test {
 

@@ -2,7 +2,6 @@
 #include "tools/run/folders.hpp"
 
 #include "tests/support/system.hpp"
-#include "tools/run/folder_lock.hpp"
 
 namespace lacuna::test {
 using namespace tools;

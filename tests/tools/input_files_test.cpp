@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/run/input_files.hpp"
 
-#include "io/read/scan/scan_identity.hpp"
+#include "io/read/scan/scan_files.hpp"
 #include "io/read/scan/scan_pass.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/support/las_file.hpp"

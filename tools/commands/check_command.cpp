@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // `lacuna check`: whether a scan covers an area. It reads the scan once and finds no loops.
 #include "io/explain/area/check_area.hpp"
-#include "io/read/scan/scan_identity.hpp"
+#include "io/read/scan/scan_files.hpp"
 #include "io/write/results/voids.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/detect_command.hpp"
-#include "tools/console/area_text.hpp"
+#include "tools/commands/summary.hpp"
 #include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
-#include "tools/console/visible_text.hpp"
 #include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
 #include "tools/run/run_program.hpp"
 #include "tools/run/scan_warnings.hpp"
-#include "tools/run/signals.hpp"
 
 #include <filesystem>
 #include <iostream>

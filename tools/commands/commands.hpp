@@ -3,6 +3,12 @@
 // is parsed. It throws `Error` when the job fails, and `UsageError` for options that are not possible.
 #pragma once
 
+#include "io/read/options/options.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
 namespace lacuna::tools {
 
 class Command;
@@ -28,5 +34,11 @@ void add_clean_command(const Command& program);
 void add_plan_command(const Command& program);
 void add_work_command(const Command& program);
 void add_finish_command(const Command& program);
+
+// `lacuna info`: what scan files hold, and what a run on them would take.
+
+// Returns what `lacuna info --json` prints. Its warnings take the place of `warnings`. Throws `Error`.
+std::string info_json(const std::vector<std::filesystem::path>& scans, const io::FilesConfig& config,
+                      std::vector<std::string>& warnings);
 
 }  // namespace lacuna::tools

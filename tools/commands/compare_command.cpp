@@ -2,14 +2,12 @@
 #include "tools/commands/compare_command.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/read/crs/length_unit.hpp"
-#include "io/read/crs/stated_crs.hpp"
+#include "io/read/crs/crs.hpp"
 #include "io/write/report/report.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
-#include "tools/console/visible_text.hpp"
 #include "tools/run/scan_warnings.hpp"
 
 #include <algorithm>

@@ -10,14 +10,11 @@
 #include "io/write/results/results.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/summary.hpp"
-#include "tools/commands/workspace_commands.hpp"
-#include "tools/console/area_text.hpp"
 #include "tools/console/terminal.hpp"
-#include "tools/console/visible_text.hpp"
 #include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
+#include "tools/run/run_program.hpp"
 #include "tools/run/scan_warnings.hpp"
-#include "tools/run/signals.hpp"
 
 #include <array>
 #include <chrono>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The folders of a command: those that the user names, and those for its temporary files.
 #pragma once
 
+#include "engine/run/error.hpp"
+#include "engine/store/descriptor.hpp"
 #include "engine/store/temporary_folder.hpp"
 #include "io/read/files/result_folder.hpp"
 #include "tools/console/command_line.hpp"
-#include "tools/run/folder_lock.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -13,6 +13,26 @@
 #include <vector>
 
 namespace lacuna::tools {
+
+struct FolderInUse : Error {
+  using Error::Error;
+};
+
+// Keeps other runs from an existing folder, as long as the lock lives. The lock goes with the process,
+// however that ends. Throws `FolderInUse` if another run has the lock, and `Error` if it cannot be had. On a
+// file system that knows no locks, the log has a warning.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& folder);
+
+  // Whether the locked folder still has this name: another run may have removed it just before.
+  bool holds(const std::filesystem::path& folder) const;
+
+ private:
+  Descriptor folder_;
+};
+
+// The folders of a command: those that the user names, and those for its temporary files.
 
 // A folder that exists afterwards, with its parents. At the end it removes the folders that it made and that
 // are still empty, so that a failed run leaves nothing behind.

@@ -4,15 +4,16 @@
 #include "engine/run/disk_space.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/machine_memory.hpp"
+#include "engine/summarise.hpp"
 #include "io/explain/stations/scan_axes.hpp"
 #include "io/explain/stations/station_views.hpp"
+#include "io/read/crs/crs.hpp"
 #include "io/read/crs/crs_text.hpp"
-#include "io/read/crs/stated_crs.hpp"
 #include "io/read/files/number.hpp"
 #include "io/read/scan/plan_system.hpp"
-#include "io/read/scan/scan_identity.hpp"
+#include "io/read/scan/scan_files.hpp"
 #include "tools/console/measures_text.hpp"
-#include "tools/console/visible_text.hpp"
+#include "tools/console/terminal.hpp"
 #include "tools/run/coordinate_steps.hpp"
 
 #include <algorithm>
@@ -335,16 +336,6 @@ std::vector<std::string> filter_warnings(const ScanFiles& scan, const ScanCounts
 
 namespace {
 
-// Along a line, half as many cells have points where their edge doubles; on a surface, a quarter.
-bool are_lines(std::span<const LevelSummary> levels) {
-  constexpr double kMostDimension = 1.4;
-  const auto first = std::ranges::find_if(levels, [](const LevelSummary& level) { return level.edge > 0; });
-  if (levels.end() - first < 2) return false;
-  const LevelSummary& last = levels.back();
-  return std::log(static_cast<double>(first->points) / static_cast<double>(last.points)) <
-         kMostDimension * std::log(last.edge / first->edge);
-}
-
 void warn_of_own_frames(const ScanFiles& scan, const ExplainedDetection& detection,
                         std::vector<std::string>& warnings) {
   const auto has_pose = [](const ScanFile& file) { return file.pose.has_value(); };
@@ -363,31 +354,28 @@ void warn_of_own_frames(const ScanFiles& scan, const ExplainedDetection& detecti
 
 std::string nothing_warning(const Detection& detection, const SelectionConfig& selection) {
   constexpr std::uint64_t kMany = 1000;
-  constexpr double kSurface = 0.9, kLeastNeighbours = 4;
   const Summary& summary = detection.summary;
   const std::uint64_t points = summary.levels.empty() ? 0 : summary.levels.front().points;
   const bool is_left_out = summary.counts.raw_loops > 0 && !(selection == SelectionConfig());
   if (!detection.loops.empty() || points < kMany || is_left_out) return "";
-  const std::string found = "neither a hole nor an outer curve among " + print_count(points) + " points; ";
-  if (summary.mean_neighbours < kLeastNeighbours)
-    return fmt::format(
-        "{}they have {:.2g} neighbours on average, which are too few to show a surface; --k states more",
-        found, summary.mean_neighbours);
-  if (are_lines(summary.levels))
-    return found + "they lie on lines, as of a wire or a single profile, and holes need a surface";
-  // On a thin surface, all levels have the area that follows from the distances of the first one. Points that
-  // fill a volume, or lie in layers, have less of it at coarse levels.
-  const double distance = summary.median_distance;
-  const double area = 2.25 * std::numbers::pi * static_cast<double>(points) * distance * distance /
-                      (summary.mean_neighbours + 2.5);
-  if (summary.surface_area > kSurface * area)
-    return found +
-           "they lie on a thin surface, so it is probably closed, as a sphere is; if it is open, a filter "
-           "may "
-           "have moved its points, and the scan before the filter shows its holes";
+  const std::string found =
+      "neither a hole nor an outer curve among " + print_count(points) + " points; they ";
+  switch (shape_of(summary)) {
+    case ScanShape::kTooFewNeighbours:
+      return fmt::format(
+          "{}have {:.2g} neighbours on average, which are too few to show a surface; --k states more", found,
+          summary.mean_neighbours);
+    case ScanShape::kLines:
+      return found + "lie on lines, as of a wire or a single profile, and holes need a surface";
+    case ScanShape::kSurface:
+      return found +
+             "lie on a thin surface, so it is probably closed, as a sphere is; if it is open, a filter may "
+             "have moved its points, and the scan before the filter shows its holes";
+    case ScanShape::kNoSurface:
+      break;
+  }
   return found +
-         "they do not lie on one thin surface, as after noise, or a voxel filter that moves points into "
-         "layers; "
+         "do not lie on one thin surface, as after noise, or a voxel filter that moves points into layers; "
          "the scan before the filter shows its holes (--resolution thins without moving), unless it is "
          "closed";
 }

@@ -6,8 +6,7 @@
 #include "engine/run/regular_file.hpp"
 #include "io/explain/area/area_polygons.hpp"
 #include "io/explain/area/plan_shapes.hpp"
-#include "io/read/crs/gis_module.hpp"
-#include "io/read/crs/length_unit.hpp"
+#include "io/read/crs/crs.hpp"
 #include "io/read/scan/plan_system.hpp"
 #include "io/read/scan/scan_pass.hpp"
 

@@ -5,7 +5,7 @@
 #include "engine/export.hpp"
 #include "engine/run/error.hpp"
 #include "io/explain/area/plan_raster.hpp"
-#include "io/read/crs/conversion_accuracy.hpp"
+#include "io/read/crs/crs_lookup.hpp"
 
 #include <algorithm>
 #include <cstdint>

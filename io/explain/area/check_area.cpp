@@ -5,7 +5,7 @@
 #include "engine/run/memory.hpp"
 #include "io/explain/area/empty_places.hpp"
 #include "io/explain/area/plan_shapes.hpp"
-#include "io/read/crs/gis_module.hpp"
+#include "io/read/crs/crs.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -2,7 +2,7 @@
 #include "io/explain/area/empty_places.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/read/rows/vectors.hpp"
+#include "io/read/rows/columns.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 #include "io/explain/stations/station.hpp"
 
 #include "io/read/files/number.hpp"
-#include "io/read/rows/vectors.hpp"
-#include "io/read/text/text_cells.hpp"
+#include "io/read/rows/columns.hpp"
+#include "io/read/text/text_lines.hpp"
 
 #include <algorithm>
 #include <cmath>

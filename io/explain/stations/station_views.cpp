@@ -3,9 +3,9 @@
 
 #include "engine/model/points.hpp"
 #include "engine/run/error.hpp"
-#include "io/read/crs/length_unit.hpp"
+#include "io/read/crs/crs.hpp"
 #include "io/read/rows/column_rules.hpp"
-#include "io/read/rows/vectors.hpp"
+#include "io/read/rows/columns.hpp"
 
 #include <algorithm>
 #include <bit>

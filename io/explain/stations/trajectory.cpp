@@ -4,7 +4,7 @@
 #include "io/explain/stations/directions.hpp"
 #include "io/explain/stations/station.hpp"
 #include "io/read/rows/column_rules.hpp"
-#include "io/read/text/text_start.hpp"
+#include "io/read/text/text_lines.hpp"
 
 #include <algorithm>
 #include <array>

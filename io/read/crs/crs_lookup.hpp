@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coordinate reference systems in the database of PROJ, through GDAL: functions of lacuna_gis.so.
+// Coordinate reference systems in the database of PROJ, and how exact conversions between them are: functions
+// of lacuna_gis.so.
 #pragma once
 
 #include "engine/export.hpp"
@@ -9,7 +10,33 @@
 
 #include <Eigen/Core>
 
+class OGRSpatialReference;
+
 namespace lacuna::io {
+
+// How exact a conversion between coordinate reference systems is, as PROJ states it: functions of
+// lacuna_gis.so.
+
+struct ConversionAccuracy {
+  double metres = 0;         // 0: exact, or not stated; infinite: not known
+  bool moves_datum = false;  // false: both systems are taken for one datum, such as ETRS89 and WGS 84
+  std::string missing_grid;  // of a better way, which PROJ does not find on this machine; empty: none
+  double with_grid = 0;      // metres, with that grid
+
+  // Returns "to 2 m only, as PROJ does not find the grid uk_os_OSTN15_NTv2_OSGBtoETRS.tif, which gives 1 m".
+  std::string print() const;
+};
+
+// Returns the accuracy of the way that GDAL takes near a place, which is in the system `from`.
+ConversionAccuracy accuracy_of(const OGRSpatialReference& from, const OGRSpatialReference& to,
+                               const Eigen::Vector3d& place);
+
+// Fills in the accuracy from a system to longitude and latitude of WGS 84. False where GDAL does not
+// understand the system.
+using FindDegreesAccuracy = bool(const std::string& crs, const Eigen::Vector3d& place,
+                                 ConversionAccuracy& accuracy);
+inline constexpr const char* kFindDegreesAccuracy = "lacuna_find_degrees_accuracy";
+extern "C" LACUNA_API FindDegreesAccuracy lacuna_find_degrees_accuracy;
 
 struct CrsLookup {
   std::string given;       // a code or well-known text
@@ -27,8 +54,8 @@ using LookUpCrs = void(CrsLookup& lookup);
 // False where the system is not projected, or does not have the place.
 using FindScale = bool(const std::string& crs, const Eigen::Vector3d& place, ProjectionScale& scale);
 using IsSameCrs = bool(const std::string& a, const std::string& b);  // false where GDAL does not understand
-// Works as to_degrees() of io/read/crs/degrees.hpp. Returns false if GDAL does not convert all places; then some
-// may be changed.
+// Works as to_degrees() of io/read/crs/crs.hpp. Returns false if GDAL does not convert all places; then
+// some may be changed.
 using ConvertToDegrees = bool(const std::string& crs, std::span<Eigen::Vector3d> places);
 
 inline constexpr const char* kLookUpCrs = "lacuna_look_up_crs";

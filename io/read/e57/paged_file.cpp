@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/read/e57/paged_file.hpp"
 
-#include "io/read/files/little_endian.hpp"
+#include "io/read/files/number.hpp"
 
 #include <algorithm>
 #include <array>

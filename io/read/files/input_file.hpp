@@ -3,6 +3,9 @@
 // buffer bounds the memory, so that a line without an end is an error.
 #pragma once
 
+#include "engine/store/digest.hpp"
+#include "io/read/files/number.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -11,6 +14,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace lacuna::io {
 
@@ -79,5 +83,72 @@ void require_end(InputFile& in, std::string_view padding = kBlanks);
 
 // Returns text from a file for an error message: one line, printable, not long, in quotes.
 std::string in_quotes(std::string_view text);
+
+// The words of one line of a text format, taken one after the other.
+
+// `line` must be the last one read from `in`: errors name its number.
+class LineWords {
+ public:
+  LineWords(const InputFile& in, std::string_view line) : in_(in), rest_(line) {}
+
+  // False, and an empty word, at the end of the line.
+  bool next(std::string_view& word) {
+    word = {};
+    return next_field(rest_, ' ', word);
+  }
+
+  // The next word as a number. Throws `Error` if there is none or it is no number of the type; `needed` says
+  // what the line must hold.
+  template <class T>
+  T number(std::string_view needed) {
+    std::string_view word;
+    if (!next(word)) fail("fewer values than needed; " + std::string(needed));
+    T value;
+    if (!parse_number(word, value)) fail(in_quotes(word) + " is not " + describe_number<T>());
+    return value;
+  }
+
+  void require_end(std::string_view needed) {
+    std::string_view word;
+    if (next(word)) fail("more values than needed, from " + in_quotes(word) + " on; " + std::string(needed));
+  }
+
+  std::size_t count_left() const {
+    std::size_t count = 0;
+    std::string_view rest = rest_, word;
+    while (next_field(rest, ' ', word)) ++count;
+    return count;
+  }
+
+  [[noreturn]] void fail(const std::string& reason) const { in_.fail_at_line(in_.line(), reason); }
+
+ private:
+  const InputFile& in_;
+  std::string_view rest_;
+};
+
+// Whether a file is still the one that was read before, with the same content.
+
+struct FileState {
+  std::uint64_t device = 0;
+  std::uint64_t inode = 0;
+  std::uint64_t size = 0;  // bytes
+  std::int64_t mtime = 0;  // nanoseconds since 1970, as ctime
+  std::int64_t ctime = 0;  // of the last change to content, name, owner or permissions; no program sets it
+};
+
+// Returns device and inode of what a name stands for; nothing if there is nothing.
+using FileIdentity = std::pair<std::uint64_t, std::uint64_t>;
+std::optional<FileIdentity> find_identity(const std::filesystem::path& file);
+
+// Throws `Error` if there is no such file.
+FileState file_state(const std::filesystem::path& file);
+
+// Returns the digest of some blocks spread over the file, with the first and the last. Throws `Error`.
+Digest sample_digest(const std::filesystem::path& file, const FileState& state);
+
+// Throws `Error`, with the difference, unless the file has the state that it had `before`. The check misses
+// content of the same length that is written within the clock tick of `before` (milliseconds).
+void check_unchanged(const std::filesystem::path& file, const FileState& before);
 
 }  // namespace lacuna::io

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers as text, read and written.
+// Numbers as text and as bytes, read and written.
 #pragma once
 
+#include <bit>
 #include <charconv>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -91,6 +94,30 @@ inline bool next_field(std::string_view& rest, char separator, std::string_view&
   rest.remove_prefix(end < rest.size() ? end + 1 : end);
   while (!field.empty() && is_blank(field.back())) field.remove_suffix(1);
   return true;
+}
+
+// Values at any byte of a record, in the byte order of LAS files.
+
+static_assert(std::endian::native == std::endian::little, "LAS records are copied as they are in memory");
+
+template <class T>
+requires std::is_trivially_copyable_v<T> T load(const std::byte* from) {
+  T value;
+  std::memcpy(&value, from, sizeof value);
+  return value;
+}
+
+template <class T>
+requires std::is_trivially_copyable_v<T>
+void store(std::byte* to, T value) {
+  std::memcpy(to, &value, sizeof value);
+}
+
+// Stores a value, and moves `to` behind it.
+template <class T>
+void store_next(std::byte*& to, T value) {
+  store(to, value);
+  to += sizeof value;
 }
 
 }  // namespace lacuna::io

@@ -12,8 +12,8 @@ namespace lacuna::io {
 bool looks_like_las(const FileStart& start);
 
 // Coordinates are stored * scale + offset, in double precision. Every field of the point format and the extra
-// bytes are columns (io/read/las/las_columns.hpp). Extended records behind the points are passed over. A file that
-// is too short for the points that its header declares is an `Error` at once.
+// bytes are columns. Extended records behind the points are passed over. A file that is too short for the
+// points that its header declares is an `Error` at once.
 std::unique_ptr<ScanReader> open_las(const std::filesystem::path& file, const ReadOptions& options);
 
 }  // namespace lacuna::io

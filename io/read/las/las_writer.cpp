@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/read/las/las_writer.hpp"
 
-#include "io/read/las/las_bytes.hpp"
-#include "io/read/las/las_records.hpp"
-#include "io/read/laz/laz_encoder.hpp"
+#include "io/read/las/las_header.hpp"
+#include "io/read/laz/laz.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -13,7 +12,6 @@
 namespace lacuna::io {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 375;
 constexpr int kCompressed = 0x80;  // of the point format
 
 bool goes_over(const LasRecordExtent& record) {
@@ -23,9 +21,8 @@ bool goes_over(const LasRecordExtent& record) {
 
 // Returns the header as LAS 1.4 has it.
 std::string header_of(const LasHeader& from, std::size_t record_bytes) {
-  constexpr std::array<std::size_t, 5> kBytes = {227, 227, 227, 235, 375};
-  std::string header(kHeaderBytes, '\0');
-  const std::size_t bytes = kBytes.at(std::min<std::size_t>(static_cast<std::size_t>(from.minor), 4));
+  std::string header(kLasHeaderBytes[4], '\0');
+  const std::size_t bytes = kLasHeaderBytes.at(std::min(static_cast<std::size_t>(from.minor), std::size_t{4}));
   std::memcpy(header.data(), from.bytes.data(), bytes);
   // These fields were reserved before these versions.
   if (from.minor < 1) put_at<std::uint16_t>(header, 4, 0);

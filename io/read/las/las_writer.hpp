@@ -5,8 +5,8 @@
 
 #include "io/read/files/output_file.hpp"
 #include "io/read/las/las_header.hpp"
-#include "io/read/las/las_points_writer.hpp"
-#include "io/read/rows/rows_writer.hpp"
+#include "io/read/las/las_points.hpp"
+#include "io/read/rows/scan_reader.hpp"
 
 #include <array>
 #include <cstddef>

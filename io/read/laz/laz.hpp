@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decompresses the points of LAZ files, whose bytes the caller provides: no file access.
+// Decompresses and compresses the points of LAZ files, whose bytes the caller provides: no file access.
+//
+// Idea: a chunk of points begins with a whole one. Of each other point, every field is predicted from the
+// points before it, and an adaptive arithmetic coder takes the difference. Points of formats 0 to 5 are one
+// stream (pointwise.cpp). Those of formats 6 to 10 have a stream for each attribute (layered.cpp).
+// Memory has the bounds decoder_bytes() and encoder_bytes().
 //
 // The format: M. Isenburg, "LASzip: lossless compression of LiDAR data", Photogrammetric Engineering & Remote
 // Sensing 79(2), 2013, and "LAZ specification 1.4", rapidlasso, below cited as "LAZ". The arithmetic coder:
@@ -22,6 +27,20 @@
 #include <vector>
 
 namespace lacuna::io::laz {
+
+// Decompresses the points of LAZ files, whose bytes the caller provides: no file access.
+//
+// The format: M. Isenburg, "LASzip: lossless compression of LiDAR data", Photogrammetric Engineering & Remote
+// Sensing 79(2), 2013, and "LAZ specification 1.4", rapidlasso, below cited as "LAZ". The arithmetic coder:
+// A. Said, "Introduction to arithmetic coding", HP Labs report HPL-2004-76, below cited as "Said".
+//
+// The points of a LAZ file follow from the LAS header's `offset to point data`, P:
+//
+// - Compressor 2 and 3: P has the offset of the chunk table, 8 bytes, signed. The first chunk begins at
+//   P + 8, the next one directly behind it. An offset of -1, or another that is not behind P, comes from a
+//   writer that could not seek. The last 8 bytes of the file hold the offset then.
+// - Compressor 1: no offset and no table. One chunk begins at P and has all points of the file. It goes up to
+//   the first extended variable length record or the end of the file; bytes that follow it do no harm.
 
 // An error in compressed data, one line; the caller adds file and place.
 class Corrupt : public std::runtime_error {
@@ -150,5 +169,27 @@ std::uint64_t decoder_bytes(const Layout& layout);
 
 // The number of streams that a chunk consists of: 1, or one for each layer.
 std::size_t stream_count(const Layout& layout);
+
+// Returns how points of this format, from 0 to 10, are compressed, with `extra_bytes` behind the format's
+// fields. Formats 0 to 5 use compressor 2 with items of version 2, and 1 for waveforms. The others use
+// compressor 3 with items of version 3. A chunk has 50,000 points, as LASzip's; fewer if these take more than
+// kMostChunkBytes.
+Layout layout_of(int point_format, std::uint16_t extra_bytes);
+inline constexpr std::size_t kMostChunkBytes = std::size_t{4} << 20;
+
+// Returns the data of the variable length record "laszip encoded" (user id) 22204, which parse_layout()
+// reads.
+std::vector<std::byte> layout_record(const Layout& layout);
+
+// Encodes a chunk of the given records, at least one, record_bytes() each. Several threads may encode chunks
+// at the same time. Memory: encoder_bytes(), and up to twice the bytes of the chunk. The layout is one of
+// layout_of(), or has other numbers of points or items of version 4.
+std::vector<std::byte> encode_chunk(const Layout& layout, std::span<const std::byte> records);
+
+// Returns a bound on the memory of the models that encode a chunk.
+std::uint64_t encoder_bytes(const Layout& layout);
+
+// Encodes the table of the given chunks, in the order of the file; the table does not hold their offsets.
+std::vector<std::byte> encode_chunk_table(const Layout& layout, std::span<const Chunk> chunks);
 
 }  // namespace lacuna::io::laz

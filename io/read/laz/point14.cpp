@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/read/laz/point14.hpp"
 
-#include "io/read/laz/wrapped.hpp"
+#include "io/read/laz/predicted_values.hpp"
 
 namespace lacuna::io::laz {
 

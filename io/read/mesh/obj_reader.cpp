@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/read/mesh/obj_reader.hpp"
 
-#include "io/read/files/line_words.hpp"
-#include "io/read/files/little_endian.hpp"
-#include "io/read/rows/scalar.hpp"
+#include "io/read/files/input_file.hpp"
+#include "io/read/files/number.hpp"
+#include "io/read/rows/columns.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/read/ply/ply_writer.hpp"
 
-#include "io/read/rows/scalar.hpp"
+#include "io/read/rows/columns.hpp"
 
 #include <array>
 #include <bit>

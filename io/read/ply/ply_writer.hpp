@@ -3,9 +3,9 @@
 #pragma once
 
 #include "io/read/files/output_file.hpp"
-#include "io/read/ply/ply_header.hpp"
-#include "io/read/rows/local_offset.hpp"
-#include "io/read/rows/rows_writer.hpp"
+#include "io/read/ply/ply.hpp"
+#include "io/read/rows/pose.hpp"
+#include "io/read/rows/scan_reader.hpp"
 
 #include <cstdint>
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/read/rows/column_rules.hpp"
 
-#include "io/read/files/property_name.hpp"
+#include "io/read/rows/scan_reader.hpp"
 
 #include <algorithm>
 #include <array>

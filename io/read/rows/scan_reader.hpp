@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading a scan file: every format delivers rows of scalars in bounded batches.
+// Rows of scalars: what every format delivers in bounded batches, what each point file is written from, and
+// names.
 #pragma once
 
 #include "engine/export.hpp"
@@ -11,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +20,27 @@
 #include <Eigen/Core>
 
 namespace lacuna::io {
+
+// The names of properties, the same whatever the format they come from.
+
+// Returns the text with A to Z in lower case.
+std::string lower_case(std::string_view text);
+
+// Returns the names of position and normal for X Y Z and NX NY NZ, in any mix of cases, and others as they
+// are.
+std::string known_name(std::string_view given);
+
+// Returns the name as it can be written in a PLY header: blanks and control characters become '_'.
+std::string property_name(std::string_view given);
+
+// The names of the properties that make the colour of a point.
+inline constexpr const char* kColourNames[] = {"red", "green", "blue", "intensity"};
+
+// Returns one spelling for "return_number", PDAL's "ReturnNumber" and CloudCompare's "scalar_Return_Number":
+// without case, blanks and underscores.
+std::string bare_name(std::string_view name);
+
+// Reading a scan file: every format delivers rows of scalars in bounded batches.
 
 enum class Scalar : std::uint8_t { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
 
@@ -41,8 +64,8 @@ struct RowLayout {
   std::size_t stride = 0;            // bytes per row, no padding
 
   LACUNA_API const Property* find(std::string_view name) const;  // one after the other
-  // Returns the ones whose names are spelled alike (bare_name in io/read/files/property_name.hpp); the one of this
-  // very name alone, if there is one.
+  // Returns the ones whose names are spelled alike (bare_name); the one of
+  // this very name alone, if there is one.
   std::vector<const Property*> all_alike(std::string_view name) const;
   // Returns the first of them.
   LACUNA_API const Property* find_alike(std::string_view name) const;
@@ -103,7 +126,7 @@ class LACUNA_API ScanReader {
   virtual std::string other_crs() const { return {}; }
   // Whether positions are longitude and latitude.
   virtual bool is_geographic() const;
-  // Returns the unit of length, as unit_of_metres (io/read/crs/length_unit.hpp); empty if not known.
+  // Returns the unit of length, as unit_of_metres (io/read/crs/crs.hpp); empty if not known.
   virtual std::string length_unit() const;
   // Returns another unit of length that the file states as well; empty: none contradicts.
   virtual std::string other_unit() const { return {}; }
@@ -152,6 +175,18 @@ struct FileStart {
   std::uint64_t size = 0;  // of the whole file
 
   bool is_whole() const { return first_bytes.size() == size; }
+};
+
+// Writing rows to a file: the counterpart of ScanReader.
+
+// A file of rows that is being written.
+class RowsWriter {
+ public:
+  virtual ~RowsWriter() = default;
+  // Takes whole rows, one after the other. Throws `Error`.
+  virtual void put_rows(std::span<const std::byte> rows) = 0;
+  // Ends the file; called once, after all rows. Throws `Error`.
+  virtual void finish() {}
 };
 
 }  // namespace lacuna::io

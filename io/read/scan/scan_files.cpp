@@ -1,15 +1,150 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/read/scan/scan_files.hpp"
 
-#include "io/read/rows/moved_reader.hpp"
-#include "io/read/rows/vectors.hpp"
-#include "io/read/scan/like_degrees.hpp"
+#include "engine/run/error.hpp"
+#include "io/read/crs/crs.hpp"
+#include "io/read/crs/crs_text.hpp"
+#include "io/read/rows/columns.hpp"
+#include "io/read/scan/plan_system.hpp"
 #include "io/read/scan/row_filter.hpp"
-#include "io/read/scan/scan_systems.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <set>
+#include <sstream>
+
+#include <spdlog/fmt/fmt.h>
 
 namespace lacuna::io {
+namespace {
+
+class ArrayReader final : public ScanReader {
+ public:
+  explicit ArrayReader(const ScanArrays& arrays) : arrays_(arrays) {
+    for (const ScanColumn& column : arrays.columns) {
+      layout_.properties.push_back({column.name, column.type, layout_.stride});
+      layout_.stride += size_of(column.type);
+    }
+  }
+
+  std::string format() const override { return "arrays"; }
+  const RowLayout& layout() const override { return layout_; }
+  std::optional<std::uint64_t> expected_rows() const override { return arrays_.rows; }
+
+  bool next(RowBatch& batch, std::size_t max_rows) override {
+    batch.count = std::min<std::uint64_t>(max_rows, arrays_.rows - next_);
+    batch.bytes.resize(batch.count * layout_.stride);
+    for (std::size_t i = 0; i < arrays_.columns.size(); ++i) {
+      const auto& [name, type, first, stride] = arrays_.columns[i];
+      copy_column({first + static_cast<std::ptrdiff_t>(next_) * stride, stride, type},
+                  column_of(batch, layout_.stride, layout_.properties[i]), batch.count);
+    }
+    next_ += batch.count;
+    return batch.count > 0;
+  }
+
+ private:
+  const ScanArrays& arrays_;
+  RowLayout layout_;
+  std::uint64_t next_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<ScanReader> read_arrays(const ScanArrays& arrays) {
+  return std::make_unique<ArrayReader>(arrays);
+}
+
+namespace {
+
+// The coordinate reference systems and units of length of the files of a scan.
+
+// Takes the other unit where there is none, and notes where the two contradict each other.
+void take_unit(ScanFile& file, std::string ScanFile::*of, const std::string& other) {
+  std::string& unit = file.*of;
+  if (unit.empty()) unit = other;
+  if (other.empty() || other == unit || !file.contradiction.empty()) return;
+  const bool is_flat = of == &ScanFile::unit;
+  file.contradiction = std::string("its unit and its system contradict each other: ") +
+                       (is_flat ? "lengths" : "heights") + " are in " + unit + " or in " + other + "; " +
+                       unit + " holds, and " + (is_flat ? "--unit " : "--unit-z ") + other +
+                       " states the other";
+}
+
+void complete_units(std::vector<ScanFile>& files) {
+  std::string known_crs, text;  // files of one scan have one system, mostly, which is looked up once
+  for (ScanFile& file : files) {
+    take_unit(file, &ScanFile::unit, file.other_unit);
+    const std::string& crs = file.crs;
+    if (file.is_geographic) continue;
+    const bool is_flat_utm = is_code(crs) && is_utm(crs) && crs.find('+') == crs.npos;
+    if (is_code(crs) && !is_flat_utm && crs != known_crs) {
+      known_crs = crs;
+      text = known_text(crs);
+    }
+    take_unit(file, &ScanFile::unit, is_flat_utm ? "m" : length_unit(is_code(crs) ? text : crs));
+    if (is_code(crs) && !is_flat_utm) take_unit(file, &ScanFile::z_unit, vertical_unit(text));
+  }
+}
+
+// Returns the first text of a file that is not empty, if the others are the same. Empty if two differ.
+template <class Same>
+std::string common(const std::vector<ScanFile>& files, std::string ScanFile::*text, const Same& is_same) {
+  std::string first;
+  for (const ScanFile& file : files) {
+    if ((file.*text).empty()) continue;
+    if (first.empty()) first = file.*text;
+    if (!is_same(file.*text, first)) return "";
+  }
+  return first;
+}
+
+CommonSystem common_system(const StatedCrs& stated, const std::vector<ScanFile>& files) {
+  CommonSystem all{stated.crs.empty() ? common(files, &ScanFile::crs, is_same_crs) : stated.crs, stated.unit};
+  if (!all.unit.empty()) return all;
+  const auto has_crs = [](const ScanFile& file) { return !file.crs.empty(); };
+  const auto has_unit = [](const ScanFile& file) { return !file.unit.empty(); };
+  const bool differ = all.crs.empty() && std::ranges::any_of(files, has_crs);
+  if (!differ || std::ranges::all_of(files, has_unit))
+    all.unit = common(files, &ScanFile::unit, std::equal_to<>());
+  return all;
+}
+
+// Returns whether z has another unit than the vertical part of the system says. A stated unit of x and y that
+// is not the file's own is a word against its unit of z, too.
+bool choose_z_factor(const InputConfig& config, const StatedCrs& stated, const std::string& common_unit,
+                     ScanFile& file) {
+  const std::string& flat = !stated.unit.empty() ? stated.unit : file.unit.empty() ? common_unit : file.unit;
+  const std::string said = stated.crs.empty() ? file.z_unit : vertical_unit(stated.crs);
+  if (!stated.unit_z.empty()) {
+    file.z_unit = stated.unit_z;
+  } else if (!stated.unit.empty() && stated.unit != file.unit) {
+    file.z_unit.clear();
+  }
+  const bool is_other = said != file.z_unit;
+  const auto metres = metres_of_unit(flat), metres_of_z = metres_of_unit(file.z_unit);
+  if (config.unit_z != LengthUnit::kInput && !metres)
+    throw Error(file.name.string() +
+                ": the unit of x and y is not known, into which --unit-z brings z; --unit states it");
+  if (flat == file.z_unit || !metres || !metres_of_z) file.z_unit.clear();
+  file.z_factor = file.z_unit.empty() ? 1 : *metres_of_z / *metres;
+  return is_other || file.z_factor != 1;
+}
+
+// Completes what each file states of its units, and chooses how z is brought into the unit of x and y. A
+// system states the units that a file does not, or contradicts them. Returns what holds for all. Throws
+// `Error` if z has a stated unit, and x and y have none.
+CommonSystem choose_systems(const InputConfig& config, const StatedCrs& stated,
+                            std::vector<ScanFile>& files) {
+  complete_units(files);
+  CommonSystem all = common_system(stated, files);
+  bool is_any = false;
+  for (ScanFile& file : files) is_any = choose_z_factor(config, stated, all.unit, file) || is_any;
+  if (is_any) all.crs = std::string(without_vertical(all.crs));
+  return all;
+}
+
+}  // namespace
 
 ReadOptions read_options(const InputConfig& config, std::uint64_t memory) {
   return {.columns = config.columns,
@@ -113,6 +248,78 @@ bool has_single_precision(const ScanFiles& scan) {
     return std::ranges::all_of(
         kPositionNames, [&](const char* name) { return file.layout.find(name)->type == Scalar::kFloat32; });
   });
+}
+
+namespace {
+
+std::filesystem::path full_name(const std::filesystem::path& file) {
+  return std::filesystem::absolute(file).lexically_normal();
+}
+
+std::string pose_text(const ScanFile& file) {
+  std::ostringstream pose;
+  if (file.pose) pose << file.pose->matrix().format(Eigen::IOFormat(17, Eigen::DontAlignCols, " ", " "));
+  return pose.str();
+}
+
+}  // namespace
+
+std::vector<std::string> identity_of(const ScanFiles& scan) {
+  std::vector<std::string> lines;
+  if (std::ranges::any_of(scan.files(), [](const ScanFile& file) { return file.arrays != nullptr; }))
+    return lines;
+  for (const ScanFile& file : scan.files()) {
+    const Digest sample = sample_digest(file.name, file.state);
+    lines.push_back(fmt::format("{}, {} bytes, written at {} ns, sample {:x}{:x}{}",
+                                full_name(file.name).string(), file.state.size, file.state.mtime, sample[0],
+                                sample[1], file.pose ? ", pose " + pose_text(file) : ""));
+  }
+  FilesConfig config;
+  config.input = scan.config();
+  for (const Parameter& p : file_parameters(config)) {
+    if (p.changes == Changes::kPoints) lines.push_back(std::string(p.key) + " = " + p.print());
+  }
+  if (const std::string& crs = scan.stated_crs().crs; !crs.empty())  // a file counts by its content
+    lines.push_back(fmt::format("text of crs = {:x}", digest_of(crs)[0]));
+  return lines;
+}
+
+std::vector<std::string> kept_names(const ScanFiles& scan) {
+  std::vector<std::string> names;
+  for (const ScanFile& file : scan.files())
+    names.insert(names.end(), {file.name.string(), full_name(file.name).string(), pose_text(file)});
+  return names;
+}
+
+std::vector<ScanInput> inputs_of(std::span<const std::string> names) {
+  std::vector<ScanInput> inputs;
+  if (names.size() % 3 != 0) fail_inconsistent("an input of a workspace has no name");
+  for (; !names.empty(); names = names.subspan(3)) {
+    const std::string& file = full_name(names[0]) == names[1] ? names[0] : names[1];
+    inputs.emplace_back(file, names[2].empty() ? std::nullopt : std::optional(parse_pose(names[2])));
+  }
+  return inputs;
+}
+
+std::vector<std::size_t> repeated_files(const ScanFiles& scan) {
+  std::set<FileIdentity> seen;
+  std::vector<std::size_t> repeated;
+  for (std::size_t i = 0; i < scan.files().size(); ++i) {
+    const ScanFile& file = scan.files()[i];
+    if (!file.arrays && !seen.emplace(file.state.device, file.state.inode).second) repeated.push_back(i);
+  }
+  return repeated;
+}
+
+void check_not_input(const ResultFolder& folder, const ScanFiles& scan) {
+  for (const std::filesystem::path& earlier : folder.earlier_files()) {
+    const std::optional<FileIdentity> identity = find_identity(earlier);
+    for (const ScanFile& file : scan.files()) {
+      if (!file.arrays && identity == FileIdentity(file.state.device, file.state.inode))
+        throw Error(file.name.string() +
+                    ": is an input in the place of a result; another output folder is needed");
+    }
+  }
 }
 
 }  // namespace lacuna::io

@@ -1,24 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several scan files, or arrays, as one registered scan: what they are, and how each is opened.
+// Several scan files, or arrays, as one registered scan: what they are, how each is opened, and whether two
+// are one.
 #pragma once
 
 #include "engine/export.hpp"
-#include "io/read/crs/stated_crs.hpp"
-#include "io/read/files/file_state.hpp"
+#include "io/read/crs/crs.hpp"
+#include "io/read/files/input_file.hpp"
+#include "io/read/files/result_folder.hpp"
 #include "io/read/formats.hpp"
 #include "io/read/rows/pose.hpp"
 #include "io/read/rows/scan_reader.hpp"
-#include "io/read/scan/scan_arrays.hpp"
 
 #include <concepts>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace lacuna::io {
+
+// A scan in the memory of another program, as a file of rows.
+
+// A scalar of every row, at any stride.
+struct ScanColumn {
+  std::string name;
+  Scalar type;
+  const std::byte* first;
+  std::ptrdiff_t stride;  // bytes from row to row
+};
+
+// The struct does not own the columns.
+struct ScanArrays {
+  std::uint64_t rows = 0;
+  std::vector<ScanColumn> columns;  // x, y and z among them
+};
+
+// `arrays` must outlive the reader. Columns are copied row by row.
+LACUNA_API std::unique_ptr<ScanReader> read_arrays(const ScanArrays& arrays);
+
+// Several scan files, or arrays, as one registered scan: what they are, and how each is opened.
 
 struct ScanInput {
   template <std::convertible_to<std::filesystem::path> Name>
@@ -112,5 +137,22 @@ std::vector<std::filesystem::path> names_of(const ScanFiles& scan);  // likewise
 // Returns the rows of each file as its header declares. For text, they are as many as short lines allow.
 std::vector<std::uint64_t> estimated_rows(const ScanFiles& scan);
 bool has_single_precision(const ScanFiles& scan);  // x, y and z are 32-bit floats in every file
+
+// Which files a scan has: whether another run has the same, and whether two of them are one.
+
+// Returns name, size, time and a sample of each file, its pose, and the parameters of input, a line each.
+// Returns nothing if there are arrays. Throws `Error`.
+std::vector<std::string> identity_of(const ScanFiles& scan);
+
+// Returns three texts for each file: its name as given, the absolute one, and its pose or nothing.
+std::vector<std::string> kept_names(const ScanFiles& scan);
+// Returns the inputs that have these names. A name is as it was given, if it names the same file from here.
+LACUNA_API std::vector<ScanInput> inputs_of(std::span<const std::string> kept_names);
+
+// Returns the inputs that are the same file as one before them, ascending.
+std::vector<std::size_t> repeated_files(const ScanFiles& scan);
+
+// Throws `Error` if an earlier result that the folder replaces is an input of the scan.
+void check_not_input(const ResultFolder& folder, const ScanFiles& scan);
 
 }  // namespace lacuna::io

@@ -2,8 +2,8 @@
 #include "io/read/scan/scan_pass.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/read/rows/vectors.hpp"
-#include "io/read/scan/scan_identity.hpp"
+#include "io/read/rows/columns.hpp"
+#include "io/read/scan/scan_files.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -3,10 +3,9 @@
 
 #include "engine/run/parallel.hpp"
 #include "engine/run/utf8.hpp"
-#include "io/read/files/little_endian.hpp"
 #include "io/read/files/number.hpp"
-#include "io/read/files/property_name.hpp"
-#include "io/read/rows/scalar.hpp"
+#include "io/read/rows/columns.hpp"
+#include "io/read/rows/scan_reader.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "io/read/files/output_file.hpp"
-#include "io/read/rows/rows_writer.hpp"
 #include "io/read/rows/scan_reader.hpp"
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 // A picture of a scan and its holes, drawn by the processor alone.
 #pragma once
 
-#include "io/read/files/new_file.hpp"
+#include "io/read/files/output_file.hpp"
 #include "io/write/report/canvas.hpp"
 #include "io/write/report/scene.hpp"
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/export.hpp"
-#include "io/read/files/new_file.hpp"
+#include "io/read/files/output_file.hpp"
 
 #include <filesystem>
 #include <string_view>

@@ -4,10 +4,9 @@
 #include "engine/bucket/z_curve.hpp"
 #include "engine/run/error.hpp"
 #include "io/explain/stations/next_stations.hpp"
-#include "io/read/files/property_name.hpp"
 #include "io/read/formats.hpp"
-#include "io/read/rows/scalar.hpp"
-#include "io/read/rows/vectors.hpp"
+#include "io/read/rows/columns.hpp"
+#include "io/read/rows/scan_reader.hpp"
 #include "io/write/report/area_page.hpp"
 
 #include <bit>

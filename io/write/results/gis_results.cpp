@@ -3,8 +3,7 @@
 
 #include "engine/run/error.hpp"
 #include "engine/run/memory.hpp"
-#include "io/read/crs/degrees.hpp"
-#include "io/read/crs/gis_module.hpp"
+#include "io/read/crs/crs.hpp"
 #include "io/read/scan/scan_pass.hpp"
 
 #include <algorithm>

@@ -3,12 +3,12 @@
 
 #include "engine/criteria/criteria.hpp"
 #include "engine/run/error.hpp"
-#include "io/read/las/las_extra.hpp"
+#include "io/read/las/las_header.hpp"
 #include "io/read/las/las_points.hpp"
 #include "io/read/las/las_writer.hpp"
-#include "io/read/laz/laz_encoder.hpp"
+#include "io/read/laz/laz.hpp"
 #include "io/read/ply/ply_writer.hpp"
-#include "io/read/rows/vectors.hpp"
+#include "io/read/rows/columns.hpp"
 #include "io/read/text/csv_writer.hpp"
 #include "io/write/results/results.hpp"
 

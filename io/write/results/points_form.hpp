@@ -6,8 +6,7 @@
 #include "engine/model/detection.hpp"
 #include "io/read/files/output_file.hpp"
 #include "io/read/options/options.hpp"
-#include "io/read/rows/local_offset.hpp"
-#include "io/read/rows/rows_writer.hpp"
+#include "io/read/rows/pose.hpp"
 #include "io/read/rows/scan_reader.hpp"
 #include "io/read/scan/scan_files.hpp"
 

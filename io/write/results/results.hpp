@@ -8,8 +8,8 @@
 #include "io/read/files/output_file.hpp"
 #include "io/read/files/result_folder.hpp"
 #include "io/read/options/options.hpp"
-#include "io/read/ply/ply_header.hpp"
-#include "io/read/rows/local_offset.hpp"
+#include "io/read/ply/ply.hpp"
+#include "io/read/rows/pose.hpp"
 #include "io/read/scan/scan_files.hpp"
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/read/e57/e57_header.hpp"
-#include "io/read/files/little_endian.hpp"
+#include "io/read/e57/e57.hpp"
+#include "io/read/files/number.hpp"
 #include "io/read/formats.hpp"
 #include "tests/io/broken_files.hpp"
 #include "tests/support/e57_encoder.hpp"

@@ -5,6 +5,8 @@
 #include "tests/io/io_support.hpp"
 #include "tests/support/system.hpp"
 
+#include <sys/stat.h>
+
 namespace lacuna::test {
 
 TEST_CASE("a file holds what was written to it, however large the pieces", "[io]") {
@@ -60,6 +62,90 @@ TEST_CASE("a file is created anew: nothing that exists is opened, and no link fo
         "a: cannot be created: No such file or directory");
   CHECK(read_file(other) == "precious");
   CHECK(folder.names() == std::vector<std::string>{"broken link", "link", "other"});
+}
+
+namespace {
+
+const FileMark kMark("mine:");
+
+void write(const fs::path& file, Overwrite overwrite = Overwrite::kOwn) {
+  NewFile out(file, kMark, overwrite);
+  out.content().write("mine: new");
+  out.commit();
+}
+
+}  // namespace
+
+TEST_CASE("a file has its name only once it is complete, and replaces its own kind alone", "[io]") {
+  const ScratchFolder folder;
+  {
+    NewFile out(folder / "a", kMark, Overwrite::kOwn);
+    out.content().write("mine: new");
+    CHECK_FALSE(fs::exists(folder / "a"));
+  }
+  CHECK(folder.names().empty());
+  write(folder / "a");
+  const mode_t mask = umask(0);
+  umask(mask);
+  CHECK(fs::status(folder / "a").permissions() == static_cast<fs::perms>(0666 & ~mask));
+  folder.write("a", "mine: old");
+  write(folder / "a");
+  CHECK(read_file(folder / "a") == "mine: new");
+  CHECK(folder.names() == Names{"a"});
+}
+
+TEST_CASE("a file that the command did not write is refused by its name, or replaced on request", "[io]") {
+  const ScratchFolder folder;
+  for (const std::string content : {"precious", "mine", "", " mine: old"}) {
+    const std::string file = folder.write("a", content);
+    CHECK(error_of([&] { write(file); }) ==
+          file +
+              ": exists, and this command did not write it; choose another place, or replace it with "
+              "--overwrite");
+    CHECK(read_file(file) == content);
+    write(file, Overwrite::kAny);
+    CHECK(read_file(file) == "mine: new");
+  }
+}
+
+TEST_CASE("a file that has come to the name meanwhile is not replaced", "[io]") {
+  const ScratchFolder folder;
+  NewFile out(folder / "a", kMark, Overwrite::kOwn);
+  folder.write("a", "precious");
+  CHECK_THAT(error_of([&] { out.commit(); }), Contains("a: exists, and this command did not write it"));
+  CHECK(read_file(folder / "a") == "precious");
+}
+
+TEST_CASE("links, folders, pipes and devices are refused at once, with any option", "[io]") {
+  const ScratchFolder folder;
+  const std::string target = folder.write("target", "mine: old");
+  fs::create_symlink(target, folder / "link");
+  fs::create_symlink(folder / "nothing", folder / "broken link");
+  fs::create_directory(folder / "folder");
+  REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  const Names before = folder.names();
+  for (const Overwrite overwrite : {Overwrite::kOwn, Overwrite::kAny}) {
+    const auto error = [&](const fs::path& file) { return error_of([&] { write(file, overwrite); }); };
+    CHECK_THAT(error(folder / "link"), Contains("is a symbolic link; only regular files are replaced"));
+    CHECK_THAT(error(folder / "broken link"), Contains("is a symbolic link"));
+    CHECK_THAT(error(folder / "folder"), Contains("is a folder"));
+    CHECK_THAT(error(folder / "pipe"), Contains("is a pipe"));
+    CHECK_THAT(error("/dev/null"), Contains("is a device"));
+    CHECK_THAT(error(folder / ""), Contains("a file name is needed"));
+  }
+  CHECK(folder.names() == before);
+}
+
+TEST_CASE("a full disk leaves the older file", "[io]") {
+  const ScratchFolder folder;
+  folder.write("a", "mine: old");
+  CHECK_THAT(error_of([&] {
+               const FileSizeLimit full(4);
+               write(folder / "a");
+             }),
+             Contains("a: cannot be written: File too large"));
+  CHECK(read_file(folder / "a") == "mine: old");
+  CHECK(folder.names() == Names{"a"});
 }
 
 }  // namespace lacuna::test

@@ -3,7 +3,7 @@
 #include "engine/run/parallel.hpp"
 #include "io/read/formats.hpp"
 #include "io/read/las/las_header.hpp"
-#include "io/read/laz/laz_encoder.hpp"
+#include "io/read/laz/laz.hpp"
 #include "tests/io/broken_files.hpp"
 #include "tests/support/las_file.hpp"
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/read/laz/laz.hpp"
 
-#include "io/read/files/little_endian.hpp"
-#include "io/read/laz/laz_encoder.hpp"
-#include "tests/io/mutation.hpp"
+#include "io/read/files/number.hpp"
+#include "tests/io/broken_files.hpp"
 #include "tests/support/las_file.hpp"
 #include "tests/support/skip.hpp"
 

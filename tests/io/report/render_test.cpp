@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/write/report/render.hpp"
 
-#include "io/read/rows/scalar.hpp"
+#include "io/read/rows/columns.hpp"
 #include "io/write/report/canvas.hpp"
 #include "io/write/report/scene.hpp"
 #include "tests/support/test.hpp"

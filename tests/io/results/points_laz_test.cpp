@@ -3,7 +3,7 @@
 #include "engine/run/parallel.hpp"
 #include "io/read/las/las_points.hpp"
 #include "io/read/las/las_writer.hpp"
-#include "io/read/laz/laz_encoder.hpp"
+#include "io/read/laz/laz.hpp"
 #include "io/write/results/points.hpp"
 #include "tests/io/results/points_las_support.hpp"
 #include "tests/support/las_file.hpp"
