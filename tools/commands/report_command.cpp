@@ -56,8 +56,6 @@ void add_report_command(const Command& program) {
   command.runs([arguments] { run_report(*arguments); });
 }
 
-using namespace io;
-
 namespace {
 
 constexpr std::size_t kLeastSide = 16, kMostSide = 16384;  // pixels

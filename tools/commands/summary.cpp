@@ -186,8 +186,6 @@ std::string print_summary(const ExplainedDetection& detection, const ScanFiles& 
   return text + print_facts(facts) + "\n";
 }
 
-using namespace io;
-
 namespace {
 
 std::string later_returns(const AreaCheck& check) {

@@ -34,6 +34,8 @@
 #include <unistd.h>
 
 namespace lacuna::tools {
+using namespace io;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -116,11 +118,7 @@ void add_clean_command(const Command& program) {
   add_command(program, "clean", "Remove the files of a workspace, and the folder if it is empty then", clean);
 }
 
-using namespace io;
-
 namespace {
-
-namespace fs = std::filesystem;
 
 // Returns whole minutes that a task takes at most. The bound is a whole run of one thread on its points, of a
 // rough scan (docs/usage.md, "Memory and disk").

@@ -40,8 +40,6 @@ bool FolderLock::holds(const fs::path& folder) const {
          locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
 }
 
-namespace fs = std::filesystem;
-
 namespace {
 
 // If `a` is missing, a/../b becomes b.

@@ -114,8 +114,6 @@ void* find_gis_function(const char* name) {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::string_view kBlanks = " \t\r\n";
 
 std::string trimmed(std::string_view text) {
