@@ -48,7 +48,7 @@ TEST_CASE("a format that is known but not read is named, with a way out", "[io]"
        {"DRACO\2\2", "this is Draco"},
        {"BPF!0003", "this is BPF"},
        {"FASTBIN\1", "this is FBI of TerraScan"},
-       {std::string(12, '\1') + "CXYZ", "this is BIN of TerraScan"},
+       {"\1\1\1\1\1\1\1\1\1\1\1\1CXYZ", "this is BIN of TerraScan"},
        {"CSD\0\1"s, "this is CSD of Optech"},
        {"NITF02.10", "this is NITF"},
        {"PAR1\25", "this is Parquet"},
