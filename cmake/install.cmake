@@ -57,7 +57,7 @@ install(FILES README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff LICENSE THIRD_
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
         FILES_MATCHING PATTERN "*.md" PATTERN "*.json" PATTERN "*.svg" PATTERN "*.png"
         PATTERN example EXCLUDE PATTERN __pycache__ EXCLUDE)
-foreach(page engine/README.md engine/store/README.md io/README.md tools/README.md bench/README.md bench/SPEED.md bench/NOTES.md bench/accuracy/README.md)  # others link to them
+foreach(page engine/README.md engine/store/README.md io/README.md io/read/README.md io/explain/README.md io/write/README.md tools/README.md bench/README.md bench/SPEED.md bench/NOTES.md bench/accuracy/README.md)  # others link to them
   cmake_path(GET page PARENT_PATH folder)
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT program)
 endforeach()
