@@ -110,7 +110,8 @@ struct SelectionConfig {
   friend bool operator==(const SelectionConfig&, const SelectionConfig&) = default;
 };
 
-// Which results are wanted besides the loops: in the section `output`, with the OutputConfig of io/read/options/.
+// Which results are wanted besides the loops: in the section `output`, with the OutputConfig of
+// io/read/options/.
 struct ResultsConfig {
   bool points = false;                   // of every point of the input
   std::int64_t sample_points = 1000000;  // of an even sample of the scan, at most; 0: none

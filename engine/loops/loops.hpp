@@ -84,8 +84,8 @@ struct ChosenLoops {
   }
 };
 
-// Turns a loop so that it begins at its first place, by x, y, z, and goes on to the neighbour that comes first.
-// So sums along it do not depend on ids.
+// Turns a loop so that it begins at its first place, by x, y, z, and goes on to the neighbour that comes
+// first. So sums along it do not depend on ids.
 void order_by_place(std::span<LoopPoint> loop);
 
 // Calls visit(i, points, scratch) for each loop of `Loops` or `ChosenLoops`, from several threads. Points are

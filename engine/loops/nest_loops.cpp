@@ -123,16 +123,15 @@ bool may_be_around(const LoopMeasures& loop, const LoopMeasures& other) {
   return loop.area > other.area && std::abs(loop.normal.dot(other.normal)) >= kLeastCosine;
 }
 
-// A loop inside another one, or around it.
+// A loop inside another one.
 struct Nested {
   std::size_t loop;
-  double height;  // mean height of the inner one's samples over the nearest edge, up or down
+  double height;  // of its samples over the nearest edge, up or down: the mean
 };
 
 // Returns the loops of `others` that are inside the polygon.
 std::vector<Nested> loops_inside(const MeasuredLoops& loops, std::size_t polygon,
-                                      std::span<const std::size_t> others,
-                                      std::span<const LoopSample> samples) {
+                                 std::span<const std::size_t> others, std::span<const LoopSample> samples) {
   const LoopPlane plane = plane_of(loops.measures[polygon]);
   std::vector<Inside> inside;
   for (const std::size_t loop : others) {
@@ -141,9 +140,7 @@ std::vector<Nested> loops_inside(const MeasuredLoops& loops, std::size_t polygon
   }
   compare_edges(loops.loops, polygon, plane, inside);
   std::erase_if(inside, [](const Inside& sample) { return !sample.is_inside || !sample.is_near(); });
-  const auto order = [](const Inside& sample) { return std::tuple(sample.loop, sample.at.y(), sample.at.x()); };
-  std::sort(inside.begin(), inside.end(),
-            [&](const Inside& a, const Inside& b) { return order(a) < order(b); });
+  std::ranges::sort(inside, {}, [](const Inside& s) { return std::tuple(s.loop, s.at.y(), s.at.x()); });
   constexpr double kLeastFraction = 0.9;
   std::vector<Nested> most;
   for (auto first = inside.begin(); first != inside.end();) {
@@ -177,7 +174,8 @@ std::vector<std::int64_t> find_around(const MeasuredLoops& loops, const Spill& s
   std::vector<double> heights(measures.size(), std::numeric_limits<double>::infinity());
   const auto is_of_its_sheet = [&](std::size_t loop) {
     constexpr double kMostSpacings = 2;
-    return heights[loop] * static_cast<double>(measures[loop].points) <= kMostSpacings * measures[loop].perimeter;
+    const double spacing = measures[loop].perimeter / static_cast<double>(measures[loop].points);
+    return heights[loop] <= kMostSpacings * spacing;
   };
   std::vector<std::size_t> others;
   for (const std::size_t polygon : by_area) {

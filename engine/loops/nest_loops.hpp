@@ -30,8 +30,8 @@ namespace lacuna {
 // points of the other loop, of up to 32, are within its polygon, projected along its normal. There the slope
 // from the nearest edge is less than 45 degrees. The edge is searched along a line through the point. So what
 // hides a surface from above, such as a table, is no island in the hole below. The smallest
-// loop may be more than two spacings up or down. Then a larger one at half that height is the parent: it is of
-// the same sheet.
+// loop may be more than two spacings up or down. Then a larger one at half that height is the parent: it is
+// of the same sheet.
 //
 // Ties: by order. A loop that encloses no area has no parent and is none. Memory: 1 kB a loop, beyond a
 // fraction of the limit on disk. Cost: a pass over the loops, and over each loop with others near its inside.

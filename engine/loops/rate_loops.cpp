@@ -201,7 +201,8 @@ void mark_within(std::span<const LoopPoint> loop, const LoopPlane& plane, const 
 double prominence(const TileStore& points, std::span<const LoopPoint> loop, const LoopShape& shape,
                   double spacing, Scratch& scratch) {
   constexpr double kGap = 0.9;  // of the pixels around the hole are nearer to a point than its gap
-  // Within the hole, points count up to this part of the width: a surface that lies higher or lower is another.
+  // Within the hole, points count up to this part of the width: a surface that lies higher or lower is
+  // another.
   constexpr double kSheet = 0.2;
   if (!(shape.area > 0) || !std::isfinite(shape.area)) return 0;
   const FlatLoop flat(loop, shape, scratch);

@@ -37,11 +37,13 @@ std::vector<double> numbers_of(const LoopMeasures& m, const std::vector<Reported
 }
 
 // The numbers of each loop, by the places of its points.
-std::map<std::vector<std::array<double, 3>>, std::vector<double>> loops_in(const Cloud& cloud) {
+using Numbers = std::map<std::vector<std::array<double, 3>>, std::vector<double>>;
+
+Numbers loops_in(const Cloud& cloud) {
   Config config;
   config.selection.min_confidence = 0;
   const Detected detected = run_engine(cloud, tiled(config, 500));
-  std::map<std::vector<std::array<double, 3>>, std::vector<double>> loops;
+  Numbers loops;
   for (const auto& [measures, points] : detected.loops) {
     std::vector<std::array<double, 3>> places;
     for (const LoopPoint& p : points) places.push_back({p.x, p.y, p.z});

@@ -45,7 +45,8 @@ struct Grid {
   }
   std::string around(int x, int y, int width, int height) const {
     std::string line;
-    for (const auto& place : matching::places_around(x, y, width, height)) line += std::to_string(ids.at(place)) + " ";
+    for (const auto& place : matching::places_around(x, y, width, height))
+      line += std::to_string(ids.at(place)) + " ";
     return line;
   }
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/clouds.hpp"
 
+#include "engine/model/mixed.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,10 +18,7 @@ using Eigen::Vector3d;
 using std::numbers::pi;
 
 std::uint64_t Random::next() {
-  std::uint64_t z = state_ += 0x9e3779b97f4a7c15;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-  return z ^ (z >> 31);
+  return mixed(std::exchange(state_, state_ + 0x9e3779b97f4a7c15));
 }
 
 double Random::uniform() {

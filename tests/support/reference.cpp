@@ -1178,8 +1178,7 @@ Tracked track(const Loops& loops, const std::vector<double>& edges, const std::v
     for (std::size_t b = a + 1; b < count; ++b)
       if (loops[a].level != loops[b].level && is_same(a, b)) last[a] = std::max(last[a], last[b]);
     const double ratio = edges[last[a]] / loops[a].spacing;
-    odds[a] = loops[a].log_odds +
-              (is_hole[a] ? 0.7 : 1.1) * (ratio > 1 ? std::min(octaves(ratio), 2.) : 0);
+    odds[a] = loops[a].log_odds + (is_hole[a] ? 0.7 : 1.1) * (ratio > 1 ? std::min(octaves(ratio), 2.) : 0);
     ranks[a] = std::min(odds[a], 4.) -
                0.8 * (static_cast<double>(loops[a].level) + 0.5 * double(loops[a].scale == 1));
   }

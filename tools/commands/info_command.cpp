@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/commands/commands.hpp"
-
 #include "engine/config/config.hpp"
 #include "engine/inspect.hpp"
 #include "engine/run/disk_space.hpp"
@@ -12,6 +10,7 @@
 #include "io/read/rows/scan_reader.hpp"
 #include "io/read/scan/scan_files.hpp"
 #include "io/write/loops/json.hpp"
+#include "tools/commands/commands.hpp"
 #include "tools/commands/summary.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/measures_text.hpp"

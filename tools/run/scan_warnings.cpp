@@ -430,8 +430,7 @@ void warn_of_path(const StationSummary& station, std::vector<std::string>& warni
   if (station.coarse_step > 0 && std::isfinite(station.coarse_step))
     warnings.push_back(
         fmt::format("trajectory {}: times of points are in steps of {:.2g}, and its scanner moves on in one; "
-                    "causes of holes "
-                    "are less sure; times with more digits, as in 64 bits, help",
+                    "causes of holes are less sure; times with more digits, as in 64 bits, help",
                     visible(station.name), station.coarse_step));
   if (const double range = station.one_range; range > 0)
     warnings.push_back(

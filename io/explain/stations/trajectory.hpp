@@ -43,10 +43,10 @@ class Trajectory {
   LeftOut left_out_;
 };
 
-// Reads a file whose columns have names: a time (find_time in io/read/rows/column_rules.hpp), x, y and z, and any
-// others. Headers, comments and names are as in scans of text; tx, ty and tz are names of the position, too.
-// Rows are in any order. Rows off the path are left out, such as 0 0 0 where a receiver had no position. A
-// way there takes a hundred times the median speed, and ten times the speeds below. At most a fifth of the
+// Reads a file whose columns have names: a time (find_time in io/read/rows/column_rules.hpp), x, y and z, and
+// any others. Headers, comments and names are as in scans of text; tx, ty and tz are names of the position,
+// too. Rows are in any order. Rows off the path are left out, such as 0 0 0 where a receiver had no position.
+// A way there takes a hundred times the median speed, and ten times the speeds below. At most a fifth of the
 // rows is left out, or none. Returns nothing if the file names no time: then it lists stations. Throws
 // `Error`, also for binary files, and for more lines than `memory` has space for.
 std::optional<Trajectory> read_trajectory(const std::filesystem::path& file, std::uint64_t memory);

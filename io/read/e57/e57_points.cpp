@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/read/e57/e57.hpp"
-
 #include "engine/simd/maths.hpp"
+#include "io/read/e57/e57.hpp"
 #include "io/read/files/number.hpp"
 
 #include <cassert>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/read/e57/e57.hpp"
-
 #include "io/read/files/number.hpp"
 #include "io/read/rows/columns.hpp"
 #include "io/read/rows/scan_reader.hpp"

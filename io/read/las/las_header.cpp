@@ -211,7 +211,9 @@ std::optional<double> las_no_data(const LasExtraBytes& extra, std::size_t i) {
   if (extra.type == 0 || extra.type > kLastType || (extra.options & kHasNoData) == 0) return std::nullopt;
   const std::uint8_t type = base_type(extra);
   const bool is_signed = type % 2 == 0, is_floating = type >= kFloatType;
-  const double value = load_las_value(is_floating ? kDoubleType : is_signed ? kInt64Type : kUint64Type,
+  const double value = load_las_value(is_floating ? kDoubleType
+                                      : is_signed ? kInt64Type
+                                                  : kUint64Type,
                                       &extra.descriptor[kNoDataAt + sizeof(double) * i]);
   return type == kFloatType ? static_cast<double>(nearest_float(value)) : value;
 }

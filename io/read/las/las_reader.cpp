@@ -118,8 +118,7 @@ std::vector<LasField> las_fields(int format) {
   if (groups.waveform) {
     const std::size_t at = *groups.waveform;
     whole("wave_packet_descriptor", Scalar::kUint8, at);
-    fields.push_back(
-        {.name = "wave_packet_offset", .type = Scalar::kFloat64, .offset = at + 1, .stored = 7});
+    fields.push_back({.name = "wave_packet_offset", .type = Scalar::kFloat64, .offset = at + 1, .stored = 7});
     whole("wave_packet_bytes", Scalar::kUint32, at + 9);
     whole("wave_return_location", Scalar::kFloat32, at + 13);
     whole("wave_x", Scalar::kFloat32, at + 17);

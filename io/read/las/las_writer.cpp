@@ -22,7 +22,8 @@ bool goes_over(const LasRecordExtent& record) {
 // Returns the header as LAS 1.4 has it.
 std::string header_of(const LasHeader& from, std::size_t record_bytes) {
   std::string header(kLasHeaderBytes[4], '\0');
-  const std::size_t bytes = kLasHeaderBytes.at(std::min(static_cast<std::size_t>(from.minor), std::size_t{4}));
+  const std::size_t bytes =
+      kLasHeaderBytes.at(std::min(static_cast<std::size_t>(from.minor), std::size_t{4}));
   std::memcpy(header.data(), from.bytes.data(), bytes);
   // These fields were reserved before these versions.
   if (from.minor < 1) put_at<std::uint16_t>(header, 4, 0);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/read/laz/chunks.hpp"
-
 #include "io/read/files/number.hpp"
+#include "io/read/laz/chunks.hpp"
 #include "io/read/laz/items.hpp"
 #include "io/read/laz/point14.hpp"
 

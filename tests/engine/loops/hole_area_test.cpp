@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How much surface is missing: places of several holes count once.
-#include "engine/loops/nest_loops.hpp"
-
 #include "engine/config/job.hpp"
+#include "engine/loops/nest_loops.hpp"
 #include "tests/support/loop_points.hpp"
 
 namespace lacuna {

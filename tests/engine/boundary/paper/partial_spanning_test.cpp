@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/boundary/paper/spanning.hpp"
-
 #include "engine/boundary/paper/loops.hpp"
+#include "engine/boundary/paper/spanning.hpp"
 #include "engine/evaluate/evaluate.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/run_program.hpp"

@@ -39,8 +39,7 @@ struct EvaluatedCloud {
 std::vector<PlainStar> measured_stars(const EvaluatedCloud& evaluated) {
   std::vector<Site> sites;
   for (LocalIndex p = 0; p < evaluated.points.owned; ++p)
-    sites.push_back(
-        site_of(evaluated.points.positions[p], evaluated.evaluations[p]));
+    sites.push_back(site_of(evaluated.points.positions[p], evaluated.evaluations[p]));
   std::vector<PlainStar> stars(evaluated.points.owned);
   std::vector<Sampling> samplings(evaluated.points.owned);
   for (LocalIndex p = 0; p < evaluated.points.owned; ++p) {

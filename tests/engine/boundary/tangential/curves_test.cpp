@@ -59,7 +59,9 @@ std::vector<std::vector<CurveStep>> split(const std::vector<CurveStep>& curve,
   const ScratchFolder folder;
   Scratch scratch(folder.path(), budget);
   std::vector<std::vector<CurveStep>> curves;
-  const auto by_id = [](const CurveStep& step) { return std::array{static_cast<double>(value(step.id)), 0., 0.}; };
+  const auto by_id = [](const CurveStep& step) {
+    return std::array{static_cast<double>(value(step.id)), 0., 0.};
+  };
   split_at_pinches(curve, by_id, scratch, [&](std::span<const CurveStep> simple) {
     curves.emplace_back(simple.begin(), simple.end());
   });
