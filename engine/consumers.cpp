@@ -4,7 +4,7 @@
 #include "engine/boundary/candidates.hpp"
 #include "engine/boundary/paper/paper_boundary.hpp"
 #include "engine/boundary/tangential/tangential_boundary.hpp"
-#include "engine/results/orientation_graph.hpp"
+#include "engine/results/orientation.hpp"
 #include "engine/results/point_results.hpp"
 
 namespace lacuna {

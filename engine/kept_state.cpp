@@ -3,7 +3,6 @@
 
 #include "engine/level_steps.hpp"
 #include "engine/model/tiling.hpp"
-#include "engine/parts/kept_files.hpp"
 #include "engine/parts/kept_run.hpp"
 #include "engine/scan_steps.hpp"
 

@@ -3,21 +3,18 @@
 
 #include "engine/boundary/candidates.hpp"
 #include "engine/consumers.hpp"
-#include "engine/halo/eps_balls.hpp"
+#include "engine/halo/halo.hpp"
 #include "engine/level_steps.hpp"
 #include "engine/loops/measure_loops.hpp"
 #include "engine/loops/nest_loops.hpp"
-#include "engine/parts/kept_files.hpp"
 #include "engine/parts/kept_run.hpp"
 #include "engine/results/collect.hpp"
 #include "engine/results/loop_rows.hpp"
-#include "engine/results/orientation_graph.hpp"
-#include "engine/results/represented.hpp"
+#include "engine/results/orientation.hpp"
 #include "engine/results/scan_sample.hpp"
 #include "engine/scan_steps.hpp"
 #include "engine/summarise.hpp"
 #include "engine/thin/thin.hpp"
-#include "engine/track/level_loops.hpp"
 #include "engine/track/track_loops.hpp"
 
 #include <memory>

@@ -2,7 +2,7 @@
 // The results of the steps before the first level, and how they are parts.
 #pragma once
 
-#include "engine/bucket/scattered_points.hpp"
+#include "engine/bucket/set_aside.hpp"
 #include "engine/bucket/split.hpp"
 #include "engine/parts/parts.hpp"
 #include "engine/store/sealed_part.hpp"

@@ -2,12 +2,12 @@
 #include "engine/scan_steps.hpp"
 
 #include "engine/bucket/bucket_scan.hpp"
-#include "engine/halo/eps_balls.hpp"
+#include "engine/halo/halo.hpp"
 #include "engine/parts/level_form.hpp"
 #include "engine/run/error.hpp"
 #include "engine/scan_forms.hpp"
 #include "engine/store/kept_scan.hpp"
-#include "engine/survey/survey_scan.hpp"
+#include "engine/survey/survey.hpp"
 #include "engine/thin/thin.hpp"
 
 #include <optional>

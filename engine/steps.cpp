@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/steps.hpp"
 
-#include "engine/bucket/tile_size.hpp"
+#include "engine/bucket/split.hpp"
 #include "engine/level_steps.hpp"
-#include "engine/parts/kept_files.hpp"
 #include "engine/parts/kept_run.hpp"
 #include "engine/thin/thin.hpp"
 

@@ -7,7 +7,7 @@
 #include "engine/model/detection.hpp"
 #include "engine/run/parallel.hpp"
 #include "engine/thin/level.hpp"
-#include "engine/track/level_loops.hpp"
+#include "engine/track/track_loops.hpp"
 
 #include <cstdint>
 #include <span>

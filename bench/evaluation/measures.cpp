@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/evaluation/measures.hpp"
 
-#include "engine/loops/measure_loop.hpp"
+#include "engine/loops/measure_loops.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include "engine/evaluate/tile_outputs.hpp"
 #include "engine/evaluate/totals.hpp"
 #include "engine/loops/loops.hpp"
-#include "engine/store/row_set.hpp"
+#include "engine/store/rows.hpp"
 
 #include <cstdint>
 

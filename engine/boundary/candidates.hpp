@@ -11,7 +11,7 @@
 #include "engine/evaluate/evaluated_tile.hpp"
 #include "engine/run/parallel.hpp"
 #include "engine/run/phase.hpp"
-#include "engine/store/row_set.hpp"
+#include "engine/store/rows.hpp"
 
 #include <cstdint>
 #include <span>

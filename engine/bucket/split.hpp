@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+// How many points tiles and cells have, and the memory that they take.
+//
 // split: orders the counted cells as a kd-tree and cuts them into tiles.
 #pragma once
 
+#include "engine/config/config.hpp"
 #include "engine/model/cell_grid.hpp"
 #include "engine/model/tiling.hpp"
+#include "engine/run/parallel.hpp"
 #include "engine/survey/survey.hpp"
 
 #include <cstddef>
@@ -11,6 +15,14 @@
 #include <vector>
 
 namespace lacuna {
+
+// Returns the points per tile: as the config has it, or enough tiles for all threads. They are never fewer
+// or more than memory allows. Throws `Error` where so many points can never fit.
+std::uint64_t points_per_tile(std::uint64_t points, const Config& config, const Workers& workers);
+// Returns the points in a cell of the index, so that all cells fit in memory.
+std::uint64_t points_per_cell(std::uint64_t points, const Memory& memory);
+// Returns the bytes that a tile with so many points takes while it is evaluated.
+std::uint64_t tile_bytes(std::uint64_t points, const Config& config);
 
 // The numbers of a plan, as plain data.
 struct PlanTotals {

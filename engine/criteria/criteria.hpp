@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The criteria: how likely a point is to lie on a boundary, from its neighbourhood (paper, 4.2 to 4.5).
-// To add one: write its formula over a `Surface` in a header of its own, and its line in `table-inl.hpp`.
+// To add one: write its formula over a `Surface` and its line of the table in `formulas-inl.hpp`.
 #pragma once
 
 #include "engine/export.hpp"

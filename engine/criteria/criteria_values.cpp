@@ -6,8 +6,8 @@
 #include "engine/criteria/criteria_values.hpp"
 #include "engine/simd/targets.hpp"
 #include <hwy/foreach_target.h>
+#include "engine/criteria/formulas-inl.hpp"
 #include "engine/criteria/largest_gaps-inl.hpp"
-#include "engine/criteria/table-inl.hpp"
 // clang-format on
 
 #include "engine/criteria/criteria.hpp"

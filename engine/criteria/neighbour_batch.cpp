@@ -6,7 +6,7 @@
 #include "engine/criteria/neighbour_batch.hpp"
 #include "engine/simd/targets.hpp"
 #include <hwy/foreach_target.h>
-#include "engine/simd/load_pair-inl.hpp"
+#include "engine/simd/vector-inl.hpp"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();

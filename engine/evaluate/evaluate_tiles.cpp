@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/evaluate/evaluate_tiles.hpp"
 
-#include "engine/bucket/tile_size.hpp"
+#include "engine/bucket/split.hpp"
 #include "engine/criteria/criteria.hpp"
 #include "engine/evaluate/evaluate.hpp"
 #include "engine/evaluate/totals.hpp"
-#include "engine/halo/eps_balls.hpp"
+#include "engine/halo/halo.hpp"
 #include "engine/model/distance_bound.hpp"
 #include "engine/neighbours/neighbourhoods.hpp"
 #include "engine/simd/vectorised.hpp"

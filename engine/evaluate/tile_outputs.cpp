@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/evaluate/tile_outputs.hpp"
 
-#include "engine/parts/kept_files.hpp"
+#include "engine/parts/kept_run.hpp"
 #include "engine/run/error.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/loops/loops.hpp"
 
-#include "engine/store/column_writer.hpp"
+#include "engine/store/column.hpp"
 
 #include <algorithm>
 #include <tuple>

@@ -12,7 +12,7 @@
 #pragma once
 
 #include "engine/loops/loops.hpp"
-#include "engine/loops/measure_loop.hpp"
+#include "engine/loops/measure_loops.hpp"
 #include "engine/run/parallel.hpp"
 #include "engine/store/scratch.hpp"
 #include "engine/store/tile_store.hpp"

@@ -6,7 +6,7 @@
 #include "engine/neighbours/candidate_list.hpp"
 #include "engine/simd/targets.hpp"
 #include <hwy/foreach_target.h>
-#include "engine/simd/compress-inl.hpp"
+#include "engine/simd/mask-inl.hpp"
 #include "engine/simd/sort-inl.hpp"
 // clang-format on
 

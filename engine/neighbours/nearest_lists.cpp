@@ -6,7 +6,7 @@
 #include "engine/neighbours/nearest_lists.hpp"
 #include "engine/simd/targets.hpp"
 #include <hwy/foreach_target.h>
-#include "engine/simd/compress-inl.hpp"
+#include "engine/simd/mask-inl.hpp"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();

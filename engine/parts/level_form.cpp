@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/parts/level_form.hpp"
 
-#include "engine/bucket/tile_size.hpp"
-#include "engine/parts/kept_files.hpp"
+#include "engine/bucket/split.hpp"
+#include "engine/parts/kept_run.hpp"
 #include "engine/survey/survey.hpp"
 
 #include <algorithm>

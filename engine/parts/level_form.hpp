@@ -5,7 +5,7 @@
 
 #include "engine/config/job.hpp"
 #include "engine/parts/parts.hpp"
-#include "engine/store/store_writer.hpp"
+#include "engine/store/tile_store.hpp"
 #include "engine/thin/level.hpp"
 
 #include <optional>

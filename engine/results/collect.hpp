@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The results in the order of the input, ready to be written.
+//
+// Results of every point of a thinned scan: each point has the results of its representative.
 #pragma once
 
 #include "engine/boundary/candidates.hpp"
@@ -7,10 +9,12 @@
 #include "engine/model/detection.hpp"
 #include "engine/results/loop_rows.hpp"
 #include "engine/results/point_results.hpp"
+#include "engine/run/memory.hpp"
 #include "engine/run/parallel.hpp"
 #include "engine/run/phase.hpp"
-#include "engine/store/row_set.hpp"
+#include "engine/store/rows.hpp"
 #include "engine/store/tile_store.hpp"
+#include "engine/thin/choose_points.hpp"
 
 #include <memory>
 #include <optional>
@@ -35,5 +39,11 @@ struct Findings {
 std::unique_ptr<Detection> collect_results(Findings findings, const TileOutputs& outputs,
                                            const TileStore& store, const Spill& spill, const Workers& workers,
                                            Phases& phases);
+
+// The detection on the representatives, with result blocks of all points of the input. Everything else is of
+// representatives alone. Cost: one sort of all points on disk when the blocks are read. With results.points
+// only.
+std::unique_ptr<Detection> spread_results(std::unique_ptr<Detection> detection,
+                                          AppendLists<Represented> represented, const Spill& spill);
 
 }  // namespace lacuna

@@ -3,7 +3,7 @@
 
 #include "engine/model/distance_bound.hpp"
 #include "engine/run/error.hpp"
-#include "engine/store/outbox.hpp"
+#include "engine/store/append_lists.hpp"
 
 #include <algorithm>
 #include <atomic>

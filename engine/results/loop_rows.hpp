@@ -5,7 +5,7 @@
 #include "engine/loops/loops.hpp"
 #include "engine/run/parallel.hpp"
 #include "engine/store/append_lists.hpp"
-#include "engine/store/row_set.hpp"
+#include "engine/store/rows.hpp"
 #include "engine/store/tile_store.hpp"
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 #include "engine/results/scan_sample.hpp"
 
 #include "engine/model/mixed.hpp"
-#include "engine/store/column_writer.hpp"
+#include "engine/store/column.hpp"
 #include "engine/store/sorted_runs.hpp"
 
 #include <bit>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/memory.hpp"
 
-#include "engine/run/machine_memory.hpp"
+#include "engine/run/machine.hpp"
 
 #include <algorithm>
 #include <stdexcept>

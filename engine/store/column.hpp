@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One record of plain data per row, on disk.
+//
+// Appends records to a column one at a time.
 #pragma once
 
 #include "engine/store/digest.hpp"
@@ -7,6 +9,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -77,6 +80,28 @@ class ColumnReader {
   const Column<Record>& column_;
   std::uint64_t first_ = 0;
   std::vector<Record> run_;
+};
+
+// Writes some thousand records together. The last ones are written by `finish`, which has to be called.
+template <class Record>
+class ColumnWriter {
+ public:
+  explicit ColumnWriter(Column<Record>& column) : column_(column) {}
+
+  void add(const Record& record) {
+    block_.push_back(record);
+    if (block_.size() == kTogether) finish();
+  }
+  void finish() {
+    column_.append(block_);
+    block_.clear();
+  }
+
+ private:
+  static constexpr std::size_t kTogether = 4096;
+
+  Column<Record>& column_;
+  std::vector<Record> block_;
 };
 
 }  // namespace lacuna

@@ -9,8 +9,32 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
+
+#include <unistd.h>
 
 namespace lacuna {
+
+// The number of an open file or folder, which is closed at the end. It is negative where opening failed.
+class Descriptor {
+ public:
+  Descriptor() = default;
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+
+  bool is_open() const { return number_ >= 0; }
+  int number() const { return number_; }
+
+ private:
+  int number_ = -1;
+};
 
 inline constexpr const char* kUnsealed = ".partial";  // how names of files end before they are sealed
 std::string random_digits();  // 16 hexadecimal digits, drawn at random: no other process has the same

@@ -2,7 +2,6 @@
 #include "engine/store/temporary_folder.hpp"
 
 #include "engine/run/error.hpp"
-#include "engine/store/descriptor.hpp"
 #include "engine/store/store_file.hpp"
 
 #include <algorithm>

@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // survey: counts points per cell while they stream by.
+//
+// survey, over the whole scan: finds where the points are.
 #pragma once
 
+#include "engine/config/job.hpp"
 #include "engine/model/cell_grid.hpp"
 #include "engine/model/plain_box.hpp"
 #include "engine/model/points.hpp"
+#include "engine/model/task_share.hpp"
 #include "engine/store/point_column.hpp"
 #include "engine/store/sorted_runs.hpp"
 #include "engine/survey/cell_table.hpp"
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -100,5 +106,16 @@ class Survey {
   CellTable table_;
   SortedRuns<CountedCell, AlongZCurve> stored_;
 };
+
+// Streams the scan once and counts its points per cell. Throws `Error`.
+SurveyedScan survey_scan(PointSource& scan, Job& job);
+
+// Several tasks may survey parts of the scan. Returns the counts of some parts, which `merge_surveys` merges
+// in the order of the parts. Ids count from the first of these points.
+SurveyedScan survey_parts(PointSource& scan, const IndexRange& parts, Job& job);
+// Returns the survey of the whole scan. `expected_points`: as of the source.
+SurveyedScan merge_surveys(std::size_t tasks, const std::function<SurveyedScan(std::size_t)>& survey_of_task,
+                           std::optional<std::uint64_t> expected_points, const Spill& spill,
+                           const Memory& memory);
 
 }  // namespace lacuna

@@ -2,7 +2,7 @@
 #include "engine/track/track_loops.hpp"
 
 #include "engine/loops/confidence.hpp"
-#include "engine/store/column_writer.hpp"
+#include "engine/store/column.hpp"
 #include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "engine/steps.hpp"
 
 #include "engine/kept_state.hpp"
-#include "engine/parts/kept_files.hpp"
+#include "engine/parts/kept_run.hpp"
 #include "engine/parts/parts.hpp"
 #include "engine/pipeline.hpp"
 #include "tests/support/clouds.hpp"

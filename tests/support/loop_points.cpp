@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/loop_points.hpp"
 
-#include "engine/loops/measure_loop.hpp"
+#include "engine/loops/measure_loops.hpp"
 
 namespace lacuna::test {
 

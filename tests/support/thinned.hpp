@@ -2,7 +2,7 @@
 // The points that represent the cells of a lattice, found plainly.
 #pragma once
 
-#include "engine/thin/lattice.hpp"
+#include "engine/thin/choose_points.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/test.hpp"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/tiled_scan.hpp"
 
-#include "engine/halo/eps_balls.hpp"
 #include "engine/halo/halo.hpp"
 #include "engine/parts/level_form.hpp"
 #include "tests/support/memory_scan.hpp"

@@ -6,7 +6,7 @@
 #include "engine/boundary/paper/paper_boundary.hpp"
 #include "engine/bucket/bucket_scan.hpp"
 #include "engine/evaluate/evaluate_tiles.hpp"
-#include "engine/survey/survey_scan.hpp"
+#include "engine/survey/survey.hpp"
 #include "engine/thin/level.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/test.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/run/disk_space.hpp"
-#include "engine/run/utf8.hpp"
+#include "engine/run/machine.hpp"
+#include "engine/run/words.hpp"
 #include "tests/support/test.hpp"
 #include "tools/commands/summary.hpp"
 #include "tools/console/measures_text.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/config/config.hpp"
 #include "engine/inspect.hpp"
-#include "engine/run/disk_space.hpp"
+#include "engine/run/machine.hpp"
 #include "engine/run/parallel.hpp"
 #include "io/explain/stations/station_views.hpp"
 #include "io/read/files/number.hpp"

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/level_steps.hpp"
-#include "engine/parts/kept_files.hpp"
 #include "engine/parts/kept_run.hpp"
 #include "engine/parts/parts.hpp"
-#include "engine/run/disk_space.hpp"
 #include "engine/run/error.hpp"
+#include "engine/run/machine.hpp"
 #include "engine/steps.hpp"
 #include "io/read/scan/scan_files.hpp"
 #include "io/read/scan/scan_pass.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/console/terminal.hpp"
 
-#include "engine/run/utf8.hpp"
+#include "engine/run/words.hpp"
 
 #include <algorithm>
 #include <cerrno>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/run/error.hpp"
-#include "engine/store/descriptor.hpp"
+#include "engine/store/store_file.hpp"
 #include "engine/store/temporary_folder.hpp"
 #include "io/read/files/result_folder.hpp"
 #include "tools/console/command_line.hpp"

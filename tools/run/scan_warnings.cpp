@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/run/scan_warnings.hpp"
 
-#include "engine/run/disk_space.hpp"
 #include "engine/run/error.hpp"
-#include "engine/run/machine_memory.hpp"
+#include "engine/run/machine.hpp"
 #include "engine/summarise.hpp"
 #include "io/explain/stations/scan_axes.hpp"
 #include "io/explain/stations/station_views.hpp"

@@ -3,7 +3,6 @@
 
 #include "engine/run/error.hpp"
 #include "engine/store/append_lists.hpp"
-#include "engine/store/outbox.hpp"
 #include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>

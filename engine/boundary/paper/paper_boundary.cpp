@@ -3,8 +3,7 @@
 
 #include "engine/boundary/paper/spanning.hpp"
 #include "engine/evaluate/evaluate.hpp"
-#include "engine/store/row_numbers.hpp"
-#include "engine/store/row_runs.hpp"
+#include "engine/store/rows.hpp"
 #include "engine/store/scratch.hpp"
 
 #include <algorithm>

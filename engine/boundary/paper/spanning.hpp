@@ -13,7 +13,7 @@
 
 #include "engine/model/boundary_graph.hpp"
 #include "engine/model/ids.hpp"
-#include "engine/stitch/union_find.hpp"
+#include "engine/stitch/components.hpp"
 #include "engine/store/scratch.hpp"
 
 #include <array>

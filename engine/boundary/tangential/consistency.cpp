@@ -6,7 +6,7 @@
 #include "engine/boundary/tangential/active_points.hpp"
 #include "engine/simd/targets.hpp"
 #include <hwy/foreach_target.h>
-#include "engine/simd/mask_bits-inl.hpp"
+#include "engine/simd/mask-inl.hpp"
 // clang-format on
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 
 #include "engine/evaluate/totals.hpp"
 #include "engine/run/error.hpp"
-#include "engine/stitch/union_find.hpp"
-#include "engine/store/row_numbers.hpp"
+#include "engine/stitch/components.hpp"
+#include "engine/store/rows.hpp"
 #include "engine/store/sorted_runs.hpp"
 
 #include <algorithm>

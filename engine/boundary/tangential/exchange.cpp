@@ -3,8 +3,8 @@
 
 #include "engine/config/config.hpp"
 #include "engine/model/neighbourhoods.hpp"
-#include "engine/store/outbox.hpp"
-#include "engine/store/row_runs.hpp"
+#include "engine/store/append_lists.hpp"
+#include "engine/store/rows.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -21,8 +21,7 @@
 #include "engine/run/parallel.hpp"
 #include "engine/store/append_lists.hpp"
 #include "engine/store/column.hpp"
-#include "engine/store/row_numbers.hpp"
-#include "engine/store/row_set.hpp"
+#include "engine/store/rows.hpp"
 
 #include <array>
 #include <cstdint>

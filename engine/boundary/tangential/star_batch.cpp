@@ -7,7 +7,7 @@
 #include "engine/simd/targets.hpp"
 #include <hwy/foreach_target.h>
 #include "engine/boundary/tangential/star-inl.hpp"
-#include "engine/simd/load_pair-inl.hpp"
+#include "engine/simd/vector-inl.hpp"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();

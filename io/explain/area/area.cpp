@@ -2,8 +2,8 @@
 #include "io/explain/area/area.hpp"
 
 #include "engine/run/error.hpp"
+#include "engine/run/machine.hpp"
 #include "engine/run/memory.hpp"
-#include "engine/run/regular_file.hpp"
 #include "io/explain/area/area_polygons.hpp"
 #include "io/explain/area/plan_shapes.hpp"
 #include "io/read/crs/crs.hpp"

@@ -2,7 +2,7 @@
 #include "io/explain/matching/compare_loops.hpp"
 
 #include "engine/loops/loop_plane.hpp"
-#include "engine/stitch/union_find.hpp"
+#include "engine/stitch/components.hpp"
 #include "io/explain/matching/match_loops.hpp"
 #include "io/explain/matching/nearest.hpp"
 

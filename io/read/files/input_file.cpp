@@ -2,8 +2,8 @@
 #include "io/read/files/input_file.hpp"
 
 #include "engine/run/error.hpp"
-#include "engine/run/regular_file.hpp"
-#include "engine/run/utf8.hpp"
+#include "engine/run/machine.hpp"
+#include "engine/run/words.hpp"
 
 #include <algorithm>
 #include <cerrno>

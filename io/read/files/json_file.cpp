@@ -2,7 +2,7 @@
 #include "io/read/files/json_file.hpp"
 
 #include "engine/run/error.hpp"
-#include "engine/run/regular_file.hpp"
+#include "engine/run/machine.hpp"
 
 #include <array>
 #include <cerrno>

@@ -2,7 +2,7 @@
 #include "io/read/text/csv_writer.hpp"
 
 #include "engine/run/parallel.hpp"
-#include "engine/run/utf8.hpp"
+#include "engine/run/words.hpp"
 #include "io/read/files/number.hpp"
 #include "io/read/rows/columns.hpp"
 #include "io/read/rows/scan_reader.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From places to cells.
-#include "engine/bucket/cell_index.hpp"
+#include "engine/bucket/bucket_scan.hpp"
 
 #include "tests/support/clouds.hpp"
 #include "tests/support/test.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/bucket/tile_size.hpp"
+#include "engine/bucket/split.hpp"
 
 #include "engine/config/job.hpp"
 #include "engine/run/error.hpp"

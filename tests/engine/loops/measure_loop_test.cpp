@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/loops/measure_loop.hpp"
+#include "engine/loops/measure_loops.hpp"
 
 #include "tests/support/clouds.hpp"
 #include "tests/support/loop_points.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/loops/measure_loops.hpp"
 
-#include "engine/loops/measure_loop.hpp"
 #include "tests/support/loop_points.hpp"
 #include "tests/support/reference.hpp"
 #include "tests/support/tiled_scan.hpp"

@@ -3,7 +3,6 @@
 #include "engine/parts/kept_run.hpp"
 
 #include "engine/kept_state.hpp"
-#include "engine/parts/kept_files.hpp"
 #include "engine/parts/parts.hpp"
 #include "engine/pipeline.hpp"
 #include "tests/support/clouds.hpp"

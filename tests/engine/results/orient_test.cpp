@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/results/orient.hpp"
+#include "engine/results/orientation.hpp"
 
 #include "tests/support/clouds.hpp"
 #include "tests/support/test.hpp"

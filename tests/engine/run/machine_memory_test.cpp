@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/run/machine_memory.hpp"
+#include "engine/run/machine.hpp"
 
 #include "tests/support/test.hpp"
 

@@ -2,7 +2,6 @@
 // Lists that are appended to, beyond the memory that they have.
 #include "engine/store/append_lists.hpp"
 
-#include "engine/store/outbox.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/record.hpp"
 #include "tests/support/system.hpp"

@@ -3,7 +3,7 @@
 #include "engine/store/column.hpp"
 
 #include "engine/run/parallel.hpp"
-#include "engine/store/row_numbers.hpp"
+#include "engine/store/rows.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/system.hpp"
 #include "tests/support/test.hpp"

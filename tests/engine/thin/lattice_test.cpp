@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/thin/lattice.hpp"
+#include "engine/thin/choose_points.hpp"
 
 #include "tests/support/test.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/thin/store_chosen.hpp"
+#include "engine/thin/thin.hpp"
 
 #include "tests/support/clouds.hpp"
 #include "tests/support/tiled_scan.hpp"

@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/run/machine_memory.hpp"
+#include "engine/run/machine.hpp"
+
+#include "engine/run/error.hpp"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <sstream>
 #include <string>
+#include <system_error>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace lacuna {
@@ -73,6 +80,45 @@ std::uint64_t group_memory(const fs::path& groups, const fs::path& root) {
     }
   }
   return least;
+}
+
+void require_space(const std::filesystem::path& folder, std::uint64_t bytes) {
+  std::error_code error;
+  const std::filesystem::space_info space = std::filesystem::space(folder, error);
+  if (error || space.available >= bytes) return;
+  throw Error(folder.string() + ": " + print_size(space.available) +
+              " are free on this disk, and the run needs at least " + print_size(bytes) +
+              "; --scratch names a folder on another one");
+}
+
+std::string print_size(std::uint64_t bytes) {
+  constexpr const char* kNames[] = {"KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
+  if (bytes < 1024) return std::to_string(bytes) + " bytes";
+  double size = static_cast<double>(bytes) / 1024;
+  std::size_t unit = 0;
+  while (size >= 1024) {
+    size /= 1024;
+    ++unit;
+  }
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, size < 10 ? "%.1f %s" : "%.0f %s", size, kNames[unit]);
+  return buffer;
+}
+
+void check_regular_file(const std::filesystem::path& file, std::string_view needed) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) {
+    const std::string name = file.string();
+    // A path made shorter has one slash of an address.
+    for (const char* begin : {"http:/", "https:/", "ftp:/", "s3:/", "gs:/", "az:/"}) {
+      if (name.find(begin) == 0)
+        throw Error(name + ": is an address, which is not read; download it first, as with curl -O");
+    }
+    throw Error(name + ": cannot be opened: " + std::strerror(errno));
+  }
+  if (S_ISREG(status.st_mode)) return;
+  const std::string what = S_ISDIR(status.st_mode) ? "is a folder" : "is not a regular file";
+  throw Error(file.string() + ": " + what + "; " + std::string(needed) + " is needed");
 }
 
 }  // namespace lacuna

@@ -1,20 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// Returns the numbers of chosen lanes, one after the other.
-//
-// Highway 1.0.3 does one thing badly with GCC. Without AVX-512, each call of its Compress copies the table of
-// shuffles (1 KiB) to the stack, which makes the search eight times slower. Here the table is static.
-#if defined(LACUNA_SIMD_COMPRESS_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef LACUNA_SIMD_COMPRESS_INL
-#undef LACUNA_SIMD_COMPRESS_INL
+// Masks: as bits of a number, bit i for lane i, and the numbers of chosen lanes, one after the other.
+#if defined(LACUNA_SIMD_MASK_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef LACUNA_SIMD_MASK_INL
+#undef LACUNA_SIMD_MASK_INL
 #else
-#define LACUNA_SIMD_COMPRESS_INL
+#define LACUNA_SIMD_MASK_INL
 #endif
 
-#include "engine/simd/mask_bits-inl.hpp"
+#include "engine/simd/vector-inl.hpp"
+
+#include <cstdint>
+#include <type_traits>
 
 HWY_BEFORE_NAMESPACE();
 namespace lacuna::HWY_NAMESPACE {
 
+// As many bits as Highway stores for a mask: at most 16 lanes.
+template <class D>
+using StoredBits = std::conditional_t<(kLanes<D> > 8), std::uint16_t, std::uint8_t>;
+
+template <class D>
+HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask) {
+  StoredBits<D> bits;
+  hn::StoreMaskBits(d, mask, reinterpret_cast<std::uint8_t*>(&bits));
+  return bits;
+}
+
+// Highway reads eight bytes, whatever the lanes.
+template <class D>
+HWY_INLINE hn::Mask<D> mask_of(D d, std::uint32_t bits) {
+  const std::uint64_t read = bits;
+  return hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&read));
+}
+
+// Highway 1.0.3 does one thing badly with GCC. Without AVX-512, each call of its Compress copies the table of
+// shuffles (1 KiB) to the stack, which makes the search eight times slower. Here the table is static.
 #if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_AVX3
 template <class V>
 HWY_INLINE V compress(V numbers, MaskOf<V> chosen) {

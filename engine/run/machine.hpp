@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds how much memory the process may have, and has.
+//
+// Checks that a disk has enough space.
+//
+// Checks that a file may be opened and read.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 namespace lacuna {
 
@@ -24,5 +30,15 @@ ResidentMemory resident_memory();
 
 // Returns the most bytes of this process that were in memory so far; 0 where the system does not say.
 std::uint64_t peak_memory();
+
+// Throws `Error` where this user may write less than `bytes` to the disk of a folder. Does nothing where the
+// system does not give the space.
+void require_space(const std::filesystem::path& folder, std::uint64_t bytes);
+
+std::string print_size(std::uint64_t bytes);  // "1.5 GiB", for people; exact: print_bytes
+
+// Throws `Error` unless `file` is a regular file. Must come before the file is opened: to open a named pipe
+// waits for a writer, and a device may have no end. `needed` is for the error: "a scan file".
+void check_regular_file(const std::filesystem::path& file, std::string_view needed);
 
 }  // namespace lacuna
