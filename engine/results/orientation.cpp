@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/results/orientation.hpp"
 
-#include "engine/stitch/union_find.hpp"
+#include "engine/stitch/components.hpp"
 #include "engine/store/scratch.hpp"
 #include "engine/store/sorted_runs.hpp"
 
