@@ -9,8 +9,7 @@ namespace lacuna {
 
 Inspection inspect(PointSource& scan, const Config& given, const std::filesystem::path& temporary,
                    Progress& progress) {
-  check_config(given);
-  const Config config = with_min_hole(given);
+  const Config config = effective(given);
   Job job(config, temporary, progress);
   const Parts nothing_kept;
   const Level level = first_level({scan, nothing_kept, job});

@@ -19,20 +19,16 @@ namespace lacuna {
 inline constexpr std::string_view kEvaluate = "evaluate", kLoops = "loops";
 
 // A task's share of the level above, thinned from the level below. Returns nothing where the level below has
-// too few points. `totals_below` is called where the share is made.
-using TotalsOf = std::function<Totals()>;
-std::optional<Level> share_of_level_above(const Level& below, const TotalsOf& totals_below,
-                                          const StepContext& given, std::size_t task);
+// too few points. Where the share is made, a level below without distances is evaluated.
+std::optional<Level> share_of_level_above(const Level& below, const StepContext& context, std::size_t task);
 // The level above, all of it. Returns nothing where too few points are left for a hole.
-std::optional<Level> level_above(const Level& below, const TotalsOf& totals_below, const StepContext& given);
+std::optional<Level> level_above(const Level& below, const StepContext& context);
 // A level by its number, 0 for the first one. Makes what is not kept of the levels below.
-std::optional<Level> level_of_number(std::size_t number, const StepContext& given);
+std::optional<Level> level_of_number(std::size_t number, const StepContext& context);
 
 // The outputs of a task's tiles of a level: halo, evaluate.
 TileOutputs evaluate_level(const Level& level, std::span<const TileConsumer> consumers,
-                           const StepContext& given, const TaskShare& share = {});
-Totals totals_of(const Level& level,
-                 const StepContext& given);  // of all tiles, which are evaluated where they are not
+                           const StepContext& context, const TaskShare& share = {});
 
 // What is found in the boundary graph of a level.
 struct FoundLevel {
@@ -41,6 +37,6 @@ struct FoundLevel {
 };
 // Boundary edges, stitch, loops. `outputs` is called where the loops are not kept.
 FoundLevel loops_of_level(const Level& level, BoundaryMethod& method,
-                          const std::function<const TileOutputs&()>& outputs, const StepContext& given);
+                          const std::function<const TileOutputs&()>& outputs, const StepContext& context);
 
 }  // namespace lacuna

@@ -14,36 +14,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool make_survey(const StepContext& given, std::size_t, const TaskShare& share) {
-  survey_of_task(given, share.task);
+bool make_survey(const StepContext& context, std::size_t, const TaskShare& share) {
+  survey_of_task(context, share.task);
   return true;
 }
 
-bool make_tiles(const StepContext& given, std::size_t, const TaskShare&) {
-  tiles_of_scan(given);
+bool make_tiles(const StepContext& context, std::size_t, const TaskShare&) {
+  tiles_of_scan(context);
   return true;
 }
 
-bool make_bucket(const StepContext& given, std::size_t, const TaskShare& share) {
-  points_of_task(given, tiles_of_scan(given), share.task);
+bool make_bucket(const StepContext& context, std::size_t, const TaskShare& share) {
+  points_of_task(context, tiles_of_scan(context), share.task);
   return true;
 }
 
-bool make_level(const StepContext& given, std::size_t number, const TaskShare& share) {
+bool make_level(const StepContext& context, std::size_t number, const TaskShare& share) {
   if (number == 0) {
-    share_of_first_level(given, share.task);
+    share_of_first_level(context, share.task);
     return true;
   }
-  const std::optional<Level> below = level_of_number(number - 1, given);
-  return below && share_of_level_above(
-                      *below, [&] { return totals_of(*below, given); }, given, share.task);
+  const std::optional<Level> below = level_of_number(number - 1, context);
+  return below && share_of_level_above(*below, context, share.task);
 }
 
-bool make_evaluation(const StepContext& given, std::size_t number, const TaskShare& share) {
-  const std::optional<Level> level = level_of_number(number, given);
+bool make_evaluation(const StepContext& context, std::size_t number, const TaskShare& share) {
+  const std::optional<Level> level = level_of_number(number, context);
   if (!level) return false;
-  const Consumers consumers(*level, given.job);
-  evaluate_level(*level, consumers.all, given, share);
+  const Consumers consumers(*level, context.job);
+  evaluate_level(*level, consumers.all, context, share);
   return true;
 }
 
@@ -88,8 +87,7 @@ std::string Step::name() const {
 }
 
 std::vector<Step> plan(PointSource& scan, const Config& given, std::size_t tasks, std::uint64_t points) {
-  check_config(given);
-  const Config config = with_min_hole(given);
+  const Config config = effective(given);
   NoProgress silence;
   const Workers workers = workers_of(config.run);
   const Parts parts = open_parts(scan, config, silence, Opener::kPlan);
@@ -133,8 +131,7 @@ std::optional<Step> step_of_name(std::string_view name, const fs::path& folder) 
 
 bool do_task(PointSource& scan, const Config& given, const Step& step, std::size_t task,
              const fs::path& temporary, Progress& progress) {
-  check_config(given);
-  const Config config = with_planned_tiles(with_min_hole(given));
+  const Config config = with_planned_tiles(effective(given));
   return without_damaged_files([&] { return do_task_once(scan, config, step, task, temporary, progress); });
 }
 

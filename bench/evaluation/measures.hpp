@@ -51,7 +51,7 @@ LoopSize size_of(const TrueLoop& loop, std::span<const Eigen::Vector3d> position
 LoopSize size_of(const LoopIds& loop, std::span<const Eigen::Vector3d> positions);
 
 // Returns whether a true loop goes around a hole or around a piece of surface.
-// Uses the rule for found loops (engine/loops/measure_loop.hpp): the surface is where the means of the 15
+// Uses the rule for found loops (engine/loops/measure_loops.hpp): the surface is where the means of the 15
 // nearest points are. `points` are the points of the tree, and ids are places in `positions`. Returns nothing
 // for fewer than three ids.
 std::optional<LoopKind> kind_of(const LoopIds& loop, std::span<const Eigen::Vector3d> positions,

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the cell that holds a place.
-//
-// bucket: sorts the points into tiles on disk.
+// bucket: sorts the points into tiles on disk, each by the cell that holds it.
 #pragma once
 
 #include "engine/bucket/set_aside.hpp"

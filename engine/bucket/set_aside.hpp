@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points on their way to a place: a tile, or a group of points that are set aside.
-//
-// Points of cells that hold more points than a tile may, and points far from all others. They are far denser,
-// or far farther away, than the survey's cells allow.
+// Points on their way to a place: a tile, or a group of points that are set aside. Set aside are points of
+// cells that hold more points than a tile may, and points far from all others. They are far denser, or far
+// farther away, than the survey's cells allow.
 #pragma once
 
 #include "engine/bucket/split.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many points tiles and cells have, and the memory that they take.
-//
-// split: orders the counted cells as a kd-tree and cuts them into tiles.
+// split: orders the counted cells as a kd-tree and cuts them into tiles. How many points tiles and cells have
+// follows from the memory that they take.
 #pragma once
 
 #include "engine/config/config.hpp"

@@ -50,4 +50,9 @@ void check_config(const Config& config) {
   check_limits("area", selection.min_area, selection.max_area);
 }
 
+Config effective(const Config& config) {
+  check_config(config);
+  return with_min_hole(config);
+}
+
 }  // namespace lacuna

@@ -159,5 +159,7 @@ AnyConfig with_min_hole(AnyConfig config) {
 // Throws `Error` where a value is out of its range, or values contradict each other: eps and eps_fraction,
 // all weights 0.
 LACUNA_API void check_config(const Config& config);
+// Returns the checked config in effect.
+Config effective(const Config& config);
 
 }  // namespace lacuna

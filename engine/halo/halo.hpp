@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Neighbourhoods of a given radius: the radius as a length, the number of points, and whether they fit in
-// memory.
-//
-// halo: finds the points of other tiles that a tile needs, and the edges to them.
+// halo: finds the points of other tiles that a tile needs, and the edges to them. With a given radius,
+// neighbourhoods are refused where they do not fit in memory.
 #pragma once
 
 #include "engine/config/config.hpp"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// measure_loop: measures the values by which a user sorts and filters loops.
-//
 // measure_loops: measures the values by which a user sorts and filters the found loops.
 #pragma once
 

@@ -83,7 +83,6 @@ void refuse_others(const fs::path& folder) {
 
 }  // namespace
 
-namespace fs = std::filesystem;
 
 bool is_kept_name(const fs::path& file) {
   static const std::regex names(

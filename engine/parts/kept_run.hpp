@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of a kept folder, by their names. STEP-TASK.lacuna is a part. A column of a level has digits in
-// place of the task, and its kind before the ending.
-//
-// The run that a kept folder is of: its input, parameters and plan of tasks.
+// The run that a kept folder is of: its input, parameters and plan of tasks, and its files by their names.
+// STEP-TASK.lacuna is a part. A column of a level has digits in place of the task, and its kind before the
+// ending.
 #pragma once
 
 #include "engine/config/config.hpp"

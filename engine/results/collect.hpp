@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The results in the order of the input, ready to be written.
-//
-// Results of every point of a thinned scan: each point has the results of its representative.
+// The results in the order of the input, ready to be written. In a thinned scan, each point has the results of
+// its representative.
 #pragma once
 
 #include "engine/boundary/candidates.hpp"

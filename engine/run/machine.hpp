@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds how much memory the process may have, and has.
-//
-// Checks that a disk has enough space.
-//
-// Checks that a file may be opened and read.
+// What the machine gives to a process: memory, space on its disks, and files that may be opened and read.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists of words in messages: what is allowed, and what may have been meant.
-//
-// UTF-8, as RFC 3629 has it.
+// Words in messages: lists of what is allowed, what may have been meant, and UTF-8 as RFC 3629 has it.
 #pragma once
 
 #include <cstddef>

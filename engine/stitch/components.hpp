@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Disjoint sets over [0, n). Union is by index, so a set's root is its smallest element.
-//
 // Components of the boundary graph across tiles. They come from a union-find within each tile, then one
 // global union-find over the ends of the edges that cross.
 #pragma once
@@ -18,7 +16,8 @@
 
 namespace lacuna {
 
-// The sets are in memory of the caller's, one zero per element. Cost: near constant per call (path halving).
+// Disjoint sets over [0, n). Union is by index, so a set's root is its smallest element. The sets are in
+// memory of the caller's, one zero per element. Cost: near constant per call (path halving).
 class UnionFind {
  public:
   explicit UnionFind(std::span<LocalIndex> links) : links_(links) {}

@@ -8,8 +8,6 @@
 //
 // The order of records within a list depends on threads and memory: a reader sorts them by what they hold.
 // Only where one thread at a time appends to a list, `read` returns them in the order of the calls.
-//
-// Records on their way to other tiles.
 #pragma once
 
 #include "engine/model/tiling.hpp"

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One record of plain data per row, on disk.
-//
-// Appends records to a column one at a time.
+// One record of plain data per row, on disk; written at any row, or appended one at a time.
 #pragma once
 
 #include "engine/store/digest.hpp"

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A set of rows: a bitmap over all rows.
-//
-// Numbers some of the rows: 0, 1, 2, ... in ascending order of rows.
-//
-// Records of some rows of a column, read and written in runs of rows that are near each other.
+// Some of the rows: as a set, numbered 0, 1, 2, ... in ascending order, and their records of a column. These
+// are read and written in runs of rows that are near each other.
 #pragma once
 
 #include "engine/model/ids.hpp"
@@ -19,7 +16,7 @@
 
 namespace lacuna {
 
-// One bit per row. May be read and changed from several threads.
+// A set of rows, one bit per row. May be read and changed from several threads.
 class RowSet {
  public:
   explicit RowSet(std::uint64_t rows) : words_((rows + 63) / 64) {}
@@ -36,9 +33,9 @@ class RowSet {
   mutable std::vector<std::uint64_t> words_;
 };
 
-// A bitmap over the range of the rows with a running count. A look-up is one cache line, and memory is an
-// eighth of a byte per row of the range. Where the rows are few and far between, a sorted list takes its
-// place.
+// Numbers some of the rows: 0, 1, 2, ... in ascending order. A bitmap over the range of the rows with a
+// running count. A look-up is one cache line, and memory is an eighth of a byte per row of the range. Where
+// the rows are few and far between, a sorted list takes its place.
 class RowNumbers {
  public:
   // for_each(add) calls add(row) for each row, in any order and with repeats allowed. It is run twice.

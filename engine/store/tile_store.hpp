@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tile store: every distinct point of the scan on disk, in cell order. So one read loads a tile, and a
-// few reads load the cells around it.
-//
-// Fills a tile store: bucket, and the thinning of levels, make all stores in this way.
+// few reads load the cells around it. Bucket, and the thinning of levels, fill it by a `StoreWriter`.
 #pragma once
 
 #include "engine/model/tiling.hpp"
@@ -120,7 +118,8 @@ struct StoreFiles {
   Spill spill;  // for the duplicates
 };
 
-// Tiles are reserved in order, and put in any order.
+// Fills a tile store: bucket, and the thinning of levels, make all stores in this way. Tiles are reserved in
+// order, and put in any order.
 class StoreWriter {
  public:
   // `most_tiles`: no more are reserved.

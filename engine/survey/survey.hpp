@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// survey: counts points per cell while they stream by.
-//
-// survey, over the whole scan: finds where the points are.
+// survey: counts points per cell while the scan streams by, and so finds where they are.
 #pragma once
 
 #include "engine/config/job.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+// choose: chooses one point for each occupied cell of a lattice.
+//
 // The lattice of a level consists of cubes of one edge, counted from the origin of the coordinates. So the
 // cell of a point depends on that point alone. Cells at 0 reach a quarter of an edge below it. Walls and
 // floors are often at 0, and noise would share their points out among the cells of both sides.
-//
-// choose: chooses one point for each occupied cell of a lattice.
 #pragma once
 
 #include "engine/run/parallel.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// store: writes the chosen points of a store to a store of their own.
-//
-// thin: makes a level on a lattice from the points of the level below, without the input.
+// thin: makes a level on a lattice from the points of the level below, without the input. It writes the chosen
+// points of a store to a store of their own.
 #pragma once
 
 #include "engine/config/config.hpp"

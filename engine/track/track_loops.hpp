@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loops of one level, as tracking takes them.
-//
 // track_loops: follows the same hole through the levels, and chooses one of its loops (method.md, D.2 and
 // D.4).
 //
