@@ -47,7 +47,7 @@ void find_loops_above(const Level& first, double far, std::vector<LevelLoops>& l
 }
 
 // Brings the results into the order of the input.
-std::unique_ptr<Detection> collect(MeasuredLoops loops, Summary summary, const Consumers& consumers,
+std::unique_ptr<Detection> collect(MeasuredLoops loops, Summary summary, Consumers& consumers,
                                    const TileOutputs& outputs, Level& first, Job& job) {
   auto& [config, workers, spill, phases] = job;
   const TileStore& store = first.store;
