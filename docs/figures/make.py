@@ -13,9 +13,8 @@ from pathlib import Path
 import criteria_figures
 import level_figures
 import surface_figures
-import tiling_figures
 
-FIGURES = criteria_figures.FIGURES | surface_figures.FIGURES | level_figures.FIGURES | tiling_figures.FIGURES
+FIGURES = criteria_figures.FIGURES | surface_figures.FIGURES | level_figures.FIGURES
 
 
 def main():
