@@ -134,7 +134,7 @@ HIDDEN = [
 
 
 def details_steps(name):
-    """Of the first hole of a cause, by the filter and a key."""
+    """The first hole of a cause is found by the filter and a key."""
     return [
         (f"a hole has the cause {name}", f"lacuna.cause() === '{name}'", SHOW_LOOPS, f"choose #cause-filter = {name}", "$('#canvas').focus()", "press n", SHOW_DETAILS),
         ("the details have the shares of its causes, those above 1 %",

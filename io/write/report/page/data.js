@@ -73,7 +73,7 @@ function vector_of(column, index) {
   return Array.from(column.subarray(3 * index, 3 * index + 3));
 }
 
-// Of a loop, in the order of holes.csv.
+// The measures of a loop, in the order of holes.csv.
 const kMeasures = ["points", "confidence", "prominence", "first_scale", "last_scale", "perimeter", "area", "diameter", "planarity", "mean_probability"];
 
 // `has_stations`: causes are known from stations. Changes since an earlier result take their place.

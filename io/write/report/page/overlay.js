@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies over the view: scene positions in pixels, ids of holes, stations with the places to stand next, and the line
-// from a station to what hides the selected hole.
+// What lies over the view. First scene positions in pixels, then ids of holes, then stations with the places to stand
+// next. Last the line from a station to what hides the selected hole.
 
 // [right, up, ahead] of the eye.
 function seen_from(camera, place) {
