@@ -8,7 +8,7 @@ from report_browser import play, require, value
 
 NOTE = "<b>on paper</b>"
 FILL, CLEAR = "window.dispatchEvent(new Event('beforeprint'))", "window.dispatchEvent(new Event('afterprint'))"
-# kept.holes: ids of the holes in the first rows of the table, which is sorted by area. kept.all: their number at the top of the page.
+# kept.holes: ids of the holes in the first rows of the table, the largest first. kept.all: their number at the top.
 HOLES = "kept.holes = $$('#body tr[data-row]').filter((row) => row.querySelector('.swatch.hole')).map((row) => Number(row.dataset.id));" \
         "kept.all = Number(/([\\d,]+) holes?/.exec($('#summary').textContent)[1].replace(/,/g, ''));"
 PAGES = "kept.pages = $$('.print-page').map((page) => page.querySelector('h2').textContent);" \
