@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Figures of part D: the loops of a hole at the levels of a scan, which holes `--min-hole` reports,
-and how small they are; tiles, the halo of one, and the bound on the k-th neighbour's distance."""
+"""Figures of part D: the loops of a hole at the levels of a scan, which holes `--min-hole` reports, and how small they are.
+The last one has tiles, the halo of one, and the bound on the k-th neighbour's distance."""
 
 import math
 import random

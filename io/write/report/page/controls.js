@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands around the view: the bar at the top, the tabs of narrow screens, the settings of the view, keys, and the
-// address of the page. With #hole=ID it opens at the loop with this id in holes.json, a hole or an outer curve.
+// What stands around the view: the bar at the top, the tabs of narrow screens, the settings of the view, and keys. Last
+// the address of the page: with #hole=ID it opens at the loop with this id in holes.json, a hole or an outer curve.
 
 // Areas of holes: openings are no missing surface. They are 0 where causes are not known.
 function hole_areas({hole_area, opening_area}) {
