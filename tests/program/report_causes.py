@@ -128,7 +128,8 @@ HIDDEN = [
     # From above, the station, what hides and the hole lie in the view.
     ("a line goes from the station to what hides, and on to the hole", "$$('#stations-over .sight line').length === 4", "click [data-side=top]", LINES),
     ("both parts are joined", "(([a, b]) => Math.hypot(a.x2.baseVal.value - b.x1.baseVal.value, a.y2.baseVal.value - b.y1.baseVal.value) < 0.5)(kept.lines)"),
-    ("dashed behind what hides", "(([a, b]) => a === 'none' && b !== 'none')(kept.lines.map((line) => getComputedStyle(line).strokeDasharray))"),
+    ("dashed behind what hides", "(([a, b]) => a === 'none' && b !== 'none')(kept.lines.map((line) => getComputedStyle(line).strokeDasharray))",
+     LINES),
     ("the station is emphasised", "$$('#stations-over .chosen path.station').length > 0"),
 ]
 

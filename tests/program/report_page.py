@@ -33,11 +33,15 @@ FACTS = [
     ("file names are read from the left", "$$('.files bdi').length > 0 && $$('.files bdi').every((name) => name.dir === 'ltr')"),
 ]
 
-LOOPS = [
+POINTS = [
     ("the switch of the loops hides them", "lacuna.pixels('hole', 'outer') === 0", "$('#show-loops').click()"),
     # Without the loops: their lines alone cover enough of the view.
     ("points cover some of the view", "lacuna.covered().part > 0.02"),
-    ("loops are drawn", "lacuna.pixels('hole', 'outer') > 50", "$('#show-loops').click()"),
+    ("loops are shown again", "$('#show-loops').checked", "$('#show-loops').click()"),
+]
+
+LOOPS = [
+    ("loops are drawn", "lacuna.pixels('hole', 'outer') > 50"),
     ("the filter can leave out all loops", "lacuna.shown() === 0", "slide #size-slider = 1000"),
     ("loops left out are not drawn", "lacuna.pixels('hole', 'outer') === 0"),
     ("the filter shows some at the middle of the slider",
@@ -156,6 +160,7 @@ def check(driver):
         play(driver, WITHOUT_WEBGL)
         report_print.check_pages(driver)
         return
+    play(driver, POINTS)
     report_tools.check(driver)
     play(driver, LOOPS)
     check_seen(driver)
