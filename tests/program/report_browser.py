@@ -44,16 +44,23 @@ window.lacuna = {
     return [low, high].map((place) => to_real(frame, place)[frame.up]);
   },
   loop_at: (x, y) => { const at = view.loop_at(x, y); return at < 0 ? null : loops.id[at]; },
+  // The picture: rows from the bottom, 4 bytes a pixel.
+  picture: () => {
+    view.draw();
+    const gl = view.renderer.getContext(), {width, height} = view.canvas, pixels = new Uint8Array(4 * width * height);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    return {width, height, pixels};
+  },
   // Pixels of the view that have nearly one of the colours.
   pixels: (...names) => {
-    const {pixels} = view.read_pixels(), wanted = names.map(colour);
+    const {pixels} = lacuna.picture(), wanted = names.map(colour);
     let count = 0;
     for (let i = 0; i < pixels.length; i += 4) if (wanted.some((each) => is_near(pixels, i, each, 3))) ++count;
     return count;
   },
   // Pixels that are not background, the highest and the lowest row that has one (from the bottom), and the rows in all.
   covered: () => {
-    const {width, height, pixels} = view.read_pixels(), ground = colour('view');
+    const {width, height, pixels} = lacuna.picture(), ground = colour('view');
     let count = 0, high = -1, low = -1;
     for (let i = 0; i < pixels.length; i += 4) {
       if (is_near(pixels, i, ground, 6)) continue;

@@ -107,9 +107,9 @@ kept.seen = all > 0 ? seen / all : 0;
 scenes.set_loops(page.table.shown);
 const ground = lacuna.colour('view'), {plane} = scenes.veil;
 const contrast = ({pixels}, i) => [0, 1, 2].reduce((sum, k) => sum + Math.abs(pixels[i + k] - ground[k]), 0);
-const pale = page.view.read_pixels();
+const pale = lacuna.picture();
 scenes.veil.plane = null;
-const plain = page.view.read_pixels();
+const plain = lacuna.picture();
 scenes.veil.plane = plane;
 kept.darker = kept.changed = 0;
 for (let i = 0; i < pale.pixels.length; i += 4) {

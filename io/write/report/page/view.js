@@ -216,16 +216,6 @@ class View {
     this.draw();
     this.canvas.toBlob(take, "image/png");
   }
-
-  // The picture as {width, height, pixels}: rows from the bottom, 4 bytes a pixel.
-  read_pixels() {
-    this.draw();
-    const gl = this.renderer.getContext();
-    const {width, height} = this.canvas;
-    const pixels = new Uint8Array(4 * width * height);
-    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
-    return {width, height, pixels};
-  }
 }
 
 // The canvas' WebGL context; null where the browser gives none.
