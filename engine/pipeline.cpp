@@ -34,6 +34,7 @@ namespace fs = std::filesystem;
 void find_loops_above(const Level& first, Totals totals, std::vector<LevelLoops>& levels,
                       const StepContext& given) {
   Phase phase(given.job.phases, "levels", first.store.tiling().points());  // each has half of those below
+  const double far = totals.distances.start_of_far();
   std::optional<Level> below;
   while (std::optional<Level> level = level_above(
              below ? *below : first, [&] { return totals; }, given)) {
@@ -43,7 +44,7 @@ void find_loops_above(const Level& first, Totals totals, std::vector<LevelLoops>
       return outputs.emplace(evaluate_level(*level, consumers.all, given));
     };
     FoundLevel found = loops_of_level(*level, *consumers.method, evaluate, given);
-    levels.push_back(level_loops(std::move(found.boundary.loops), level->edge, found.totals));
+    levels.push_back(level_loops(std::move(found.boundary.loops), level->edge, found.totals, far));
     totals = std::move(found.totals);
     phase.advance(level->store.tiling().points());
     below.emplace(*std::move(level));
@@ -72,7 +73,8 @@ std::unique_ptr<Detection> detect_once(PointSource& scan, const Config& config, 
   FoundLevel found = loops_of_level(
       first, *consumers.method, [&]() -> const TileOutputs& { return outputs; }, given);
   std::vector<LevelLoops> levels;
-  levels.push_back(level_loops(std::move(found.boundary.loops), first.edge, found.totals));
+  levels.push_back(level_loops(std::move(found.boundary.loops), first.edge, found.totals,
+                               found.totals.distances.start_of_far()));
   if (has_levels(config)) find_loops_above(first, found.totals, levels, given);
   add_findings(found.totals, found.boundary, levels, eps, summary);
 

@@ -15,7 +15,9 @@ namespace {
 // Fine levels see lines of points rather than a surface, or noise; coarse ones cross its holes.
 double median_area(std::span<const LevelLoops> levels) {
   std::vector<double> areas;
-  for (const LevelLoops& level : levels) areas.push_back(level.surface_area);
+  for (const LevelLoops& level : levels)
+    if (level.surface_area > 0) areas.push_back(level.surface_area);
+  if (areas.empty()) return 0;
   const auto middle = areas.begin() + static_cast<std::ptrdiff_t>((areas.size() - 1) / 2);
   std::nth_element(areas.begin(), middle, areas.end());
   return *middle;

@@ -22,7 +22,7 @@ struct TileSums {
   std::int64_t edge_length_high;
 };
 struct DistanceBin {
-  std::uint64_t bin, count;
+  std::uint64_t bin, count, half_discs;
 };
 
 constexpr RecordStream<TileSums> kSums{"sums"};
@@ -41,7 +41,8 @@ TileSums sums_of(const Totals& totals) {
 
 std::vector<DistanceBin> bins_of(const Totals& totals) {
   std::vector<DistanceBin> bins;
-  for (const auto& [bin, count] : totals.distances.counts) bins.push_back({bin, count});
+  for (const auto& [bin, count] : totals.distances.counts)
+    bins.push_back({bin, count, totals.half_discs.counts.at(bin)});
   return bins;
 }
 
@@ -56,8 +57,11 @@ void add(const std::vector<TileSums>& of_tiles, const std::vector<DistanceBin>& 
     for (std::size_t bin = 0; bin < kProbabilityBins; ++bin)
       totals.probabilities[bin] += sums.probabilities[bin];
   }
-  for (const DistanceBin& bin : distances)
-    totals.distances.counts[static_cast<std::uint32_t>(bin.bin)] += bin.count;
+  for (const DistanceBin& of : distances) {
+    const auto bin = static_cast<std::uint32_t>(of.bin);
+    totals.distances.counts[bin] += of.count;
+    totals.half_discs.counts[bin] += of.half_discs;
+  }
 }
 
 }  // namespace
@@ -73,16 +77,18 @@ double Totals::mean_edge_length() const {
   return static_cast<double>(edge_length) / static_cast<double>(neighbours) * length_unit;
 }
 
-double Totals::surface_area() const {
-  return std::numbers::pi * 2.25 * distances.sum_of_near_squares() / (mean_neighbours() + 2.5);
+double Totals::surface_area(double far) const {
+  return std::numbers::pi * 2.25 * half_discs.sum_of_squares(far) / 2 / (mean_neighbours() + 2.5);
 }
 
 Totals sum_up(std::span<const Evaluation> evaluations, const Neighbourhoods& neighbourhoods, double threshold,
               double extent, std::vector<LocalIndex>& candidates) {
+  constexpr double kAtBoundary = 0.5;  // Pi of a point whose neighbours lie to one side of it
   Totals totals(extent);
   totals.points = evaluations.size();
   totals.neighbours = neighbourhoods.indices.size();
   std::vector<std::uint32_t> distances(LengthBins::bin_of(std::numeric_limits<double>::infinity()));
+  std::vector<std::uint32_t> half_discs(distances.size());
   for (LocalIndex p = 0; p < evaluations.size(); ++p) {
     const Evaluation& e = evaluations[p];
     if (e.probability > threshold) candidates.push_back(p);
@@ -90,16 +96,22 @@ Totals sum_up(std::span<const Evaluation> evaluations, const Neighbourhoods& nei
                                     static_cast<std::size_t>(e.probability * kProbabilityBins))];
     totals.undefined_normals += !e.normal.allFinite();
     totals.normals_off += e.is_normal_off;
-    if (e.mean_distance > 0 && std::isfinite(e.mean_distance))
-      ++distances[LengthBins::bin_of(e.mean_distance)];
+    if (e.mean_distance > 0 && std::isfinite(e.mean_distance)) {
+      const std::uint32_t bin = LengthBins::bin_of(e.mean_distance);
+      ++distances[bin];
+      half_discs[bin] += e.probability > kAtBoundary ? 1 : 2;
+    }
     const double length =
         e.mean_distance * static_cast<double>(neighbourhoods[p].size()) / totals.length_unit;
     constexpr double kShort = 0x1p62;  // what fits is converted in one instruction
     totals.edge_length += length < kShort ? static_cast<std::int64_t>(length) : static_cast<Int128>(length);
   }
   totals.candidates = candidates.size();
-  for (std::uint32_t bin = 0; bin < distances.size(); ++bin)
-    if (distances[bin] > 0) totals.distances.counts[bin] = distances[bin];
+  for (std::uint32_t bin = 0; bin < distances.size(); ++bin) {
+    if (distances[bin] == 0) continue;
+    totals.distances.counts[bin] = distances[bin];
+    totals.half_discs.counts[bin] = half_discs[bin];
+  }
   return totals;
 }
 

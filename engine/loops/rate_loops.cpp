@@ -161,13 +161,11 @@ Eigen::Vector3d across(const Eigen::Vector3d& normal) {
 struct FlatLoop {
   LoopPlane plane;
   double width;  // of the surroundings, and the largest height of their points over the loop
-  double sheet;  // the largest height of points within the loop: of a surface beyond it, none fills the hole
   Eigen::AlignedBox3d box = {};
 
   FlatLoop(std::span<const LoopPoint> loop, const LoopShape& shape, Scratch& scratch)
       : plane(shape.centroid, shape.normal, across(shape.normal)), width(2 * shape.area / shape.perimeter) {
     scratch.for_each(loop, [&](const LoopPoint& p) { box.extend(plane(p.position())); });
-    sheet = std::clamp(box.sizes().z(), 0.2 * width, width);
     box.min().array() -= width;
     box.max().array() += width;
   }
@@ -203,6 +201,9 @@ void mark_within(std::span<const LoopPoint> loop, const LoopPlane& plane, const 
 double prominence(const TileStore& points, std::span<const LoopPoint> loop, const LoopShape& shape,
                   double spacing, Scratch& scratch) {
   constexpr double kGap = 0.9;  // of the pixels around the hole are nearer to a point than its gap
+  // Within the hole, points count up to this part of the width: a surface that lies higher or lower is
+  // another.
+  constexpr double kSheet = 0.2;
   if (!(shape.area > 0) || !std::isfinite(shape.area)) return 0;
   const FlatLoop flat(loop, shape, scratch);
   const Raster raster(flat.flat_box(), spacing);
@@ -223,7 +224,7 @@ double prominence(const TileStore& points, std::span<const LoopPoint> loop, cons
     const Eigen::Vector3d at = flat.plane(point);
     const std::uint32_t pixel = raster.pixel_at(at);
     if (pixel == kNowhere) return;
-    const double most = is_within[pixel] != 0 ? flat.sheet : flat.width;
+    const double most = is_within[pixel] != 0 ? kSheet * flat.width : flat.width;
     if (std::abs(at.z() - height[to_loop[pixel]]) <= most) is_sampled[pixel] = 1;
   });
 

@@ -2,6 +2,7 @@
 #include "engine/model/length_bins.hpp"
 
 #include <bit>
+#include <limits>
 
 namespace lacuna {
 
@@ -27,20 +28,25 @@ double LengthBins::median() const {
   return 0;
 }
 
-double LengthBins::sum_of_near_squares() const {
+double LengthBins::start_of_far() const {
   constexpr std::uint32_t kFactorOf4 = 2 * 64;
   constexpr std::uint64_t kFew = 100;
   std::uint64_t all = 0, upto = 0, within = 0;  // within: the factor of 4 that ends at a bin
   for (const auto& [bin, count] : counts) all += count;
-  double sum = 0;
   auto start = counts.begin();
   for (const auto& [bin, count] : counts) {
     for (; start->first + kFactorOf4 < bin; ++start) within -= start->second;
-    if (2 * (upto - within) >= all && within * kFew < all) break;
-    sum += static_cast<double>(count) * start_of(bin) * start_of(bin + 1);
+    if (2 * (upto - within) >= all && within * kFew < all) return start_of(bin);
     upto += count;
     within += count;
   }
+  return std::numeric_limits<double>::infinity();
+}
+
+double LengthBins::sum_of_squares(double end) const {
+  double sum = 0;
+  for (const auto& [bin, count] : counts)
+    if (start_of(bin) < end) sum += static_cast<double>(count) * start_of(bin) * start_of(bin + 1);
   return sum;
 }
 

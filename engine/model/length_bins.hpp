@@ -16,9 +16,11 @@ struct LengthBins {
   static double start_of(std::uint32_t bin);   // the shortest of the bin
   // Returns the median, as if the numbers of a bin were spread evenly over it. Returns 0 without any number.
   double median() const;
-  // Returns the sum within 1.6 %, without far numbers. They lie beyond the median, and beyond a factor of 4
-  // that holds fewer than one number in a hundred.
-  double sum_of_near_squares() const;
+  // Returns where far numbers begin: beyond the median, and beyond a factor of 4 that holds fewer than one
+  // number in a hundred. Infinite where no number is far.
+  double start_of_far() const;
+  // Returns the sum of the squares of numbers below `end`, within 1.6 %.
+  double sum_of_squares(double end) const;
 };
 
 // Mean distance of a point to its neighbours over the spacing, on a square grid with k = 15.

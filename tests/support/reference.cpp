@@ -1063,13 +1063,10 @@ double prominence(const FoundLoop& loop, const Shape& shape, const Positions& po
   const auto flat = [&](const Vector3d& p) -> Vector3d { return axes.transpose() * (p - shape.centroid); };
   std::vector<Eigen::Vector2d> rim;
   Eigen::AlignedBox2d box;
-  Eigen::AlignedBox1d rim_heights;
   for (const Vector3d& p : loop.places) {
     rim.emplace_back(flat(p).head<2>());
     box.extend(rim.back());
-    rim_heights.extend(flat(p).tail<1>());
   }
-  const double sheet = std::clamp(rim_heights.sizes().x(), 0.2 * width, width);
   box.min().array() -= width;
   box.max().array() += width;
   const double side = box.sizes().maxCoeff(), edge = std::clamp(loop.spacing / 2, side / 255, side / 24);
@@ -1110,7 +1107,7 @@ double prominence(const FoundLoop& loop, const Shape& shape, const Positions& po
       continue;
     const Pixel pixel = pixel_of(at);
     const Eigen::Vector2d middle = corner + edge * Eigen::Vector2d(pixel.second + 0.5, pixel.first + 0.5);
-    const double most = is_within(rim, middle.x(), middle.y()) ? sheet : width;
+    const double most = is_within(rim, middle.x(), middle.y()) ? 0.2 * width : width;
     if (std::abs(at.z() - heights.at(nearest(pixel, heights))) <= most) sampled.insert(pixel);
   }
   int deepest = 0;
