@@ -112,7 +112,6 @@ class Slot:
         os.mkdir(self.folder)
         self.workspace, self.out = self.path("workspace"), self.path("out")
         self.seconds = {}  # of a command, undisturbed
-        self.states = []
         self.keep("empty")
         self.do(self.detect(), "detect")
         self.keep("done")
@@ -159,7 +158,6 @@ class Slot:
         for folder in (self.workspace, self.out):
             if os.path.exists(folder):
                 shutil.copytree(folder, os.path.join(kept, os.path.basename(folder)))
-        self.states.append(state)
 
     def clear(self):
         remove(self.workspace)
