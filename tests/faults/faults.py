@@ -11,6 +11,7 @@ Its exit code is 1 if a case was wrong. It needs strace, and the right to mount 
 """
 import argparse
 import concurrent.futures
+import contextlib
 import os
 import queue
 import random
@@ -422,17 +423,14 @@ def calls_that_fail(share, count, add_job):
 
 # 3. A full disk.
 
-class Disk:
-    def __init__(self, at, bytes):
-        self.at = at
-        os.makedirs(at, exist_ok=True)
-        subprocess.run(["mount", "-t", "tmpfs", "-o", "size=%d" % bytes, "tmpfs", at], check=True)
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        subprocess.run(["umount", self.at], check=True)
+@contextlib.contextmanager
+def disk(at, bytes):
+    os.makedirs(at, exist_ok=True)
+    subprocess.run(["mount", "-t", "tmpfs", "-o", "size=%d" % bytes, "tmpfs", at], check=True)
+    try:
+        yield at
+    finally:
+        subprocess.run(["umount", at], check=True)
 
 
 def size_of(folder):
@@ -452,8 +450,8 @@ def full_disks(share, count, add_job):
                 disk_bytes = 65536 + int({"detect": part, "results": part / 4}[what] * full)
                 note = "%s: disk of %d KiB" % (case.name, disk_bytes // 1024)
                 slot.begin(case.state)
-                with Disk(slot.path("disk"), disk_bytes) as disk:
-                    small = os.path.join(disk.at, "folder")
+                with disk(slot.path("disk"), disk_bytes) as small_disk:
+                    small = os.path.join(small_disk, "folder")
                     place = slot.out if what == "results" else slot.workspace
                     arguments = [small if argument == place else argument for argument in case.arguments]
                     if i % 2 and what != "results":
