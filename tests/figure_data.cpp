@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // figure_data K THRESHOLD < POINTS: what the plain method finds in a small scan, for the figures of
-// docs/method.md, as JSON whose rows docs/figures/reference.py names. POINTS has x y z in a line. Candidates
+// docs/method.md, as JSON whose rows docs/figures/scans.py names. POINTS has x y z in a line. Candidates
 // are above THRESHOLD, and are seeds. No normal is turned at a crease.
 #include "tests/support/reference.cpp"
 

@@ -3,8 +3,7 @@
 
 import math
 
-from reference import find
-from scans import density_step, nearest_to, patch
+from scans import density_step, find, nearest_to, patch
 from svg import BLUE, GREEN, INK, LINE, MUTED, ORANGE, RED, Page
 
 HOLE = (8.0, 8.0, 3.2)
@@ -38,9 +37,7 @@ def neighbourhood(path):
     page.text(473, 111, "among their 15 nearest")
     page.text(448, 150, "Neighbourhood of p:")
     page.text(448, 170, f"{len(around)} points, blue and orange.", weight="bold")
-    page.text(448, 205, "The 15 nearest alone reach", MUTED)
-    page.text(448, 225, "hardly beyond the density step:", MUTED)
-    page.text(448, 245, "p would look like a boundary.", MUTED)
+    page.text(448, 205, "The 15 nearest alone reach\nhardly beyond the density step:\np would look like a boundary.", MUTED)
     page.write(path)
 
 
@@ -131,11 +128,9 @@ def shape(path):
     panel.label(place(CENTROID), "c", 8, 4)
     page.legend(448, 50, [("dot", BLUE, "interior points of a scan"), ("dot", ORANGE, "its boundary points"),
                           ("dot", INK, "characteristic points")])
-    page.text(448, 130, "Circles: widths of the kernels,", MUTED)
-    page.text(448, 150, "a third of the distance to c.", MUTED)
-    page.text(448, 185, "The triangle holds all possible", MUTED)
-    page.text(448, 205, "shapes. Its lower side holds flat", MUTED)
-    page.text(448, 225, "ones: the smallest eigenvalue is 0.", MUTED)
+    page.text(448, 130, "Circles: widths of the kernels,\na third of the distance to c.", MUTED)
+    page.text(448, 185, "The triangle holds all possible\nshapes. Its lower side holds flat\n"
+                        "ones: the smallest eigenvalue is 0.", MUTED)
     page.write(path)
 
 

@@ -3,8 +3,7 @@
 
 import math
 
-from reference import COARSE, FINE, SCALES, centres, find, has, inverted, triangles
-from scans import nearest_to, patch, uneven
+from scans import COARSE, FINE, SCALES, centres, find, has, inverted, nearest_to, patch, triangles, uneven
 from svg import BLUE, FILL, GREEN, INK, LINE, MUTED, ORANGE, RED, Page
 
 HOLE = (9.0, 8.0, 2.9)
@@ -44,12 +43,8 @@ def active(path):
     page.legend(448, 50, [("dot", RED, "seed: \u03a0 > threshold, 0.8 here"), ("dot", ORANGE, "active, not a seed"),
                           ("dot", MUTED, "not active"), ("fill", FILL, "consistent triangle"),
                           ("dash", RED, "inconsistent, in bound")])
-    page.text(448, 180, "Triangles over the bound are", MUTED)
-    page.text(448, 200, "inconsistent, too; they fill the", MUTED)
-    page.text(448, 220, "hole and are not drawn.", MUTED)
-    page.text(448, 255, "Activity passes from an active", MUTED)
-    page.text(448, 275, "point to the vertices of the", MUTED)
-    page.text(448, 295, "inconsistent triangles around it.", MUTED)
+    page.text(448, 180, "Triangles over the bound are\ninconsistent, too; they fill the\nhole and are not drawn.", MUTED)
+    page.text(448, 255, "Activity passes from an active\npoint to the vertices of the\ninconsistent triangles around it.", MUTED)
     page.write(path)
 
 
@@ -115,10 +110,8 @@ def bound(path):
     page.legend(448, 50, [("dot", INK, "a point at a hole"), ("dot", BLUE, "its link vertices"),
                           ("fill", FILL, "within the fine bound"), ("fill", LIGHT_ORANGE, "within the coarse bound"),
                           ("dash", RED, "beyond both, with circle")])
-    page.text(448, 172, f"Median radius M = {middle:.2f},", INK)
-    page.text(448, 192, f"radius spread S = {spread:.2f}:", INK)
-    page.text(448, 212, f"fine bound 1.5 M + S = {s.bounds[FINE]:.2f},", INK)
-    page.text(448, 232, f"coarse bound 2 times that: {s.bounds[COARSE]:.2f}.", INK)
+    page.text(448, 172, f"Median radius M = {middle:.2f},\nradius spread S = {spread:.2f}:\n"
+                        f"fine bound 1.5 M + S = {s.bounds[FINE]:.2f},\ncoarse bound 2 times that: {s.bounds[COARSE]:.2f}.", INK)
     page.text(448, 262, "Circumradii of the star:", MUTED)
     for i, (radius, kind) in enumerate(sorted(zip(s.radius, kinds(s)))):
         page.text(448 + 50 * (i % 4), 284 + 20 * (i // 4), f"{radius:.2f}", (BLUE, ORANGE, RED)[kind])
@@ -176,11 +169,8 @@ def wedges(path):
     panel.dots(corners(scan, *curve), INK, 4.5)
     page.legend(448, 50, [("fill", FILL, "consistent triangle"), ("fill", LIGHT_ORANGE, "boundary wedge"),
                           ("line", RED, "boundary curve"), ("dot", INK, "its points")])
-    page.text(448, 160, "A wedge ends at two boundary", MUTED)
-    page.text(448, 180, "edges. Each edge ends one wedge", MUTED)
-    page.text(448, 200, "at either of its points, so the", MUTED)
-    page.text(448, 220, "wedges chain to a closed curve:", MUTED)
-    page.text(448, 240, f"here {n} points.", MUTED)
+    page.text(448, 160, "A wedge ends at two boundary\nedges. Each edge ends one wedge\nat either of its points, so the\n"
+                        f"wedges chain to a closed curve:\nhere {n} points.", MUTED)
     page.write(path)
 
 
@@ -205,14 +195,11 @@ def scales(path):
                           ("fill", LIGHT_ORANGE, "within the coarse bound only"),
                           ("line", BLUE, "fine loop"),
                           ("line", RED, "coarse loop"), ("dash", INK, "the hole, as made")])
-    page.text(448, 172, f"Clearness {other.clearness:.2f} and {surer.clearness:.2f},", MUTED)
-    page.text(448, 192, f"surface share {other.surface:.2f} and {surer.surface:.2f}:", MUTED)
-    page.text(448, 212, f"confidence {other.confidence:.2f} and {surer.confidence:.2f}.", MUTED)
-    page.text(448, 232, "The coarse loop is surer.", MUTED)
-    page.text(448, 262, "White places around are gaps of", MUTED)
-    page.text(448, 282, "the sampling. Their curves have", MUTED)
-    page.text(448, 302, "fewer than 8 points, or little", MUTED)
-    page.text(448, 322, "clearness.", MUTED)
+    page.text(448, 172, f"Clearness {other.clearness:.2f} and {surer.clearness:.2f},\n"
+                        f"surface share {other.surface:.2f} and {surer.surface:.2f}:\n"
+                        f"confidence {other.confidence:.2f} and {surer.confidence:.2f}.\nThe coarse loop is surer.", MUTED)
+    page.text(448, 262, "White places around are gaps of\nthe sampling. Their curves have\nfewer than 8 points, or little\n"
+                        "clearness.", MUTED)
     page.write(path)
 
 
@@ -231,8 +218,7 @@ def msg(path):
     page.legend(448, 50, [("dot", ORANGE, "candidate: \u03a0 > threshold"), ("line", LINE, "eligible edge"),
                           ("line", BLUE, "edge of the spanning graph"), ("line", RED, f"loop of {len(loop)} edges"),
                           ("dot", INK, "origin of the search")])
-    page.text(448, 180, "An edge that closes a loop needs", MUTED)
-    page.text(448, 200, f"more than e = {found.e} edges on it.", MUTED)
+    page.text(448, 180, f"An edge that closes a loop needs\nmore than e = {found.e} edges on it.", MUTED)
     page.write(path)
 
 

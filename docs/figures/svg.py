@@ -19,18 +19,15 @@ class Page:
         self.clips = 0
 
     def text(self, x, y, words, color=INK, anchor="start", size=14, weight="normal"):
-        words = words.replace("&", "&amp;").replace("<", "&lt;")
-        self.parts.append(f'<text x="{number(x)}" y="{number(y)}" fill="{color}" text-anchor="{anchor}" '
-                          f'font-size="{size}" font-weight="{weight}">{words}</text>')
+        for i, line in enumerate(words.replace("&", "&amp;").replace("<", "&lt;").split("\n")):
+            self.parts.append(f'<text x="{number(x)}" y="{number(y + 20 * i)}" fill="{color}" text-anchor="{anchor}" '
+                              f'font-size="{size}" font-weight="{weight}">{line}</text>')
 
     def legend(self, x, y, entries, step=0):
         """entries: (kind, color, words); in one row, or in a column with `step` 0."""
         for kind, color, words in entries:
             if kind == "dot":
                 self.parts.append(f'<circle cx="{number(x + 8)}" cy="{number(y - 5)}" r="4.5" fill="{color}"/>')
-            elif kind == "ring":
-                self.parts.append(f'<circle cx="{number(x + 8)}" cy="{number(y - 5)}" r="4.5" fill="{PAPER}" '
-                                  f'stroke="{color}" stroke-width="2"/>')
             elif kind in ("line", "dash"):
                 dash = ' stroke-dasharray="4 3"' if kind == "dash" else ""
                 self.parts.append(f'<line x1="{number(x)}" y1="{number(y - 5)}" x2="{number(x + 18)}" '
@@ -75,13 +72,9 @@ class Panel:
     def add(self, shape):
         self.page.parts.append(f'<g clip-path="url(#{self.clip})">{shape}</g>')
 
-    def dots(self, points, color=MUTED, radius=2.6, stroke="none"):
-        shapes = []
-        for p in points:
-            if self.holds(p):
-                x, y = self.at(p)
-                shapes.append(f'<circle cx="{number(x)}" cy="{number(y)}" r="{radius}"/>')
-        self.add(f'<g fill="{color}" stroke="{stroke}" stroke-width="1.6">{"".join(shapes)}</g>')
+    def dots(self, points, color=MUTED, radius=2.6):
+        shapes = (f'<circle cx="{number(x)}" cy="{number(y)}" r="{radius}"/>' for x, y in map(self.at, filter(self.holds, points)))
+        self.add(f'<g fill="{color}" stroke="none" stroke-width="1.6">{"".join(shapes)}</g>')
 
     def path(self, points, color=INK, width=1.5, fill="none", closed=False, dash=False, opacity=1):
         d = "M" + "L".join(f"{number(x)} {number(y)}" for x, y in map(self.at, points)) + ("Z" if closed else "")

@@ -2,11 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # tools/cluster/slurm.sh on a real Slurm, whose controller and only node are this machine. Whatever happens to tasks, the
 # results have the bytes of those of one `lacuna detect`. Skipped where Slurm or MUNGE is not installed.
-#
-#     tests/cluster/slurm_test.sh [POINTS]      # default 1000000
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-points=${1:-1000000}
 export LACUNA=${LACUNA_PROGRAM:-$PWD/build/lacuna}
 slurm=$PWD/tools/cluster/slurm.sh
 most_seconds=3600  # of one chain
@@ -110,7 +107,7 @@ new_chain() {
   chain="$work/$1 %j"
   mkdir "$chain"
 }
-parameters=(--tile-points $((points / 100)) --points)
+parameters=(--tile-points 10000 --points)
 submit() {
   local tasks=$1
   "$slurm" "$scan" --workspace "$chain/work" --tasks "$tasks" --out "$chain/out" --threads 1 "${parameters[@]}" "${@:2}" \
@@ -142,20 +139,20 @@ stop_task() {
     sleep 0.02
   done
 }
-# Kills tasks at random moments, `most` of them at most, until the chain ends. Larger scans have longer pauses.
+# Kills tasks at random moments, `most` of them at most, until the chain ends.
 kill_some() {
   local most=$1 pid pause
   killed=0
   while ((killed < most)) && [[ -n $(squeue --noheader 2>&1) ]]; do
     pid=$(running | shuf --head-count=1)
-    pause=$((RANDOM % 500 * (points / 1000000 + 1)))
-    sleep "$((pause / 1000)).$(printf %03d $((pause % 1000)))"
+    pause=$((RANDOM % 1000))
+    sleep "0.$(printf %03d "$pause")"
     [[ -z $pid ]] || ! kill -KILL "$pid" 2>/dev/null || ((killed += 1))
   done
 }
 
 scan=$work/scan.ply
-"${LACUNA_BENCH_PROGRAM:-$PWD/build/lacuna-bench}" synth surface "$scan" --points "$points" --holes 40 --positions random --density-factor 30 >/dev/null
+"${LACUNA_BENCH_PROGRAM:-$PWD/build/lacuna-bench}" synth surface "$scan" --points 1000000 --holes 40 --positions random --density-factor 30 >/dev/null
 nice -n 10 "$LACUNA" detect "$scan" --out "$work/expected" --quiet --threads 2 "${parameters[@]}"
 start_slurm
 began=$SECONDS

@@ -3,7 +3,6 @@
 // limit. Slow: minutes.
 #include "io/read/scan/scan_pass.hpp"
 #include "tests/support/detected.hpp"
-#include "tests/support/golden.hpp"
 #include "tests/support/skip.hpp"
 
 namespace lacuna {
@@ -36,7 +35,7 @@ const std::vector<Setting> kAll = {
 const std::vector<Setting> kSome = {{500, 8, 0}, {5'000, 2, kLeast}, {50'000, 8, kLeast}};
 
 TEST_CASE("tiling never shows on real scans", "[.slow]") {
-  const auto shared = shared_folder();
+  const auto shared = test::shared_folder();
   if (!shared) return;
   const auto [name, settings, orient] = GENERATE(table<const char*, const std::vector<Setting>*, bool>(
       {{"bun_zipper.ply", &kAll, true},

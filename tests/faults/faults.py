@@ -11,7 +11,9 @@ Its exit code is 1 if a case was wrong. It needs strace, and the right to mount 
 """
 import argparse
 import concurrent.futures
+import contextlib
 import os
+import queue
 import random
 import re
 import shutil
@@ -23,10 +25,12 @@ import tempfile
 import threading
 import time
 from collections import Counter
+from pathlib import Path
 
 RESULTS = ["holes.json", "holes.csv", "loops.ply", "boundary.ply", "sample.ply", "points.ply"]
 LONGEST = 90  # seconds of a run, beyond which it hangs
 SIGNALS = [signal.SIGKILL, signal.SIGTERM, signal.SIGINT]
+WORKERS = 2  # each runs one case at a time, and most of these have one thread
 TASKS = 3
 # Level 1 has so few points that one task makes it.
 STEPS = {"survey": TASKS, "tiles": 1, "bucket": TASKS, "level-0": TASKS, "evaluate-0": TASKS, "level-1": 1,
@@ -34,14 +38,8 @@ STEPS = {"survey": TASKS, "tiles": 1, "bucket": TASKS, "level-0": TASKS, "evalua
 
 
 def contents(folder):
-    found = {}
-    for name in RESULTS:
-        try:
-            with open(os.path.join(folder, name), "rb") as file:
-                found[name] = file.read()
-        except FileNotFoundError:
-            pass
-    return found
+    files = {name: Path(folder, name) for name in RESULTS}
+    return {name: file.read_bytes() for name, file in files.items() if file.exists()}
 
 
 def remove(folder):
@@ -115,7 +113,6 @@ class Slot:
         os.mkdir(self.folder)
         self.workspace, self.out = self.path("workspace"), self.path("out")
         self.seconds = {}  # of a command, undisturbed
-        self.states = []
         self.keep("empty")
         self.do(self.detect(), "detect")
         self.keep("done")
@@ -162,7 +159,6 @@ class Slot:
         for folder in (self.workspace, self.out):
             if os.path.exists(folder):
                 shutil.copytree(folder, os.path.join(kept, os.path.basename(folder)))
-        self.states.append(state)
 
     def clear(self):
         remove(self.workspace)
@@ -216,41 +212,27 @@ class Count:
     """How the cases of each row of the table ended."""
 
     def __init__(self):
-        self.rows, self.problems, self.lock = {}, Counter(), threading.Lock()
+        self.rows, self.lock = {}, threading.Lock()
 
-    def add(self, row, **how):
+    def add(self, row, *how):
         with self.lock:
-            counter = self.rows.setdefault(row, Counter())
-            for key, number in how.items():
-                counter[key] += int(number)
+            self.rows.setdefault(row, Counter()).update(how)
 
     def wrong(self, row, text):
-        self.add(row, wrong=1)
-        with self.lock:
-            self.problems[text] += 1
-            print("WRONG: %s: %s: %s" % (row[0], row[1], text), file=sys.stderr, flush=True)
+        self.add(row, "wrong")
+        print("WRONG: %s: %s: %s" % (row[0], row[1], text), file=sys.stderr, flush=True)
 
     def table(self):
-        heads = ["fault", "command", "tried", "stopped", "right at once", "one clear line",
-                 "right when run again", "then one clear line", "wrong"]
-        keys = ["tried", "stopped", "right", "line", "again", "again_line", "wrong"]
-        lines = ["| " + " | ".join(heads) + " |", "|---|---|" + "---:|" * len(keys)]
-        total = Counter()
-        for (fault, command), counter in sorted(self.rows.items()):
-            total.update(counter)
-            lines.append("| %s | %s | %s |" % (fault, command, " | ".join(str(counter[k]) for k in keys)))
-        lines.append("| all | | %s |" % " | ".join(str(total[k]) for k in keys))
-        if total["part"]:
-            lines.append("\nResults of which some had their names, without holes.json, after SIGKILL: %d."
-                         % total["part"])
+        keys = ["tried", "stopped", "right at once", "one clear line", "right when run again", "then one clear line", "wrong"]
+        lines = ["| fault | command | " + " | ".join(keys) + " |", "|---|---|" + "---:|" * len(keys)]
+        for (fault, command), counter in [*sorted(self.rows.items()), (("all", ""), sum(self.rows.values(), Counter()))]:
+            lines.append("| %s | %s | %s |" % (fault, command, " | ".join(str(counter[key]) for key in keys)))
         return "\n".join(lines)
 
 
 def check_results_folder(slot, row, count, note, is_kill):
     half = slot.half_written()
-    if half == "part" and is_kill:
-        count.add(row, part=1)
-    elif half:
+    if half and not (half == "part" and is_kill):
         count.wrong(row, "%s: half written: %s" % (note, half))
 
 
@@ -263,9 +245,9 @@ def run_again(slot, case, row, count, note, may_fail=False):
         problem = slot.problem()
         if problem:
             return count.wrong(row, "%s: again: %s" % (note, problem))
-        return count.add(row, again=1)
+        return count.add(row, "right when run again")
     if may_fail and run.is_clear_failure():
-        return count.add(row, again_line=1)
+        return count.add(row, "then one clear line")
     return count.wrong(row, "%s: again: %s" % (note, run))
 
 
@@ -276,9 +258,9 @@ def note_first(slot, case, run, row, count, note):
         if problem:
             count.wrong(row, "%s: exit code 0, but %s" % (note, problem))
             return False
-        count.add(row, right=1)
+        count.add(row, "right at once")
     elif run.is_clear_failure():
-        count.add(row, line=1)
+        count.add(row, "one clear line")
     else:
         count.wrong(row, "%s: %s" % (note, run))
         return False
@@ -325,7 +307,7 @@ def kills(share, count, add_job):
                     if run.code not in (-sent, 128 + sent):
                         return count.wrong(row, "%s: %s" % (" ".join(notes), run))
                     killed += 1
-                    count.add(row, tried=1, stopped=1)
+                    count.add(row, "tried", "stopped")
                     if sent != signal.SIGKILL and run.seconds > 2:
                         count.wrong(row, "%s took %.1f s" % (sent.name, run.seconds))
                     check_results_folder(slot, row, count, " ".join(notes), "SIGKILL" in notes)
@@ -353,9 +335,9 @@ def kill_at(slot, case, call, draw, count, where):
     note = "%s: SIGKILL at %s %d" % (case.name, call, k)
     slot.begin(case.state)
     run = slot.setting.run(case.arguments, strace(call, "signal=SIGKILL", k))
-    count.add(row, tried=1)
+    count.add(row, "tried")
     if run.code == -signal.SIGKILL:
-        count.add(row, stopped=1)
+        count.add(row, "stopped")
     elif not note_first(slot, case, run, row, count, note):
         return
     check_results_folder(slot, row, count, note, True)
@@ -432,7 +414,7 @@ def calls_that_fail(share, count, add_job):
                     note = "%s: %s %d gives %s" % (case.name, call, k, error)
                     slot.begin(case.state)
                     run = slot.setting.run(case.arguments, strace(call, "error=" + error, k))
-                    count.add(row, tried=1)
+                    count.add(row, "tried")
                     if note_first(slot, case, run, row, count, note):
                         check_results_folder(slot, row, count, note, False)
                         run_again(slot, case, row, count, note)
@@ -441,17 +423,14 @@ def calls_that_fail(share, count, add_job):
 
 # 3. A full disk.
 
-class Disk:
-    def __init__(self, at, bytes):
-        self.at = at
-        os.makedirs(at, exist_ok=True)
-        subprocess.run(["mount", "-t", "tmpfs", "-o", "size=%d" % bytes, "tmpfs", at], check=True)
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        subprocess.run(["umount", self.at], check=True)
+@contextlib.contextmanager
+def disk(at, bytes):
+    os.makedirs(at, exist_ok=True)
+    subprocess.run(["mount", "-t", "tmpfs", "-o", "size=%d" % bytes, "tmpfs", at], check=True)
+    try:
+        yield at
+    finally:
+        subprocess.run(["umount", at], check=True)
 
 
 def size_of(folder):
@@ -471,14 +450,14 @@ def full_disks(share, count, add_job):
                 disk_bytes = 65536 + int({"detect": part, "results": part / 4}[what] * full)
                 note = "%s: disk of %d KiB" % (case.name, disk_bytes // 1024)
                 slot.begin(case.state)
-                with Disk(slot.path("disk"), disk_bytes) as disk:
-                    small = os.path.join(disk.at, "folder")
+                with disk(slot.path("disk"), disk_bytes) as small_disk:
+                    small = os.path.join(small_disk, "folder")
                     place = slot.out if what == "results" else slot.workspace
                     arguments = [small if argument == place else argument for argument in case.arguments]
                     if i % 2 and what != "results":
                         arguments += ["--scratch", slot.folder]
                     run = slot.setting.run(arguments)
-                    count.add(row, tried=1)
+                    count.add(row, "tried")
                     if run.code == 0 and what == "results":
                         shutil.copytree(small, slot.out)
                     is_right = note_first(slot, case, run, row, count, note)
@@ -499,8 +478,7 @@ def full_disks(share, count, add_job):
 def streams_of(path):
     """Places of the streams of a part, so that small ones are damaged as often as large ones."""
     entry, trailer = 64, 48
-    with open(path, "rb") as file:
-        data = file.read()
+    data = Path(path).read_bytes()
     size = len(data)
     whole = [("all", [(0, size)])]
     if size < trailer or data[-8:] != b"lacuna03":
@@ -569,7 +547,7 @@ def damage(share, count, add_job):
             done = ", ".join(harm(slot.workspace, draw) for _ in range(draw.choice([1, 1, 1, 2, 3])))
             row = ("damage", what)
             note = "%s: %s" % (case.name, done)
-            count.add(row, tried=1)
+            count.add(row, "tried")
             if what == "work, then finish":
                 step = draw.choice(list(STEPS))
                 note = "work %s: %s" % (step, done)
@@ -581,32 +559,6 @@ def damage(share, count, add_job):
                 check_results_folder(slot, row, count, note, False)
                 if run.code != 0:
                     run_again(slot, case, row, count, note, may_fail=True)
-        add_job(job)
-
-
-def damaged_counts(share, count, add_job):
-    """A bit of a count of distances, which says how coarse the next level is, in a part that a unit reads."""
-    for i in range(max(1, round(15 * share))):
-        def job(slot, draw):
-            case = case_of(slot, "finish", draw)
-            slot.begin("evaluate-0")
-            parts = sorted(n for n in os.listdir(slot.workspace) if n.startswith("evaluate-0-"))
-            path = os.path.join(slot.workspace, draw.choice(parts))
-            begin, length = draw.choice(dict(streams_of(path))["distances"])
-            record = 16  # bin and count
-            at = begin + draw.randrange(length // record) * record + 8 + draw.choice([3, 4, 5])
-            with open(path, "r+b") as file:
-                file.seek(at)
-                byte = file.read(1)[0]
-                file.seek(at)
-                file.write(bytes([byte ^ (1 << draw.randrange(8))]))
-            row = ("damage", "work level-1, then finish; a count")
-            count.add(row, tried=1)
-            note = "work level-1: a bit of byte %d of %s" % (at, os.path.basename(path))
-            run = slot.setting.run(slot.work("level-1"))
-            if run.code != 0 and not run.is_clear_failure():
-                return count.wrong(row, "%s: %s" % (note, run))
-            note_first(slot, case, slot.setting.run(case.arguments), row, count, note)
         add_job(job)
 
 
@@ -630,7 +582,7 @@ def two_at_once(share, count, add_job):
                 second_run = slot.setting.start(second)
                 runs = [slot.setting.wait(first_run), slot.setting.wait(second_run)]
                 note = "%s, %s, %.2f s later" % (case.name, names[1], pause)
-                count.add(row, tried=1)
+                count.add(row, "tried")
                 for run in runs:
                     if run.code == 0:
                         continue
@@ -639,9 +591,9 @@ def two_at_once(share, count, add_job):
                     if is_unit and names[0] == names[1]:
                         return count.wrong(row, "%s: a copy of a unit fails: %s" % (note, run))
                 if any(run.code != 0 for run in runs):
-                    count.add(row, line=1)
+                    count.add(row, "one clear line")
                 else:
-                    count.add(row, right=1)
+                    count.add(row, "right at once")
                 if any(run.code == 0 for run in runs) and not is_unit and slot.problem():
                     return count.wrong(row, "%s: %s, then %s: %s" % (note, runs[0], runs[1], slot.problem()))
                 if names[1] == "finish" and runs[1].code == 0 and slot.problem():
@@ -651,7 +603,7 @@ def two_at_once(share, count, add_job):
 
 
 KINDS = {"kills": kills, "kills-at-calls": kills_at_calls, "calls": calls_that_fail, "disks": full_disks,
-         "damage": damage, "counts": damaged_counts, "two": two_at_once}
+         "damage": damage, "two": two_at_once}
 
 
 def main():
@@ -661,13 +613,9 @@ def main():
     parser.add_argument("--share", type=float, default=1, help="of the counts, such as 0.1")
     parser.add_argument("--kinds", default=",".join(KINDS), help="default: all")
     parser.add_argument("--seed", type=int, default=1)
-    # Each runs one case at a time, and most of these have one thread.
-    parser.add_argument("--workers", type=int, default=2)
-    parser.add_argument("--dir", default="/dev/shm" if os.path.isdir("/dev/shm") else None)
-    parser.add_argument("--minutes", type=float, default=1000, help="begin no case later")
     arguments = parser.parse_args()
     start = time.time()
-    folder = tempfile.mkdtemp(prefix="lacuna-faults-", dir=arguments.dir)
+    folder = tempfile.mkdtemp(prefix="lacuna-faults-", dir="/dev/shm" if os.path.isdir("/dev/shm") else None)
     count = Count()
     try:
         setting = Setting(os.path.abspath(arguments.lacuna), os.path.abspath(arguments.bench), folder, arguments.seed)
@@ -675,27 +623,25 @@ def main():
         for kind in arguments.kinds.split(","):
             KINDS[kind](arguments.share, count, jobs.append)
         random.Random(arguments.seed).shuffle(jobs)
-        slots = [Slot(setting, number) for number in range(arguments.workers)]
-        left_out = []
+        slots = queue.SimpleQueue()  # of those that are free
+        for number in range(WORKERS):
+            slots.put(Slot(setting, number))
 
         def do(number):
-            slot = threading.current_thread().__dict__.setdefault("slot", None) or slots.pop()
-            threading.current_thread().__dict__["slot"] = slot
-            if time.time() - start > arguments.minutes * 60:
-                return left_out.append(number)
+            slot = slots.get()
             try:
                 jobs[number](slot, random.Random("%d %d" % (arguments.seed, number)))
             except Exception as error:
                 count.wrong(("the harness", type(error).__name__), repr(error))
+            slots.put(slot)
 
-        with concurrent.futures.ThreadPoolExecutor(arguments.workers) as pool:
+        with concurrent.futures.ThreadPoolExecutor(WORKERS) as pool:
             list(pool.map(do, range(len(jobs))))
         print(count.table())
-        print("\n%d cases in %.0f minutes%s." % (len(jobs) - len(left_out), (time.time() - start) / 60,
-                                             ", %d left out" % len(left_out) if left_out else ""))
+        print("\n%d cases in %.0f minutes." % (len(jobs), (time.time() - start) / 60))
     finally:
         remove(folder)
-    return 1 if count.problems else 0
+    return 1 if any(counter["wrong"] for counter in count.rows.values()) else 0
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Each result, opened in a program that is not Lacuna: counts and values are those of holes.json. Skipped, with the names
-# of what is missing, unless all of these programs are installed.
+# Each result and the annotated scan, opened in a program that is not Lacuna: counts and values are those of holes.json.
+# Skipped, with the names of what is missing, unless all of these programs are installed.
 set -euo pipefail
 program=${LACUNA_PROGRAM:?}
 bench=${LACUNA_BENCH_PROGRAM:?}
@@ -36,15 +36,25 @@ with open("earth.txt", "w") as text:
         print(repr(x + 500_000.1), repr(y + 5_400_000.1), repr(z), file=text)
 END
 for scan in near.ply earth.txt; do
-  "$program" detect "$scan" --out "${scan%.*}" --obj --lids --points --quiet
+  "$program" detect "$scan" --out "${scan%.*}" --obj --lids --points --points-format ply --quiet
 done
 
-for name in loops boundary; do
+for name in loops boundary points; do
   xvfb-run -a CloudCompare -SILENT -NO_TIMESTAMP -O "near/$name.ply" -C_EXPORT_FMT ASC -ADD_HEADER -PREC 9 \
     -SAVE_CLOUDS FILE "$name.asc" >cloudcompare.log || { cat cloudcompare.log; exit 1; }
   pcl_ply2pcd "near/$name.ply" "$name.binary.pcd" >pcl.log 2>&1 || { cat pcl.log; exit 1; }
   pcl_convert_pcd_ascii_binary "$name.binary.pcd" "$name.pcd" 0 >pcl.log 2>&1 || { cat pcl.log; exit 1; }
 done
+"$program" detect near.ply --out text --points --points-format csv --quiet
+xvfb-run -a CloudCompare -SILENT -O text/points.csv >cloudcompare.log || { cat cloudcompare.log; exit 1; }
+grep --quiet "Found one cloud with $(($(wc --lines <text/points.csv) - 1)) points" cloudcompare.log
+# PCL has points of floats, which take doubles for 0 0 0. Local coordinates keep their extent of 39.
+awk 'BEGIN { for (i = 0; i < 1600; ++i) printf "%.2f %.2f 300\n", 500000.25 + i % 40, 5400000.25 + int(i / 40) }' >utm.xyz
+"$program" detect utm.xyz --out local --points --points-format ply --local-coordinates --quiet
+pcl_ply2pcd local/points.ply local.pcd >pcl.log 2>&1
+pcl_demean_cloud local.pcd middle.pcd >pcl.log 2>&1
+pcl_convert_pcd_ascii_binary middle.pcd local.pcd 0 >pcl.log 2>&1
+sed '1,/^DATA/d' local.pcd | awk '$1 > 19.4 && $2 > 19.4 { found = 1 } END { exit !found }'
 
 "$python" - <<'END'
 import csv
@@ -116,11 +126,15 @@ equal(found, [(*point, *COLOURS[point[5]]) for point in points], 1e-7)
 cloud = table("boundary.asc", ["X", "Y", "Z", "id", "probability", "loop"], lambda line: line.startswith("//"))
 assert len(cloud) == near["counts"]["boundary_points"]
 assert all(0 < row[4] <= 1 for row in cloud)
-print("CloudCompare reads loops.ply and boundary.ply")
+annotated = table("points.asc", ["X", "Y", "Z", "probability", "angle", "halfdisc", "shape", "boundary", "coherent", "loop"],
+                  lambda line: line.startswith("//"))
+assert len(annotated) == near["counts"]["points"]
+print("CloudCompare reads loops.ply, boundary.ply and points.ply")
 
 # PCL
 is_head = lambda line: line.startswith("FIELDS")
 equal(table("loops.pcd", ["x", "y", "z", "scalar_id", "scalar_loop", "scalar_outer"], is_head), points, 1e-6)
 equal(table("boundary.pcd", ["x", "y", "z", "scalar_id", "quality", "scalar_loop"], is_head), cloud, 1e-6)
-print("PCL reads loops.ply and boundary.ply")
+equal(table("points.pcd", ["x", "y", "z", "scalar_probability"], is_head), [row[:4] for row in annotated], 1e-6)
+print("PCL reads loops.ply, boundary.ply and points.ply")
 END

@@ -83,7 +83,6 @@ TEST_CASE("the data of a report are the loops and the sample, to a millionth of 
   CHECK(report.at("title") == "sc<an.txt");
   CHECK(page.find("sc<an.txt") == page.npos);  // no text of the scan is taken for a tag
   CHECK(report.at("counts") == holes.at("counts"));
-  CHECK(report.at("probability") == holes.at("probability"));
   CHECK(report.at("changed") == json::array({"report"}));
 
   const std::vector<Eigen::Vector3d> vertices = positions(page, "loop_vertices");

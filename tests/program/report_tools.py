@@ -1,194 +1,206 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks small tools of a report: measuring, the picture of the view, north, the range of diameters, the saved table."""
+"""Checks tools of a report: the section, measuring, the picture of the view, north, up, the range of diameters, the saved table."""
 
-import base64
 import csv
 import io
-import math
 import re
 import struct
 
-from report_browser import By, Keys, camera, next_picture, press, require, still, wait_for
+from report_browser import act, play, require, saved, value
 
-# Places of the window with a point of the scan, near the middle of the view and away from it.
-CLICK = """
-const canvas = document.getElementById('canvas'), box = canvas.getBoundingClientRect();
-const x = box.left + arguments[0] * box.width, y = box.top + arguments[1] * box.height;
-for (const type of ['pointerdown', 'pointerup']) {
-  canvas.dispatchEvent(new PointerEvent(type, {clientX: x, clientY: y, isPrimary: true, button: 0, bubbles: true}));
+LINE_PIXELS = 4  # half of the widest line, and its soft edge
+
+# A page begins without the roof that hides all else from above, if there is one; all heights are there after a reset.
+LIMITS = "['above', 'below'].map((name) => Number($(`#${name}-slider`).value))"
+ROOF = [
+    ("a roof was hidden at first, if any", f"(([above, below]) => !kept.has_roof || (above > kept.begin[0] && below === kept.begin[1]))({LIMITS})",
+     f"kept.begin = {LIMITS}; kept.has_roof = !$('#reset').disabled; $('#reset').click();"),
+]
+SECTION = [
+    ("the section shows all heights", f"([kept.high, kept.low] = {LIMITS})[0] > kept.low", "click #view-more", "click [data-side=side]"),
+]
+# Points or loops alone, seen from the side: above and below the middle of the heights.
+HIDES = [
+    ("{0}: the upper half is hidden", "(({{count, high, low}}, all) => 0 < count && count < all.count && low <= all.low + 1 && "
+     "high < all.high - 0.2 * (all.high - all.low))(lacuna.covered(), kept.all)",
+     "$('#show-{1}').click()", "kept.all = lacuna.covered()", "slide #above-slider = ${{(kept.low + kept.high) / 2}}"),
+    ("{0}: the lower half is hidden", "(({{count, high, low}}, all) => 0 < count && count < all.count && high >= all.high - 1 && "
+     "low > all.low + 0.2 * (all.high - all.low))(lacuna.covered(), kept.all)",
+     "slide #above-slider = ${{kept.high}}", "slide #below-slider = ${{(kept.low + kept.high) / 2}}"),
+    ("{0}: a reset brings all back", "JSON.stringify(lacuna.covered()) === JSON.stringify(kept.all)", "click #reset"),
+    ("{0}: alone no longer", "$('#show-{1}').checked", "$('#show-{1}').click()"),
+]
+# kept.places: pairs [id, [x, y]], a place of the window where each loop is picked.
+PICKED = """
+const box = $('#canvas').getBoundingClientRect(), places = new Map();
+for (let y = box.top + 6; y < box.bottom - 6; y += 24) {
+  for (let x = box.left + 6; x < box.right - 6; x += 24) {
+    const id = lacuna.loop_at(x, y);
+    if (id !== null) places.set(id, [x, y]);
+  }
 }
-return [document.getElementById('measure-text').textContent, lacuna.measured()];
-"""
-# Places of the names of the axes. In one script, since the page draws them anew.
-TRIAD = "return Object.fromEntries(Array.from(document.querySelectorAll('#triad text')," \
-        "(text) => [text.textContent, ['x', 'y'].map((key) => Number(text.getAttribute(key)))]))"
-CATCH_BLOB = """
-window.caught = null;
-const make = URL.createObjectURL;
-URL.createObjectURL = (blob) => {
-  const reader = new FileReader();
-  reader.onload = () => { window.caught = reader.result; };
-  reader.readAsDataURL(blob);
-  URL.createObjectURL = make;
-  return '#';
-};
-document.getElementById(arguments[0]).click();
-"""
+kept.places = Array.from(places);
+// Between the lowest and the highest of them there is a height that hides one and leaves another one.
+const heights = new Map(kept.places.map(([id]) => [id, lacuna.heights(id)]));
+kept.middle = (Math.min(...Array.from(heights.values(), ([, top]) => top)) + Math.max(...Array.from(heights.values(), ([bottom]) => bottom))) / 2;
+const ids = Array.from(heights.keys());
+kept.hidden = ids.filter((id) => heights.get(id)[0] > kept.middle);
+kept.left = ids.filter((id) => heights.get(id)[1] < kept.middle);"""
+NOW = "kept.now = kept.places.map(([, [x, y]]) => lacuna.loop_at(x, y))"
+SECTION_OF_LOOPS = [
+    # What is shown up to the height of the camera that looks ahead ends in the middle of the picture.
+    ("edges of loops are cut at the height", f"(({{high, height}}) => high - height / 2 <= {LINE_PIXELS})(lacuna.covered())",
+     "$('#show-points').click()", "type #above-number = ${lacuna.camera()[2].toFixed(6)}", "press TAB"),
+    ("loops are picked, some above a height", "kept.hidden.length > 0", "click #reset", "$('#show-points').click()", "click [data-side=top]", PICKED),
+    ("the field moves the slider", f"Math.abs({LIMITS}[0] - kept.middle) <= (kept.high - kept.low) / 200",
+     "type #above-number = ${kept.middle.toFixed(6)}", "press TAB"),
+    ("the field keeps what is typed", "Number($('#above-number').value) === Number(kept.middle.toFixed(6))"),
+    ("hidden loops are not picked", "kept.hidden.every((id) => !kept.now.includes(id))", NOW),
+    ("loops that are left are picked", "kept.left.length > 0 && kept.left.every((id) => kept.now.includes(id))"),
+    ("after a reset all are picked", "kept.places.every(([id], i) => kept.now[i] === id)", "click #reset", NOW),
+
+    ("the lowest height hides all", "lacuna.covered().count === 0", "slide #above-slider = ${kept.low}"),
+    ("the table keeps the hidden loops", "lacuna.shown() === page.data.loops.count"),
+    ("a flight to a hidden loop opens the section", f"String({LIMITS}) === String([kept.high, kept.low])", "click #body tr[data-row='0']"),
+    ("the loop is seen", "lacuna.covered().count > 0"),
+    ("Escape brings the section back", f"String({LIMITS}) === String([kept.low, kept.low])", "press ESCAPE"),
+    ("Escape leaves a section that was moved since", f"String({LIMITS}) === String([kept.high, kept.high])",
+     "press n", "slide #below-slider = ${kept.high}", "press ESCAPE"),
+    ("a reset clears it", f"String({LIMITS}) === String([kept.high, kept.low])", "click #reset"),
+]
+SECTION_BY_KEYS = [
+    ("an arrow key moves the slider", f"kept.low < {LIMITS}[0] && {LIMITS}[0] < kept.high",
+     "kept.home = lacuna.camera()", "$('#above-slider').focus()", "press ARROW_LEFT"),
+    ("the arrow key does not turn the view", "String(lacuna.camera()) === String(kept.home)"),
+    ("a screen reader says it", "$('#above-slider').ariaValueText.startsWith('above ')"),
+    ("the legend names what is hidden", "$('#legend').textContent.includes('Hidden: above')"),
+    ("at its end it is off", "$('#above-slider').ariaValueText === 'off'", "press END"),
+    ("there is nothing to reset", "$('#reset').disabled"),
+    ("the settings are closed", "$('#view-settings').hidden", "click [data-side=front]", "click #view-more"),
+]
+
+# Clicks go on until two of them are on points of the scan.
+CLICKS = """
+const box = $('#canvas').getBoundingClientRect();
+kept.clicks = [];
+for (let i = 0; i < 8 && kept.clicks.length < 2; ++i) {
+  const part = [0.3 + 0.05 * i, 0.3 + 0.06 * i], before = page.measure.places.length;
+  const clientX = box.left + part[0] * box.width, clientY = box.top + part[1] * box.height;
+  for (const type of ['pointerdown', 'pointerup'])
+    $('#canvas').dispatchEvent(new PointerEvent(type, {clientX, clientY, isPrimary: true, button: 0, bubbles: true}));
+  if (page.measure.places.length > before) kept.clicks.push(part);
+}"""
+MEASURE = [
+    ("M begins to measure", "$('#measure').ariaPressed === 'true'", "click [data-side=top]", "click [data-side=fit]", "press m"),
+    ("clicks choose two points of the scan", "kept.clicks.length === 2 && page.measure.places.length === 2", CLICKS),
+    ("they select no loop", "lacuna.selected() === null"),
+    ("the distance is shown", "Math.abs(kept.shown - kept.length) <= 1e-3 * kept.length",
+     "kept.length = distance(...page.measure.places.map((place) => to_real(page.data.frame, place)));"
+     "const [, shown, unit] = /^([\\d.,]+)( mm)?/.exec($('#measure-text').textContent);"
+     "kept.shown = Number(shown.replace(/,/g, '')) / (unit ? 1000 : 1);"),
+    ("two signs stand at the points", "$$('#measure-over circle').length === 2"),
+    ("where they were chosen", "distance([sign.cx.baseVal.value / box.width, sign.cy.baseVal.value / box.height], kept.clicks[1]) < 0.03",
+     "window.sign = $$('#measure-over circle')[1]; window.box = $('#canvas').getBoundingClientRect();"),
+    ("Escape ends measuring", "$('#measure-panel').hidden", "press ESCAPE"),
+]
+
+# Places of the names of the axes.
+TRIAD = "Object.fromEntries($$('#triad text').map((text) => [text.textContent, ['x', 'y'].map((key) => Number(text.getAttribute(key)))]))"
+TURN = "Number(/rotate\\((.*?)\\)/.exec($('#north path').getAttribute('transform'))[1])"  # of the needle, in degrees clockwise
+NORTH = [
+    ("an arrow shows north if there is a CRS", "$('#north').hasAttribute('hidden') !== Boolean(page.data.report.crs)", "click [data-side=top]"),
+]
+NORTH_OF_CRS = [
+    ("from above it shows up", f"Math.abs({TURN}) < 0.5"),
+    ("it turns with the view, as y does", f"Math.abs(kept.turn) > 1 && Math.abs({TURN} - kept.turn) < 0.5",
+     "$('#canvas').focus()", *["press ARROW_LEFT"] * 3,
+     f"const [x, y] = {TRIAD}.y; kept.turn = Math.atan2(x, 3.5 - y) * 180 / Math.PI;"),
+]
 
 
-def saved(driver, button):
-    """The bytes of the file that a button saves."""
-    driver.execute_script(CATCH_BLOB, button)
-    wait_for(driver, "window.caught", "a file is saved")
-    return base64.b64decode(driver.execute_script("return window.caught").split(",")[1])
+def up_steps(axis):
+    """From above, the camera is along the axis that is up. The section has the heights along it."""
+    slider = "$('#above-slider')"
+    return [
+        (f"with {'xyz'[axis]} up, Top looks along it", f"kept.eye[{axis}] > 0.999 * Math.hypot(...kept.eye)",
+         f"choose #up-axis = {axis}", "click [data-side=top]",
+         "const target = lacuna.target(); kept.eye = lacuna.camera().map((value, k) => value - target[k]);"),
+        ("from the front it goes up", f"(([x, y]) => Math.abs(x) < 0.5 && y < -20)({TRIAD}.{'xyz'[axis]})", "click [data-side=front]"),
+        ("the section reaches as far as the scan", f"['min', 'max'].every((end, k) => Math.abs({slider}[end] - lacuna.bounds({axis})[k]) <= {slider}.step)"),
+    ]
 
 
-def check_measure(driver):
-    driver.find_element(By.CSS_SELECTOR, "[data-side=top]").click()
-    still(driver)
-    driver.find_element(By.CSS_SELECTOR, "[data-side=fit]").click()
-    still(driver)
-    press(driver, "m")
-    require(driver.find_element(By.ID, "measure").get_attribute("aria-pressed") == "true", "M begins to measure")
-    found = []
-    for at in [(0.3 + 0.05 * i, 0.3 + 0.06 * i) for i in range(8)]:
-        _, places = driver.execute_script(CLICK, *at)
-        if len(places) > len(found):
-            found.append(at)
-        if len(found) == 2:
-            break
-    require(len(found) == 2 and len(places) == 2, "clicks choose two points of the scan")
-    require(driver.execute_script("return lacuna.selected()") is None, "they select no loop")
-    text = driver.find_element(By.ID, "measure-text").text
-    length = math.dist(*places)
-    shown = float(re.match(r"[\d.,]+", text).group().replace(",", ""))
-    factor = 1000 if re.match(r"[\d.,]+ mm", text) else 1
-    require(abs(shown / factor - length) <= 1e-3 * length, f"the distance {length:.4g} is shown as {shown:.4g}")
-    require(len(driver.find_elements(By.CSS_SELECTOR, "#measure-over circle")) == 2, "two signs stand at the points")
-    sign = driver.find_elements(By.CSS_SELECTOR, "#measure-over circle")[1]
-    box = driver.execute_script("const b = document.getElementById('canvas').getBoundingClientRect(); return [b.width, b.height]")
-    away = math.dist((float(sign.get_attribute("cx")) / box[0], float(sign.get_attribute("cy")) / box[1]), found[1])
-    require(away < 0.03, f"where they were chosen ({away:.3f} of the view away)")
-    press(driver, Keys.ESCAPE)
-    require(not driver.find_element(By.ID, "measure-panel").is_displayed(), "Escape ends measuring")
+UP = [
+    ("from above", "(kept.home = lacuna.camera()).length === 3", "click [data-side=top]"),
+    *up_steps(0), *up_steps(1), *up_steps(2),
+    ("z again, the view is as at first", "are_close(lacuna.camera(), kept.home)", "click [data-side=top]"),
+]
+
+RANGE = [
+    ("loops are at most as large as the middle one", "(kept.below = kept.sizes.filter((size) => size <= Number(kept.middle)).length) === lacuna.shown()",
+     "const factor = $('#size-unit').textContent === 'mm' ? 1000 : 1;"
+     "kept.sizes = Array.from(page.data.loops.diameter, (size) => size * factor).sort((a, b) => a - b);"
+     "kept.middle = (kept.sizes[Math.floor(kept.sizes.length / 2)] * 1.0001).toFixed(6);",
+     "type #size-most = ${kept.middle.replace('.', ',')}"),
+    ("some are", "kept.below > 0"),
+    ("other text is marked", "$('#size-most').ariaInvalid === 'true'", "type #size-most = 2,5m"),
+    ("it filters nothing", "lacuna.shown() === page.data.loops.count"),
+    ("none is at most 0 large", "lacuna.shown() === 0", "type #size-most = 0"),
+    ("a reset shows all", "lacuna.shown() === page.data.loops.count", "click #reset"),
+]
+
+
+def saved_table(driver):
+    """The head and the rows."""
+    head, *rows = csv.reader(io.StringIO(saved(driver, "#csv").decode(), newline=""))
+    return head, rows
 
 
 def check_picture(driver):
-    png = saved(driver, "picture")
-    size = struct.unpack(">II", png[16:24])
-    canvas = driver.execute_script("const c = document.getElementById('canvas'); return [c.width, c.height]")
-    require(png[:8] == b"\x89PNG\r\n\x1a\n" and list(size) == canvas, f"the picture of the view is a PNG of {size[0]} x {size[1]} pixels")
+    png = saved(driver, "#picture")
+    size = list(struct.unpack(">II", png[16:24]))
+    require(png[:8] == b"\x89PNG\r\n\x1a\n" and size == value(driver, "[$('#canvas').width, $('#canvas').height]"),
+            f"the picture of the view is a PNG of {size[0]} x {size[1]} pixels")
     require(len(png) > 5000, f"it is not empty ({len(png)} bytes)")
 
 
-def needle_turn(needle):
-    """Degrees clockwise."""
-    return float(re.search(r"rotate\((.*?)\)", needle.find_element(By.TAG_NAME, "path").get_attribute("transform")).group(1))
+def set_note(driver, text):
+    driver.execute_script("const note = $('#note'); note.value = arguments[0]; note.dispatchEvent(new Event('input'));", text)
 
 
-def check_north(driver):
-    has_crs = driver.execute_script("return lacuna.crs !== null")
-    driver.find_element(By.CSS_SELECTOR, "[data-side=top]").click()
-    still(driver)
-    needle = driver.find_element(By.ID, "north")
-    require(needle.is_displayed() == has_crs, "an arrow shows north" if has_crs else "without a CRS nothing shows north")
-    if has_crs:
-        require(abs(needle_turn(needle)) < 0.5, "from above it shows up")
-        driver.execute_script("document.getElementById('canvas').focus()")
-        press(driver, Keys.ARROW_LEFT * 3)
-        still(driver)
-        x, y = driver.execute_script(TRIAD)["y"]
-        wanted = math.degrees(math.atan2(x, 3.5 - y))
-        require(abs(wanted) > 1 and abs(needle_turn(needle) - wanted) < 0.5, f"it turns with the view, as y does ({wanted:.1f} degrees)")
-
-
-def choose_up(driver, axis):
-    driver.execute_script("const list = document.getElementById('up-axis'); list.value = arguments[0]; list.dispatchEvent(new Event('change'));", axis)
-    next_picture(driver)
-    still(driver)
-
-
-def check_up(driver):
-    """From above, the camera is along the axis that is up. The section has the heights along it."""
-    driver.find_element(By.CSS_SELECTOR, "[data-side=top]").click()
-    still(driver)
-    home = camera(driver)
-    for axis in (0, 1, 2):
-        choose_up(driver, axis)
-        driver.find_element(By.CSS_SELECTOR, "[data-side=top]").click()
-        still(driver)
-        eye = [a - b for a, b in zip(camera(driver), driver.execute_script("return lacuna.target()"))]
-        require(eye[axis] > 0.999 * math.hypot(*eye), f"with {'xyz'[axis]} up, Top looks along it")
-        driver.find_element(By.CSS_SELECTOR, "[data-side=front]").click()
-        still(driver)
-        x, y = driver.execute_script(TRIAD)["xyz"[axis]]
-        require(abs(x) < 0.5 and y < -20, "from the front it goes up")
-        low, high = driver.execute_script("return lacuna.bounds()[arguments[0]]", axis)
-        slider = driver.find_element(By.ID, "above-slider")
-        ends = [float(slider.get_attribute(name)) for name in ("min", "max")]
-        step = float(slider.get_attribute("step"))
-        require(abs(ends[0] - low) <= step and abs(ends[1] - high) <= step, f"the section reaches from {ends[0]} to {ends[1]}")
-    driver.find_element(By.CSS_SELECTOR, "[data-side=top]").click()
-    still(driver)
-    require(all(abs(a - b) < 1e-6 * (1 + abs(b)) for a, b in zip(camera(driver), home)), "z again, the view is as at first")
-
-
-def type_in(driver, name, text):
-    field = driver.find_element(By.ID, name)
-    field.send_keys(Keys.CONTROL + "a")
-    field.send_keys(text or Keys.DELETE)
-    next_picture(driver)
-    return field
-
-
-def shown(driver):
-    return driver.execute_script("return lacuna.visible_loops()")
-
-
-def check_range(driver, count):
-    sizes = driver.execute_script("return lacuna.diameters()")
-    factor = 1000 if driver.find_element(By.ID, "size-unit").text == "mm" else 1
-    middle = sorted(sizes)[len(sizes) // 2] * factor * 1.0001
-    type_in(driver, "size-most", f"{middle:.6f}".replace(".", ","))
-    below = sum(size * factor <= float(f"{middle:.6f}") for size in sizes)
-    require(shown(driver) == below > 0, f"{below} of {count} loops are at most as large as {middle:.4g}")
-    require(type_in(driver, "size-most", "2,5m").get_attribute("aria-invalid") == "true", "other text is marked")
-    require(shown(driver) == count, "it filters nothing")
-    type_in(driver, "size-most", "0")
-    require(shown(driver) == 0, "none is at most 0 large")
-    driver.find_element(By.ID, "reset").click()
-    wait_for(driver, f"lacuna.visible_loops() === {count}", "a reset shows all")
-
-
-def check_table(driver, count):
+def check_table(driver):
     """The saved table: units in its header, short digits, and notes as they are."""
-    press(driver, "n")
-    still(driver)
+    act(driver, "press n")
     note = "a, \"b\"\nc"
-    driver.execute_script("const note = document.getElementById('note'); note.value = arguments[0]; note.dispatchEvent(new Event('input'));", note)
-    rows = list(csv.reader(io.StringIO(saved(driver, "csv").decode(), newline="")))
-    head, rows = rows[0], rows[1:]
-    unit = driver.execute_script("return lacuna.unit")
+    set_note(driver, note)
+    head, rows = saved_table(driver)
+    unit = value(driver, "page.units.unit")
     for name, wanted in {"perimeter": unit, "area": unit + "^2", "diameter": unit, "x": unit, "confidence": ""}.items():
         require((f"{name} ({wanted})" if unit and wanted else name) in head, f"the head names {name} with its unit '{wanted}'")
-    require(len(rows) == count and all(len(row) == len(head) for row in rows), f"{count} rows have {len(head)} values")
+    require(len(rows) == value(driver, "page.data.loops.count") and all(len(row) == len(head) for row in rows), f"{len(rows)} rows have {len(head)} values")
     require([row[-1] for row in rows].count(note) == 1, "a note of lines and quotes is one value")
     values = [word for row in rows for name, word in list(zip(head, row))[2:-2] if word and name != "cause"]
     require(all(float(word) is not None and len(re.sub(r"[-.]|e.*", "", word).lstrip("0")) <= 15 for word in values),
             f"{len(values)} numbers have no noise of binary fractions")
-    require(driver.execute_script("return lacuna.short_place(849393.9500000001)") == 849393.95, "849393.9500000001 is written as 849393.95")
-    driver.execute_script("const note = document.getElementById('note'); note.value = ''; note.dispatchEvent(new Event('input'));")
-    press(driver, Keys.ESCAPE)
-    still(driver)
+    require(value(driver, "short_place(849393.9500000001)") == 849393.95, "849393.9500000001 is written as 849393.95")
+    set_note(driver, "")
+    act(driver, "press ESCAPE")
 
 
-def check(driver, count):
-    check_measure(driver)
+def check(driver):
+    has_loops = value(driver, "page.data.loops.count > 0")
+    play(driver, ROOF)
+    if value(driver, "$('#section').disabled"):
+        require(value(driver, f"(([above, below]) => above === below)({LIMITS})"), "a flat scan has no section")
+    else:
+        play(driver, SECTION)
+        for shown, hidden in [("points", "loops"), ("loops", "points")][:1 + has_loops]:
+            play(driver, [tuple(part.format(shown, hidden) for part in step) for step in HIDES])
+        play(driver, (SECTION_OF_LOOPS if has_loops else []) + SECTION_BY_KEYS)
+    play(driver, MEASURE)
     check_picture(driver)
-    check_north(driver)
-    check_up(driver)
-    if count > 0:
-        check_range(driver, count)
-        check_table(driver, count)
-    driver.find_element(By.CSS_SELECTOR, "[data-side=front]").click()
-    still(driver)
+    play(driver, NORTH + (NORTH_OF_CRS if value(driver, "page.data.report.crs") else []) + UP)
+    if has_loops:
+        play(driver, RANGE)
+        check_table(driver)
+    act(driver, "click [data-side=front]")

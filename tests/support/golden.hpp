@@ -1,39 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
-// Golden results of real scans, made by another program. They lie next to the checkout, in the shared folder;
-// tests are skipped where that is absent. Those of synthetic clouds: made_golden.hpp.
+// The golden results in tests/data/golden.txt: what the plain reference finds in small drawn clouds.
+// `make_golden` writes them anew:
+//     ninja -C build make_golden && build/tests/make_golden
+// Each line has the name of a case and one of its findings: a loop, or the digest of all that is of one kind.
+// So a line that differs says what has changed.
 #pragma once
 
 #include "engine/config/config.hpp"
 #include "engine/model/ids.hpp"
 #include "tests/support/clouds.hpp"
-#include "tests/support/test.hpp"
+
+#include <string>
+#include <vector>
 
 namespace lacuna {
 
-// $LACUNA_SHARED, else `shared` next to the source folder. Where that is no folder: none, and the running
-// test case is skipped.
-std::optional<fs::path> shared_folder();
-
-struct GoldenPoint {
-  double angle = 0, halfdisc = 0, shape = 0, probability = 0;
-  bool coherent = false;
-};
-
-using GoldenLoops = std::vector<std::vector<PointId>>;  // sorted
-
-struct GoldenSetting {
-  std::string name;   // of its files in shared/golden
-  std::string cloud;  // file in the shared folder
+struct GoldenCase {
+  std::string name;
+  Cloud cloud;
   Config config;
 };
 
-// All seven.
-std::vector<GoldenSetting> golden_settings();
+// Two settings for each cloud and each method.
+std::vector<GoldenCase> golden_cases();
 
-std::vector<GoldenPoint> read_golden_points(const fs::path& shared, const GoldenSetting& setting);
-GoldenLoops read_golden_loops(const fs::path& shared, const GoldenSetting& setting);
+struct GoldenOutcome {
+  struct Loop {
+    std::vector<PointId> points;
+    double confidence = 0;
+  };
+  struct Point {
+    double probability = 0;
+    bool coherent = false, boundary = false;
+  };
+  std::vector<Point> points;  // in input order
+  std::vector<Loop> loops;    // in any order
+};
 
-// A scan in any format of io/, with its normals if it has them.
-Cloud read_cloud(const fs::path& file);
+// The lines of a case. Probabilities count to 2^-24, confidences to three decimals.
+std::string golden_lines(const GoldenCase& golden, GoldenOutcome outcome);
+
+inline const std::string kGoldenFile = "tests/data/golden.txt";  // in the checkout
 
 }  // namespace lacuna

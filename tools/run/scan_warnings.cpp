@@ -398,7 +398,7 @@ std::vector<std::string> scan_warnings(const ScanFiles& scan, const ExplainedDet
   const bool thins = counts.thinned_out > counts.points / 100;
   if (config.scale.min_hole > 0 && summary.resolution > 0 && !thins && points > 0) {
     warnings.push_back(fmt::format(
-        "--min-hole {:g} thins nothing: neighbours are {:g} apart{}; it is a length in the unit of the scan",
+        "--min-hole {:g} thins nothing: neighbours are {:g}{} apart; it is a length in the unit of the scan",
         config.scale.min_hole, summary.median_distance,
         scan.length_unit().empty() ? "" : " " + scan.length_unit()));
   }

@@ -200,7 +200,6 @@ Json report_of(const Scene& scene) {
           {"parameters", holes.at("parameters")},
           {"changed", changed_parameters(holes.at("parameters"))},
           {"run", run_of(scene.run)},
-          {"probability", holes.at("probability")},
           {"frame", {{"origin", list(scene.origin)}, {"edge", scene.edge}}},
           {"sample",
            {{"points", points.positions.size()},

@@ -2,7 +2,6 @@
 #include "io/read/formats.hpp"
 #include "io/read/pcd/lzf.hpp"
 #include "tests/io/broken_files.hpp"
-#include "tests/support/golden.hpp"
 #include "tests/support/skip.hpp"
 
 namespace lacuna::test {

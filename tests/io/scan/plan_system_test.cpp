@@ -4,7 +4,7 @@
 #include "io/read/scan/scan_pass.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/drawn_files.hpp"
-#include "tests/support/golden.hpp"
+#include "tests/support/skip.hpp"
 
 namespace lacuna::test {
 namespace {

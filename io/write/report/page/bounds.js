@@ -24,7 +24,7 @@ function scene_heights(bounds, {report, frame}) {
   return all[1] - all[0] <= 2 * (usual[1] - usual[0]) ? all : usual;
 }
 
-// Box of a loop's vertices; null without vertices.
+// Box of a loop's vertices, its middle and half its diagonal; null without vertices.
 function loop_box({first, vertices}, index) {
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
   for (let i = first[index]; i < first[index + 1]; ++i) {
@@ -33,7 +33,9 @@ function loop_box({first, vertices}, index) {
       high[axis] = Math.max(high[axis], vertices[3 * i + axis]);
     }
   }
-  return first[index + 1] > first[index] ? {low, high} : null;
+  if (first[index + 1] <= first[index]) return null;
+  const middle = low.map((value, axis) => (value + high[axis]) / 2);
+  return {low, high, middle, radius: Math.hypot(...low.map((value, axis) => high[axis] - value)) / 2};
 }
 
 // Box of most positions, so that a few outliers do not make the rest small. Null without positions.

@@ -4,28 +4,13 @@
 
 // In the order of the legend, the filter and the sort. The style --cause-NAME has the colour of each: they differ for
 // colour-blind readers, too (Machado, Oliveira, Fernandes 2009), by 0.11 or more in OKLab.
-const kCauses = [
-  {name: "hidden", title: "hidden"},
-  {name: "opening", title: "opening"},
-  {name: "out_of_view", title: "out of view"},
-  {name: "no_return", title: "no return"},
-  {name: "filtered", title: "filtered"},
-];
-const kChanges = [
-  {name: "opened", title: "opened"},
-  {name: "closed", title: "closed"},
-  {name: "changed", title: "changed"},
-  {name: "found_now", title: "found now"},
-  {name: "not_found_now", title: "not found now"},
-  {name: "same", title: "same"},
-  {name: "not_comparable", title: "not comparable"},
-];
+const kCauses = ["hidden", "opening", "out_of_view", "no_return", "filtered"];
+const kChanges = ["opened", "closed", "changed", "found_now", "not_found_now", "same", "not_comparable"];
 const kNoCause = "none";  // of outer curves, and of holes where no station counts
 const kLeastShare = 0.01;  // of a hole's area: smaller ones are not named
 
 function cause_title(name) {
-  const known = [...kCauses, ...kChanges].find((cause) => cause.name === name);
-  return known ? known.title : "not known";
+  return name === kNoCause ? "not known" : name.replace(/_/g, " ");
 }
 
 function cause_style(name) {
@@ -44,14 +29,14 @@ function loop_style(loops, index, by_cause) {
 
 // Places among the causes; NaN without a cause.
 function cause_ranks(loops) {
-  const ranks = new Map(loops.causes.map(({name}, rank) => [name, rank]));
+  const ranks = new Map(loops.causes.map((name, rank) => [name, rank]));
   return Float64Array.from(loops.cause, (name) => (ranks.has(name) ? ranks.get(name) : NaN));
 }
 
 // [name, count] of the causes of these holes (indices), or of the changes of these loops; without zeros, and kNoCause
 // comes last.
 function cause_counts(loops, indices) {
-  const counts = new Map([...loops.causes.map(({name}) => [name, 0]), [kNoCause, 0]]);
+  const counts = new Map([...loops.causes.map((name) => [name, 0]), [kNoCause, 0]]);
   for (const i of indices) {
     if (loops.is_hole[i] || loops.has_changes) counts.set(loops.cause[i], (counts.get(loops.cause[i]) || 0) + 1);
   }
@@ -69,7 +54,7 @@ function connect_causes(loops) {
   find("loop-colouring").querySelector("[value=cause]").textContent = word;
   find("cause-select").querySelector(".unseen").textContent = loops.cause_word;
   find("cause-filter").append(option("any", `Any ${word}`),
-      ...loops.causes.map(({name, title}) => option(name, `${title[0].toUpperCase()}${title.slice(1)} (${format_count(counts.get(name) || 0)})`)),
+      ...loops.causes.map((name) => option(name, `${name[0].toUpperCase()}${cause_title(name).slice(1)} (${format_count(counts.get(name) || 0)})`)),
       ...(loops.has_changes ? [] : [option(kNoCause, "No cause")]));
 }
 
@@ -80,14 +65,14 @@ function cause_rows({loops, stations}, index, decimals) {
             ["Before", loops.earlier[index] || "none"]];
   }
   if (!loops.has_causes || !loops.is_hole[index]) return [];
-  const shares = kCauses.map(({name, title}) => ({title, share: loops.shares[name][index]}))
+  const shares = kCauses.map((name) => ({title: cause_title(name), share: loops.shares[name][index]}))
       .filter(({share}) => share > kLeastShare).sort((a, b) => b.share - a.share);
   if (loops.cause[index] === kNoCause || shares.length === 0) return [["Cause", cause_title(loops.cause[index])]];
   const words = shares.map(({title, share}) => `${title} ${Math.round(100 * share)} %`).join(", ");
   const rows = [["Cause", element("span", {}, cause_swatch(loops.cause[index], "dot"), words), "wide"]];
   const station = stations[loops.hidden_from[index]];
   if (station && loops.shares.hidden[index] > kLeastShare) {
-    const place = [0, 1, 2].map((axis) => format_place(loops.hidden_by[3 * index + axis], decimals)).join("  ");
+    const place = vector_of(loops.hidden_by, index).map((value) => format_place(value, decimals)).join("  ");
     rows.push(["Hidden by", `what stands at ${place}, from station ${station.name}`, "wide"]);
   }
   return rows;

@@ -29,13 +29,11 @@ function spread_step(count) {
 function unpack_positions(bytes, step) {
   const count = Math.floor(bytes.length / 8);
   const words = new DataView(bytes.buffer, bytes.byteOffset, count * 8);
-  const is_little = new Uint8Array(new Uint32Array([1]).buffer)[0] === 1 && bytes.byteOffset % 4 === 0;
-  const plain = is_little ? new Uint32Array(bytes.buffer, bytes.byteOffset, count * 2) : null;
   const out = new Float32Array(count * 3);
   const scale = 1 / 2097152;
   for (let i = 0, from = 0, to = 0; i < count; ++i, from = (from + step) % count) {
-    const low = plain ? plain[2 * from] : words.getUint32(8 * from, true);
-    const high = plain ? plain[2 * from + 1] : words.getUint32(8 * from + 4, true);
+    const low = words.getUint32(8 * from, true);
+    const high = words.getUint32(8 * from + 4, true);
     out[to++] = ((low & 0x1fffff) + 0.5) * scale - 0.5;
     out[to++] = (((low >>> 21) | ((high & 0x3ff) << 11)) + 0.5) * scale - 0.5;
     out[to++] = (((high >>> 10) & 0x1fffff) + 0.5) * scale - 0.5;
@@ -43,27 +41,18 @@ function unpack_positions(bytes, step) {
   return out;
 }
 
-// Per point: probability and the two numbers of its normal, as bytes that a shader reads as 0 to 1 (normals: 128 is 0).
-function pack_attributes(count, step, probabilities, normals) {
+// Four bytes per point, in the order in which points are drawn; `of(from)` gives those of a point of the report.
+function pack(count, step, of) {
   const out = new Uint8Array(count * 4);
-  const has_normals = normals.length >= 2 * count;
-  for (let i = 0, from = 0; i < count; ++i, from = (from + step) % count) {
-    out[4 * i] = probabilities[from] || 0;
-    out[4 * i + 1] = has_normals ? normals[2 * from] ^ 0x80 : 128;  // int8 + 128
-    out[4 * i + 2] = has_normals ? normals[2 * from + 1] ^ 0x80 : 128;
-  }
+  for (let i = 0, from = 0; i < count; ++i, from = (from + step) % count) out.set(of(from), 4 * i);
   return out;
 }
 
-function pack_colours(count, step, colours) {
-  const out = new Uint8Array(count * 4);
-  for (let i = 0, from = 0; i < count; ++i, from = (from + step) % count) {
-    out[4 * i] = colours[3 * from];
-    out[4 * i + 1] = colours[3 * from + 1];
-    out[4 * i + 2] = colours[3 * from + 2];
-    out[4 * i + 3] = 255;
-  }
-  return out;
+// Probability and the two numbers of the normal, which a shader reads as 0 to 1 (normals: 128 is 0).
+function pack_attributes(count, step, probabilities, normals) {
+  const has_normals = normals.length >= 2 * count;
+  const part = (at) => (has_normals ? normals[at] ^ 0x80 : 128);  // int8 + 128
+  return pack(count, step, (from) => [probabilities[from] || 0, part(2 * from), part(2 * from + 1), 0]);
 }
 
 // Numbers of a column; NaN stands for null, which is a value that is not finite.
@@ -76,14 +65,16 @@ function number_column(values, count) {
 }
 
 function vector_column(values, count) {
-  const out = new Float64Array(count * 3).fill(NaN);
-  for (let i = 0; i < count && values; ++i) {
-    for (let axis = 0; axis < 3 && values[i]; ++axis) {
-      if (typeof values[i][axis] === "number") out[3 * i + axis] = values[i][axis];
-    }
-  }
-  return out;
+  return number_column(values && values.flatMap((vector) => vector || [null, null, null]), 3 * count);
 }
+
+// The three numbers of a row of such a column.
+function vector_of(column, index) {
+  return Array.from(column.subarray(3 * index, 3 * index + 3));
+}
+
+// The measures of a loop, in the order of holes.csv.
+const kMeasures = ["points", "confidence", "prominence", "first_scale", "last_scale", "perimeter", "area", "diameter", "planarity", "mean_probability"];
 
 // `has_stations`: causes are known from stations. Changes since an earlier result take their place.
 function read_loops(loops, has_stations) {
@@ -94,17 +85,7 @@ function read_loops(loops, has_stations) {
     count,
     all: loops && Number.isFinite(loops.all) ? loops.all : count,
     is_hole: Uint8Array.from({length: count}, (_, i) => (loops.kind[i] === "hole" ? 1 : 0)),
-    id: column("id"),
-    points: column("points"),
-    confidence: column("confidence"),
-    prominence: column("prominence"),
-    first_scale: column("first_scale"),
-    last_scale: column("last_scale"),
-    perimeter: column("perimeter"),
-    area: column("area"),
-    diameter: column("diameter"),
-    planarity: column("planarity"),
-    mean_probability: column("mean_probability"),
+    ...Object.fromEntries(["id", ...kMeasures].map((name) => [name, column(name)])),
     centroid: vector_column(loops && loops.centroid, count),
     normal: vector_column(loops && loops.normal, count),
     has_changes,
@@ -113,7 +94,7 @@ function read_loops(loops, has_stations) {
     cause_word: has_changes ? "Change" : "Cause",
     cause: Array.from({length: count}, (_, i) => (has_changes ? loops.change[i] : loops.cause && loops.cause[i]) || kNoCause),
     earlier: (loops && loops.earlier) || [],
-    shares: Object.fromEntries(kCauses.map(({name}) => [name, column(name)])),
+    shares: Object.fromEntries(kCauses.map((name) => [name, column(name)])),
     hidden_by: vector_column(loops && loops.hidden_by, count),
     hidden_from: column("hidden_from"),
     hidden_from_place: vector_column(loops && loops.hidden_from_place, count),
@@ -145,7 +126,7 @@ function read_data() {
       positions: unpack_positions(bytes, step),
       attributes: pack_attributes(count, step, take_bytes("probabilities"),
                                   has_normals ? take_bytes("normals") : new Uint8Array(0)),
-      colours: sample.has_colours && colours.length >= 3 * count ? pack_colours(count, step, colours) : null,
+      colours: sample.has_colours && colours.length >= 3 * count ? pack(count, step, (from) => [...colours.subarray(3 * from, 3 * from + 3), 255]) : null,
     },
     loops: read_loops(report.loops, stations.length > 0),
   };
@@ -158,4 +139,31 @@ function to_scene(frame, real) {
 
 function to_real(frame, scene) {
   return scene.map((value, axis) => frame.origin[axis] + (value + 0.5) * frame.edge);
+}
+
+// Which axis points up: z, unless the reader chooses another one. frame.up has its number: 0, 1 or 2 for x, y or z.
+//
+// The two level axes follow it in the order x, y, z, x, so that a view from above is never a mirror image.
+
+// [x, y, z] of a vector that is given along the two level axes and up.
+function upright(first, second, height, up) {
+  const vector = [0, 0, 0];
+  vector[(up + 1) % 3] = first;
+  vector[(up + 2) % 3] = second;
+  vector[up] = height;
+  return vector;
+}
+
+// The parts of a vector along the level axes, then that along up.
+function level_parts(vector, up) {
+  return [vector[(up + 1) % 3], vector[(up + 2) % 3], vector[up]];
+}
+
+// Between heights in scene coordinates and real ones.
+function real_height(frame, height) {
+  return to_real(frame, upright(0, 0, height, frame.up))[frame.up];
+}
+
+function scene_height(frame, height) {
+  return to_scene(frame, upright(0, 0, height, frame.up))[frame.up];
 }

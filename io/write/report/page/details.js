@@ -39,7 +39,7 @@ class Details {
 
   // Texts of three numbers of a loop.
   vector(column, index, digits) {
-    return [0, 1, 2].map((axis) => format_place(column[3 * index + axis], digits));
+    return vector_of(column, index).map((value) => format_place(value, digits));
   }
 
   // Pairs of names and values.

@@ -4,15 +4,8 @@
 class LoopFilter {
   // `on_change()` after each change, at most once a picture.
   constructor(loops, units, marks, on_change) {
-    this.loops = loops;
-    this.marks = marks;
-    this.on_change = on_change;
-    this.kind = "all";
-    this.mark = "any";
-    this.cause = "any";
-    this.size = 0;        // least diameter, in the scan's unit
-    this.most_size = Infinity;
-    this.confidence = 0;
+    Object.assign(this, {loops, marks, on_change});
+    this.clear();
     const sizes = Array.from(loops.diameter).filter((value) => value > 0);
     this.least = sizes.reduce((a, b) => Math.min(a, b), Infinity);
     this.most = sizes.reduce((a, b) => Math.max(a, b), 0);
@@ -20,6 +13,9 @@ class LoopFilter {
     find("size-unit").textContent = this.scale.name;
     this.connect();
   }
+
+  // The least and the largest diameter are in the scan's unit.
+  clear() { Object.assign(this, {kind: "all", mark: "any", cause: "any", size: 0, most_size: Infinity, confidence: 0}); }
 
   connect() {
     for (const radio of document.getElementsByName("kind")) {
@@ -34,8 +30,7 @@ class LoopFilter {
       const part = slider.value / 1000;
       // A little beyond the largest at the end, so that the slider can leave out all.
       this.size = part === 0 ? 0 : least * Math.pow((most * 1.02) / least, part);
-      const shown = Number((this.size * this.scale.factor).toPrecision(3));
-      number.value = shown;
+      number.value = Number((this.size * this.scale.factor).toPrecision(3));
       typed_number(number);
       this.changed();
     });
@@ -69,10 +64,7 @@ class LoopFilter {
   reset() {
     find("filters").reset();
     for (const name of ["size-number", "size-most", "confidence-number"]) typed_number(find(name));
-    this.kind = "all";
-    this.mark = this.cause = "any";
-    this.size = this.confidence = 0;
-    this.most_size = Infinity;
+    this.clear();
     this.changed();
   }
 

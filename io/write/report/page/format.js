@@ -84,7 +84,6 @@ function format_place(value, decimals) {
 
 function format_seconds(seconds) {
   if (!is_number(seconds)) return kMissing;
-  if (seconds < 0.0005) return "0 ms";
   if (seconds < 1) return `${format_number(seconds * 1000, seconds < 0.1 ? 2 : 3)} ms`;
   if (seconds < 120) return `${format_number(seconds, 3)} s`;
   const minutes = Math.floor(seconds / 60);

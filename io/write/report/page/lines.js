@@ -89,30 +89,17 @@ const kLineFragmentShader = `
     #endif
   }`;
 
-// Half the diagonal of the box around vertices `begin` to `end`.
-function loop_radius(vertices, begin, end) {
-  let sum = 0;
-  for (let axis = 0; axis < 3; ++axis) {
-    let low = Infinity, high = -Infinity;
-    for (let i = begin; i < end; ++i) {
-      low = Math.min(low, vertices[3 * i + axis]);
-      high = Math.max(high, vertices[3 * i + axis]);
-    }
-    if (end > begin) sum += (high - low) * (high - low);
-  }
-  return Math.sqrt(sum) / 2;
-}
-
 // Corners of the quads of all loops, four per edge, in the order of the loops' vertices.
 class LineCorners {
-  constructor({count, first, vertices}) {
+  constructor(loops) {
+    const {count, first, vertices} = loops;
     const edges = vertices.length / 3;
     this.first = first;
     this.edges = edges;
     const here = new Float32Array(edges * 12), other = new Float32Array(edges * 12), more = new Float32Array(edges * 16);
     for (let loop = 0; loop < count; ++loop) {
       let length = 0;
-      const radius = loop_radius(vertices, first[loop], first[loop + 1]);
+      const {radius} = loop_box(loops, loop) || {};
       for (let i = first[loop]; i < first[loop + 1]; ++i) {
         const a = 3 * i, b = 3 * (i + 1 < first[loop + 1] ? i + 1 : first[loop]);
         const next = length + Math.hypot(vertices[b] - vertices[a], vertices[b + 1] - vertices[a + 1], vertices[b + 2] - vertices[a + 2]);

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page: makes its parts and connects them. Other scripts hold one part each; their order does not matter.
+// The page: makes its parts and connects them. Other scripts hold one part each.
 
 class Page {
   constructor() {
-    const begin = performance.now();
     this.data = read_data();
     const {report, loops} = this.data;
-    this.times = {decode: performance.now() - begin};
     this.units = new Units(report.unit);
     this.decimals = place_decimals(report.median_distance);
     this.theme = document.documentElement.dataset.theme;
@@ -24,16 +22,12 @@ class Page {
                                {fly: (index) => this.select(index, true), close: () => this.deselect()});
     draw_facts(this.data, this.units);
     this.make_view();
-    this.times.view = performance.now() - begin;
     this.connect();
     this.apply_marks();
     this.set_theme(this.theme);
     if (this.view && loops.has_changes) this.set_by_cause(true);
-    this.times.parts = performance.now() - begin;
     this.open_link(false);
     if (this.view) this.view.draw();
-    this.times.ready = performance.now() - begin;
-    this.times.since_navigation = performance.now();
   }
 
   make_view() {
@@ -43,20 +37,19 @@ class Page {
       find("message").hidden = false;
       find("view").classList.add("no-view");
     };
-    const context = webgl_context(find("canvas"));
-    if (typeof THREE === "undefined" || !context) {
-      say("No 3D view", "This browser gives no WebGL. The table, the charts and the facts work without it.");
-      return;
-    }
     try {
+      const context = webgl_context(find("canvas"));
+      if (!context) throw new Error("this browser gives none");
       this.view = new View(find("canvas"), context, this.data, {
         on_frame: (view) => {
           draw_scale(view, this.units);
           draw_triad(view.navigation.camera);
           if (this.data.report.crs && this.data.frame.up === 2) draw_north(view.navigation.camera);
-          if (this.sight) { this.sight.draw(); this.station_marks.draw(); }
-          if (this.names) this.names.draw(this.table.shown, this.selected);
-          if (this.measure) this.measure.draw();
+          if (!this.names) return;  // the last of them that is made
+          this.sight.draw();
+          this.station_marks.draw();
+          this.names.draw(this.table.shown, this.selected);
+          this.measure.draw();
         },
         on_pick: (x, y) => {
           if (!this.measure.is_on) return false;
@@ -67,14 +60,11 @@ class Page {
         on_hover: (index, x, y) => this.hover(index, x, y),
       });
     } catch (error) {
-      say("No 3D view", `WebGL failed: ${error.message}. The table, the charts and the facts work without it.`);
+      say("No 3D view", `WebGL: ${error.message}. The table and the facts work without it.`);
       return;
     }
-    if (this.data.points.count === 0 && this.data.loops.count === 0) {
-      say("Nothing to show", "The scan has no points.");
-    } else if (this.data.points.count === 0) {
-      find("colouring").disabled = true;
-    }
+    find("colouring").disabled = this.data.points.count === 0;
+    if (this.data.points.count + this.data.loops.count === 0) say("Nothing to show", "The scan has no points.");
     const scanned = find("colouring").querySelector("[value=colour]");
     if (!this.data.points.colours) scanned.remove(); else if (are_colourful(this.data.points)) this.colouring = "colour";
     find("colouring").value = this.colouring;
@@ -86,16 +76,15 @@ class Page {
     window.addEventListener("hashchange", () => this.open_link(true));
     this.connect_view();
     this.print_pages = new PrintPages(this);
-    find("csv").addEventListener("click", () => this.save_csv());
+    find("csv").addEventListener("click", () => save_text(this.table.csv(), `${this.file_title()}_holes.csv`, "text/csv"));
     find("reset").addEventListener("click", () => this.reset());
     const step = (direction) => {
       const index = this.table.neighbour(direction);
       if (index >= 0) this.select(index, true);
     };
-    const side = (name) => this.fly_to_side(name);
     connect_keys({navigation: this.view && this.view.navigation, press: {
       n: () => step(1), p: () => step(-1), escape: () => this.escape(), "?": () => find("help").showModal(),
-      f: () => side("fit"), 1: () => side("top"), 2: () => side("front"), 3: () => side("side"),
+      f: () => this.fly_to_side("fit"), 1: () => this.fly_to_side("top"), 2: () => this.fly_to_side("front"), 3: () => this.fly_to_side("side"),
       c: () => this.next_colouring(), t: () => find("through").click(),
       m: () => find("measure").click(),
       0: () => this.set_mark(kNoMark), e: () => this.edit_note(),
@@ -133,7 +122,8 @@ class Page {
     find("north").setAttribute("hidden", "");
     this.view.turn_up();
     this.view.set_cut(Infinity);
-    this.section.turn_up();
+    this.section.set_ranges();
+    this.section.changed();
     this.update_chip();
   }
 
@@ -142,10 +132,6 @@ class Page {
     const {navigation} = this.view;
     navigation.fly(navigation.side_pose(name));
     this.view.set_cut(Infinity);
-  }
-
-  save_csv() {
-    save_text(this.table.csv(), `${this.file_title()}_holes.csv`, "text/csv");
   }
 
   // How names of saved files begin.
@@ -177,7 +163,6 @@ class Page {
     document.documentElement.dataset.theme = theme;
     find("theme").setAttribute("aria-pressed", String(theme === "dark"));
     this.update_colours();
-    draw_charts(this.data, this.units, this.filter, theme);
   }
 
   update_colours(theme = this.theme) {
@@ -205,7 +190,7 @@ class Page {
     if (this.section) this.section.reset();
   }
 
-  // The section is that of the view alone: the table, the charts and the filters have all heights.
+  // The section is that of the view alone: the table and the filters have all heights.
   apply_section(low, high) {
     this.view.set_section(low, high);
     this.update_legend();
@@ -219,7 +204,6 @@ class Page {
     find("shown").textContent = all === 0 ? "none" : `${format_count(count)} of ${format_count(all)} shown`;
     if (this.view) this.view.scenes.set_loops(this.table.shown);
     if (this.selected >= 0 && !passes(this.selected)) this.deselect();
-    draw_charts(this.data, this.units, this.filter, this.theme);
     this.update_reset();
   }
 
@@ -320,9 +304,7 @@ class Page {
     if (index === this.selected && (this.former || !this.view)) this.escape(); else this.select(index, true);
   }
 
-  click_loop(index) {
-    if (index >= 0) this.select(index, false);
-  }
+  click_loop(index) { if (index >= 0) this.select(index, false); }
 
   hover(index, x, y) {
     const tag = find("hover");
@@ -348,7 +330,7 @@ class Page {
 
 function start() {
   try {
-    expose(new Page());
+    window.page = new Page();
   } catch (error) {
     find("message").textContent = `This report cannot be read: ${error.message}`;
     find("message").hidden = false;

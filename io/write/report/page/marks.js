@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Marks of loops: what a reader decides about each, with a note. docs/formats.md has the form of a file of them.
-//
-// The browser keeps them, by result.
+// Marks of loops: what a reader decides about each, with a note. docs/formats.md has the form of a file of them, which alone
+// keeps them. Below: their sign in the table, the fields of the selected loop, files, and notices.
 
 const kMarksSchema = "marks 1";
 // In the order of the filter and of the sort; `key` sets the mark.
@@ -19,38 +18,29 @@ class Marks {
   // `on_change()` after each change of marks; not of notes, which no part but their field shows.
   constructor({loops, report}, on_change) {
     Object.assign(this, {loops, on_change, version: report.lacuna || ""});
-    this.key = `lacuna ${kMarksSchema} ${result_code(report)}`;
-    this.clear();
-    this.is_kept = can_keep();
-    const kept = this.kept();
-    if (kept) this.take(kept);
-    window.addEventListener("storage", (event) => { if (event.key === this.key) this.take_again(); });
-    window.addEventListener("pagehide", () => this.keep());
-  }
-
-  clear() {
-    this.mark = new Array(this.loops.count).fill(kNoMark);
-    this.note = new Array(this.loops.count).fill("");
+    this.mark = new Array(loops.count).fill(kNoMark);
+    this.note = new Array(loops.count).fill("");
     this.unmatched = [];  // entries that fit no loop of this page: a file that is saved has them again
+    this.is_saved = true;
+    window.addEventListener("beforeunload", (event) => { if (!this.is_saved) event.preventDefault(); });
   }
 
   // A loop without a finite place could not be found again.
   can_mark(index) {
-    return [0, 1, 2].every((axis) => Number.isFinite(this.loops.centroid[3 * index + axis])) && this.loops.diameter[index] > 0;
+    return vector_of(this.loops.centroid, index).every(Number.isFinite) && this.loops.diameter[index] > 0;
   }
 
   set(index, name) {
     if (!this.can_mark(index) || this.mark[index] === name) return;
     this.mark[index] = name;
-    this.keep();
+    this.is_saved = false;
     this.on_change();
   }
 
   set_note(index, text) {
     if (!this.can_mark(index)) return;
     this.note[index] = text;
-    clearTimeout(this.soon);
-    this.soon = setTimeout(() => this.keep(), 300);
+    this.is_saved = false;
   }
 
   count(name) { return this.mark.reduce((sum, mark) => sum + (mark === name), 0); }
@@ -61,7 +51,7 @@ class Marks {
     for (let i = 0; i < loops.count; ++i) {
       if (this.mark[i] === kNoMark && this.note[i] === "") continue;
       marked.push({id: loops.id[i], kind: loops.is_hole[i] ? "hole" : "outer",
-                   centroid: Array.from(loops.centroid.subarray(3 * i, 3 * i + 3), short_place), diameter: loops.diameter[i],
+                   centroid: vector_of(loops.centroid, i).map(short_place), diameter: loops.diameter[i],
                    mark: this.mark[i], note: this.note[i]});
     }
     const later = (a, b) => a.id - b.id || a.centroid[0] - b.centroid[0] || a.centroid[1] - b.centroid[1] ||
@@ -80,13 +70,6 @@ class Marks {
   // entries. Throws an error of one line where the text is not such a file.
   load(text) {
     const entries = read_marks(text);
-    const {by_place, unmatched} = this.take(entries);
-    this.keep();
-    this.on_change();
-    return {all: entries.length, by_place, unmatched};
-  }
-
-  take(entries) {
     const {loop_of, by_place} = match_marks(entries, this.loops);
     const known = new Set(this.unmatched.map((entry) => JSON.stringify(entry)));
     let unmatched = 0;
@@ -99,67 +82,9 @@ class Marks {
       ++unmatched;
       if (!known.has(JSON.stringify(entry))) this.unmatched.push(entry);
     });
-    return {by_place, unmatched};
-  }
-
-  // Another window of this page has changed them.
-  take_again() {
-    const kept = this.kept();
-    if (!kept) return;
-    this.clear();
-    this.take(kept);
     this.on_change();
+    return {all: entries.length, by_place, unmatched};
   }
-
-  // Entries that the browser has kept; null without any.
-  kept() {
-    try {
-      const text = localStorage.getItem(this.key);
-      return text === null ? null : read_marks(text);
-    } catch (error) {
-      return null;
-    }
-  }
-
-  keep() {
-    clearTimeout(this.soon);
-    if (!this.is_kept) return;
-    const text = this.text();
-    if (text === this.last) return;
-    try {
-      localStorage.setItem(this.key, text);
-      this.last = text;
-    } catch (error) {
-      this.is_kept = false;  // the storage is full
-      this.on_change();
-    }
-  }
-}
-
-// Whether the browser keeps anything for this page: it may not for a file, or in a private window.
-function can_keep() {
-  try {
-    localStorage.setItem("lacuna", "1");
-    localStorage.removeItem("lacuna");
-    return true;
-  } catch (error) {
-    return false;
-  }
-}
-
-// Equal for pages of equal results.
-function result_code({title, inputs, loops}) {
-  const {id, centroid, diameter} = loops || {};
-  return text_code(JSON.stringify([title, inputs, id, centroid, diameter]));
-}
-
-// 64 bits of a text, as hexadecimal digits: FNV-1a (Fowler, Noll, Vo) from two starts.
-function text_code(text) {
-  return [0x811c9dc5, 0x01000193].map((start) => {
-    let code = start;
-    for (let i = 0; i < text.length; ++i) code = Math.imul(code ^ text.charCodeAt(i), 0x01000193);
-    return (code >>> 0).toString(16).padStart(8, "0");
-  }).join("");
 }
 
 // Without the noise of binary fractions beyond 15 digits.
@@ -230,4 +155,89 @@ function match_marks(entries, loops) {
     ++by_place;
   }
   return {loop_of, by_place};
+}
+
+// A small drawing and the word: the shape alone says which, without colours.
+const kMarkShapes = {
+  "real": [["circle", {cx: 8, cy: 8, r: 4.5, class: "solid"}]],
+  "ignore": [["circle", {cx: 8, cy: 8, r: 4.7}], ["path", {d: "M4.8 11.2l6.4-6.4"}]],
+  "scan again": [["path", {d: "M12.6 6.2A5 5 0 1 0 13 8.6M12.9 2.9v3.4H9.5"}]],
+  "done": [["path", {d: "M3.2 8.4l3.2 3.2 6.4-7"}]],
+};
+
+function mark_sign(name) {
+  const shapes = (kMarkShapes[name] || []).map(([shape, attributes]) => drawing(shape, attributes));
+  return drawing("svg", {viewBox: "0 0 16 16", class: `sign mark-${name.replace(" ", "-")}`, "aria-hidden": "true"}, ...shapes);
+}
+
+function mark_title(name) {
+  const known = kMarks.find((mark) => mark.name === name);
+  return known ? known.title : "None";
+}
+
+// The mark and the note of a loop, to change.
+function mark_fields(marks, index) {
+  const choice = (name, title, key) => element("label", {title: `${title} (${key})`},
+      element("input", {type: "radio", name: "mark", value: name}), element("span", {}, title));
+  const choices = element("fieldset", {class: "segments marks", disabled: !marks.can_mark(index)},
+      element("legend", {class: "unseen"}, "Mark"), choice(kNoMark, "None", "0"),
+      ...kMarks.map(({name, title, key}) => choice(name, title, key.toUpperCase())));
+  choices.addEventListener("change", (event) => marks.set(index, event.target.value));
+  const note = element("textarea", {id: "note", rows: 2, maxlength: 4000, placeholder: "Note", "aria-label": "Note", title: "Note (E)",
+                                    disabled: !marks.can_mark(index)});
+  note.value = marks.note[index];
+  note.addEventListener("input", () => marks.set_note(index, note.value));
+  return element("div", {class: "mark-fields"}, choices, note);
+}
+
+// Sets the fields of the selected loop to its mark.
+function update_mark_fields(marks, index) {
+  for (const radio of document.getElementsByName("mark")) radio.checked = radio.value === marks.mark[index];
+  const note = find("note");
+  if (note && note !== document.activeElement) note.value = marks.note[index];
+}
+
+// Numbers of loops in the list of the filter.
+function update_mark_tools(marks) {
+  for (const option of find("mark-filter").options) {
+    const is_mark = kMarkNames.includes(option.value);
+    option.textContent = option.dataset.title + (is_mark ? ` (${format_count(marks.count(option.value))})` : "");
+  }
+}
+
+// `file_name()` names the file that is saved.
+function connect_marks(marks, file_name) {
+  const option = (value, title) => element("option", {value, "data-title": title}, title);
+  find("mark-filter").append(option("any", "Any mark"), option(kNoMark, "No mark"), ...kMarks.map(({name, title}) => option(name, title)));
+  const chosen = find("marks-file");
+  find("marks-save").addEventListener("click", () => {
+    save_text(marks.text(), file_name(), "application/json");
+    marks.is_saved = true;
+  });
+  find("marks-load").addEventListener("click", () => chosen.click());
+  chosen.addEventListener("change", async () => {
+    const file = chosen.files[0];
+    if (!file) return;
+    try {
+      show_notice(loaded_words(file.name, marks.load(await file.text())));
+    } catch (error) {
+      show_notice(`${file.name}: ${error.message}`, true);
+    }
+    chosen.value = "";  // the same file may be chosen again
+  });
+  for (const name of ["marks-save", "marks-load"]) find(name).disabled = marks.loops.count === 0;
+  find("notice-close").addEventListener("click", () => { find("notice").hidden = true; });
+}
+
+function loaded_words(name, {all, by_place, unmatched}) {
+  const found = `${name}: ${format_count(all - unmatched)} of ${plural(all, "mark", "marks")} found their loops` +
+                (by_place > 0 ? `, ${format_count(by_place)} of them by place` : "") + ".";
+  return unmatched === 0 ? found
+      : `${found} The others fit no loop of this page; a file that is saved has them again.`;
+}
+
+function show_notice(text, is_error = false) {
+  find("notice-text").textContent = text;
+  find("notice").classList.toggle("error", is_error);
+  find("notice").hidden = false;
 }

@@ -9,7 +9,6 @@ class Measure {
     this.places = [];  // at most two, in scene coordinates
     find("measure").addEventListener("click", () => this.set(!this.is_on));
     find("measure-close").addEventListener("click", () => this.set(false));
-    find("measure-copy").addEventListener("click", () => copy_text(this.copied(), find("measure-copy")));
   }
 
   set(is_on) {
@@ -36,14 +35,9 @@ class Measure {
 
   words(place) { return this.real(place).map((value) => format_place(value, this.decimals)); }
 
-  copied() {
-    return this.places.map((place) => this.words(place).join(" ").replace(/−/g, "-")).join("\n");
-  }
-
   show() {
     const {places} = this;
     find("measure-panel").hidden = !this.is_on;
-    find("measure-copy").hidden = places.length === 0;
     const parts = places.length === 0 ? ["Choose a point."] : [axes(this.words(places[places.length - 1]))];
     if (places.length === 2) {
       const [from, to] = places.map((place) => this.real(place));
@@ -58,20 +52,10 @@ class Measure {
 
   // After each picture: signs at the points, and the line.
   draw() {
-    const {camera} = this.view.navigation;
-    const {clientWidth, clientHeight} = this.view.canvas;
-    const over = find("measure-over");
-    over.setAttribute("viewBox", `0 0 ${clientWidth} ${clientHeight}`);
-    const at = this.places.map((place) => {
-      const seen = new THREE.Vector3(...place).project(camera);
-      return seen.z < 1 ? [(seen.x + 1) / 2 * clientWidth, (1 - seen.y) / 2 * clientHeight] : null;
-    });
-    const parts = [];
-    if (at.length === 2 && at[0] && at[1]) {
-      const ends = {x1: at[0][0], y1: at[0][1], x2: at[1][0], y2: at[1][1]};
-      parts.push(drawing("line", {...ends, class: "casing"}), drawing("line", ends));
-    }
-    for (const place of at) if (place) parts.push(drawing("circle", {cx: place[0], cy: place[1], r: 5}));
-    over.replaceChildren(...parts);
+    const ends = this.places.length === 2 ? pixels_of_edge(this.view, ...this.places) : null;
+    const at = this.places.map((place) => pixel_of(this.view, place, 0)).filter(Boolean);
+    find("measure-over").replaceChildren(
+        ...(ends ? [drawing("line", {...ends, class: "casing"}), drawing("line", ends)] : []),
+        ...at.map(([cx, cy]) => drawing("circle", {cx, cy, r: 5})));
   }
 }

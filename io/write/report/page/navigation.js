@@ -1,5 +1,102 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moves the camera: to poses, in flights, by zoom, and by keys held down.
+// Where the camera is: a pose looks at a target from a direction, with an axis that is up. It moves in flights from pose
+// to pose, by zoom, and by keys held down.
+
+const kFieldOfView = 38;  // degrees, vertical
+const kLeastPolar = 1e-4;
+
+// {target: [x, y, z], distance, polar (from up), azimuth, up}
+function pose_of(camera, target, up) {
+  const offset = camera.position.clone().sub(target);
+  const distance = Math.max(offset.length(), 1e-12);
+  const [first, second, height] = level_parts(offset.toArray(), up);
+  return {
+    target: target.toArray(),
+    distance,
+    polar: Math.acos(Math.min(1, Math.max(-1, height / distance))),
+    azimuth: Math.atan2(second, first),
+    up,
+  };
+}
+
+function pose_direction(pose) {
+  const across = Math.sin(pose.polar);
+  return upright(across * Math.cos(pose.azimuth), across * Math.sin(pose.azimuth), Math.cos(pose.polar), pose.up);
+}
+
+// The pose that has all of `places` (numbers x, y, z, x, ...) in the middle of the picture, from the direction of `from`.
+function pose_of_places(places, from, aspect) {
+  const back = pose_direction(from);
+  const right = upright(-Math.sin(from.azimuth), Math.cos(from.azimuth), 0, from.up);
+  const up = [back[1] * right[2] - back[2] * right[1], back[2] * right[0] - back[0] * right[2],
+              back[0] * right[1] - back[1] * right[0]];
+  const axes = [right, up, back];
+  const turned = new Float64Array(places.length);
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < places.length; ++i) {
+    const k = i % 3, at = i - k;
+    turned[i] = places[at] * axes[k][0] + places[at + 1] * axes[k][1] + places[at + 2] * axes[k][2];
+    low[k] = Math.min(low[k], turned[i]);
+    high[k] = Math.max(high[k], turned[i]);
+  }
+  const middle = low.map((value, k) => (value + high[k]) / 2);
+  const tall = Math.tan((kFieldOfView * Math.PI) / 360);
+  const slopes = [tall * aspect, tall];
+  let distance = 0;
+  // Near parts look larger: the middle of the picture is found step by step.
+  for (let step = 0; step < 4; ++step) {
+    distance = 1e-6;
+    for (let i = 0; i < turned.length; i += 3) {
+      const toward = turned[i + 2] - middle[2];
+      for (let k = 0; k < 2; ++k) distance = Math.max(distance, toward + Math.abs(turned[i + k] - middle[k]) / slopes[k]);
+    }
+    for (let k = 0; k < 2; ++k) {
+      let least = Infinity, most = -Infinity;
+      for (let i = 0; i < turned.length; i += 3) {
+        const seen = (turned[i + k] - middle[k]) / Math.max(1e-9, distance - (turned[i + 2] - middle[2]));
+        least = Math.min(least, seen);
+        most = Math.max(most, seen);
+      }
+      if (step < 3) middle[k] += ((least + most) / 2) * distance * 0.9;
+    }
+  }
+  const target = [0, 1, 2].map((axis) => axes.reduce((sum, unit, k) => sum + unit[axis] * middle[k], 0));
+  return {target, distance, polar: from.polar, azimuth: from.azimuth, up: from.up};
+}
+
+// Looks along a normal from the side where the camera is. Straight from above the picture keeps its turn.
+function pose_along(normal, target, distance, now) {
+  const length = Math.hypot(...normal);
+  if (!(length > 0)) return {target, distance, polar: now.polar, azimuth: now.azimuth, up: now.up};
+  const eye = pose_direction(now).map((value, axis) => now.target[axis] + value * now.distance - target[axis]);
+  const side = eye[0] * normal[0] + eye[1] * normal[1] + eye[2] * normal[2] < 0 ? -1 : 1;
+  const [first, second, height] = level_parts(normal.map((value) => (side * value) / length), now.up);
+  const is_upright = Math.hypot(first, second) < 0.02;
+  return {
+    target,
+    distance,
+    polar: Math.min(Math.PI - kLeastPolar, Math.max(kLeastPolar, Math.acos(Math.min(1, Math.max(-1, height))))),
+    azimuth: is_upright ? now.azimuth : Math.atan2(second, first),
+    up: now.up,
+  };
+}
+
+function poses_between(a, b, part) {
+  const eased = part * part * (3 - 2 * part);
+  const turn = Math.atan2(Math.sin(b.azimuth - a.azimuth), Math.cos(b.azimuth - a.azimuth));
+  const mix = (from, to) => from + (to - from) * eased;
+  const distance = Math.exp(mix(Math.log(a.distance), Math.log(b.distance)));
+  // The target moves as the distance does: while far, the picture moves as much as while near.
+  const moved = Math.abs(b.distance - a.distance) < 1e-3 * a.distance
+      ? eased : (distance - a.distance) / (b.distance - a.distance);
+  return {
+    target: a.target.map((value, axis) => value + (b.target[axis] - value) * moved),
+    distance,
+    polar: mix(a.polar, b.polar),
+    azimuth: a.azimuth + turn * eased,
+    up: b.up,
+  };
+}
 
 const kFlightMilliseconds = 700;
 const kHomePolar = 0.95, kHomeAzimuth = -1.05;  // radians: where a page begins
@@ -49,11 +146,9 @@ class Navigation {
 
   // The pose of one of the buttons: "fit", "top", "front" or "side".
   side_pose(name) {
-    const now = this.pose();
-    if (name === "top") return this.fit_pose(kLeastPolar, -Math.PI / 2);
-    if (name === "front") return this.fit_pose(Math.PI / 2, -Math.PI / 2);
-    if (name === "side") return this.fit_pose(Math.PI / 2, 0);
-    return this.fit_pose(now.polar, now.azimuth);
+    const {polar, azimuth} = this.pose();
+    const poses = {top: [kLeastPolar, -Math.PI / 2], front: [Math.PI / 2, -Math.PI / 2], side: [Math.PI / 2, 0]};
+    return this.fit_pose(...(poses[name] || [polar, azimuth]));
   }
 
   // `now`: the pose that says from which side; that of the camera without one.
@@ -61,19 +156,16 @@ class Navigation {
     const {loops} = this.data;
     const box = loop_box(loops, index);
     if (!box) return now;  // a loop through strays: it is not drawn
-    const target = box.low.map((value, axis) => (value + box.high[axis]) / 2);
-    const size = Math.hypot(...box.low.map((value, axis) => box.high[axis] - value)) / 2;
     const tall = Math.tan((kFieldOfView * Math.PI) / 360) * Math.min(1, this.camera.aspect);
-    const distance = Math.max((2.1 * size) / tall, 12 * this.spacing);
-    const normal = Array.from(loops.normal.subarray(3 * index, 3 * index + 3)).map((v) => (Number.isFinite(v) ? v : 0));
-    return pose_along(normal, target, distance, now);
+    const distance = Math.max((2.1 * box.radius) / tall, 12 * this.spacing);
+    return pose_along(vector_of(loops.normal, index).map((v) => v || 0), box.middle, distance, now);
   }
 
   // How far before the loop what is shown begins, seen from loop_pose(): so near that no ceiling or wall hides it.
   loop_cut(index, pose) {
     const {first, vertices} = this.data.loops;
     const direction = pose_direction(pose);
-    const size = Math.max(loop_radius(vertices, first[index], first[index + 1]), 3 * this.spacing);
+    const size = Math.max(loop_box(this.data.loops, index).radius, 3 * this.spacing);
     let before = 0;
     for (let i = first[index]; i < first[index + 1]; ++i) {
       before = Math.max(before, direction.reduce((sum, value, k) => sum + value * (vertices[3 * i + k] - pose.target[k]), 0));

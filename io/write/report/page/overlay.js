@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scene positions in pixels of the view, for drawings that lie over it.
+// What lies over the view. First scene positions in pixels, then ids of holes, then stations with the places to stand
+// next. Last the line from a station to what hides the selected hole.
 
 // [right, up, ahead] of the eye.
 function seen_from(camera, place) {
@@ -45,4 +46,185 @@ function pixels_of_edge(view, from, to) {
   const at = (part) => to_pixel(pixels, a.map((value, k) => value + part * (b[k] - value)));
   const [x1, y1] = at(begin), [x2, y2] = at(end);
   return {x1, y1, x2, y2};
+}
+
+const kMostNames = 60, kLeastPixels = 24;  // of a hole on the screen that has its id
+const kNamePixels = 15;  // height of an id
+
+// The pixels of a loop's vertices; null where one is behind the eye.
+function pixels_of_loop(view, {first, vertices}, index) {
+  const pixels = view_pixels(view), {camera} = view.navigation;
+  const places = [];
+  for (let i = first[index]; i < first[index + 1]; ++i) {
+    const seen = seen_from(camera, vertices.subarray(3 * i, 3 * i + 3));
+    if (!(seen[2] > 0)) return null;
+    places.push(to_pixel(pixels, seen));
+  }
+  return places;
+}
+
+// Twice the area of a polygon.
+function doubled_area(places) {
+  return Math.abs(places.reduce((sum, [x, y], i) => {
+    const [next_x, next_y] = places[(i + 1) % places.length];
+    return sum + x * next_y - next_x * y;
+  }, 0));
+}
+
+function is_inside(places, x, y) {
+  let inside = false;
+  places.forEach(([ax, ay], i) => {
+    const [bx, by] = places[(i + 1) % places.length];
+    if (ay > y !== by > y && x < ax + ((y - ay) / (by - ay)) * (bx - ax)) inside = !inside;
+  });
+  return inside;
+}
+
+// The hole of `shown` that looks smallest around a place of the window; -1 without any.
+function hole_around(view, loops, shown, x, y) {
+  const box = view.canvas.getBoundingClientRect();
+  let best = -1, least = Infinity;
+  for (const index of shown) {
+    if (!loops.is_hole[index]) continue;
+    const places = pixels_of_loop(view, loops, index);
+    if (!places || !is_inside(places, x - box.left, y - box.top)) continue;
+    const area = doubled_area(places);
+    if (area < least) { least = area; best = index; }
+  }
+  return best;
+}
+
+class LoopNames {
+  constructor(view, loops) {
+    Object.assign(this, {view});
+    const size = (i) => (loops.diameter[i] >= 0 ? loops.diameter[i] : -1);
+    this.largest = Array.from(loops.id.keys()).filter((i) => loops.is_hole[i]).sort((a, b) => size(b) - size(a)).slice(0, kMostNames);
+    this.boxes = this.largest.map((i) => loop_box(loops, i));
+    this.nodes = this.largest.map((i) => drawing("text", {}, String(loops.id[i])));
+    find("names-over").replaceChildren(...this.nodes);
+  }
+
+  // After each picture.
+  // The chosen one comes first, then the largest; an id that would lie on another one is left out.
+  draw(shown, selected) {
+    if (this.shown !== shown) Object.assign(this, {shown, is_shown: new Set(shown)});
+    const are_shown = find("show-loops").checked;
+    const {focal} = view_pixels(this.view), {camera} = this.view.navigation;
+    const taken = [];
+    const order = Array.from(this.largest.keys()).sort((a, b) => (this.largest[b] === selected) - (this.largest[a] === selected) || a - b);
+    for (const k of order) {
+      const index = this.largest[k];
+      const box = are_shown && this.is_shown.has(index) ? this.boxes[k] : null;
+      const ahead = box ? seen_from(camera, box.middle)[2] : 0;
+      const is_large = ahead > this.view.nearest() && (2 * box.radius * focal) / ahead >= kLeastPixels;
+      const pixel = is_large ? pixel_of(this.view, box.middle, 0) : null;
+      const half = 4 * this.nodes[k].textContent.length + 2;
+      const at = pixel && taken.every(([x, y, wide]) => Math.abs(pixel[0] - x) >= half + wide || Math.abs(pixel[1] - y) >= kNamePixels) ? pixel : null;
+      if (at) taken.push([...at, half]);
+      this.nodes[k].toggleAttribute("hidden", !at);
+      if (at) this.nodes[k].setAttribute("transform", `translate(${at[0].toFixed(1)} ${at[1].toFixed(1)})`);
+    }
+  }
+}
+
+const kLongestName = 24;  // characters over the view; the facts have the whole name
+
+// The shape of a marker around 0 0; the legend has the same ones.
+function station_shape(is_next) {
+  return is_next ? drawing("rect", {x: -8, y: -8, width: 16, height: 16, rx: 3, class: "next"})
+                 : drawing("path", {d: "M0 -7 L6.5 5 L-6.5 5 Z", class: "station"});
+}
+
+class StationMarks {
+  constructor(view, {frame, stations, next_stations}) {
+    Object.assign(this, {view, is_shown: true, chosen: -1});
+    const pen = document.createElement("canvas").getContext("2d");
+    pen.font = `12px ${getComputedStyle(document.body).fontFamily}`;
+    const make = ({place, name, rank}) => {
+      const is_next = rank !== undefined;
+      const words = is_next ? String(rank) : name.length > kLongestName ? `${name.slice(0, kLongestName - 1)}…` : name;
+      const text = drawing("text", is_next ? {class: "next", y: 4} : {}, words);
+      return {place: to_scene(frame, place), is_next, text, wide: pen.measureText(words).width,
+              node: drawing("g", {}, station_shape(is_next), text)};
+    };
+    this.marks = [...stations, ...next_stations].map(make);
+    find("stations-over").append(drawing("g", {class: "sight"}), ...this.marks.map(({node}) => node));
+    find("stations-check").hidden = this.marks.length === 0;
+    find("show-stations").addEventListener("change", () => {
+      this.is_shown = find("show-stations").checked;
+      this.draw();
+    });
+  }
+
+  // The station whose name comes first; -1 for none.
+  choose(index) {
+    if (this.chosen >= 0) this.marks[this.chosen].node.classList.remove("chosen");
+    this.chosen = index;
+    if (index >= 0) this.marks[index].node.classList.add("chosen");
+  }
+
+  // After each picture. A name that would be cut, or cover a marker or another name, is left out.
+  draw() {
+    find("stations-over").toggleAttribute("hidden", !this.is_shown);
+    if (!this.is_shown) return;
+    const places = this.marks.map(({place}) => pixel_of(this.view, place, 10));
+    const taken = places.filter(Boolean).map(([x, y]) => [x - 8, y - 8, x + 8, y + 8]);
+    const {width} = view_pixels(this.view);
+    const is_free = ([left, top, right, bottom]) => left >= 0 && right <= width &&
+        taken.every((box) => right <= box[0] || left >= box[2] || bottom <= box[1] || top >= box[3]);
+    const first = this.chosen < 0 ? [] : [this.chosen];
+    for (const i of new Set([...first, ...this.marks.keys()])) {
+      const {node, text, wide, is_next} = this.marks[i], at = places[i];
+      node.toggleAttribute("hidden", !at);
+      if (!at) continue;
+      const [x, y] = at.map((value) => Math.round(10 * value) / 10);
+      node.setAttribute("transform", `translate(${x} ${y})`);
+      if (is_next) continue;
+      const sides = [[10, x + 9, x + 13 + wide], [-10 - wide, x - 13 - wide, x - 9]];
+      const free = sides.map(([from, left, right]) => ({from, box: [left, y - 9, right, y + 9]})).find(({box}) => is_free(box));
+      text.toggleAttribute("hidden", !free);
+      if (!free) continue;
+      text.setAttribute("x", free.from);
+      text.setAttribute("y", 4);
+      taken.push(free.box);
+    }
+  }
+}
+
+// Lines of the legend.
+function station_legend({stations, next_stations}) {
+  const line = (is_next, text) => element("span", {}, drawing("svg", {viewBox: "-9 -9 18 18", class: "stations-over sign"}, station_shape(is_next)), text);
+  return [...(stations.length > 0 ? [line(false, "Station")] : []),
+          ...(next_stations.length > 0 ? [line(true, "Stand next")] : [])];
+}
+
+// The line from a scanner to what hides the selected hole, and on to its middle, dashed where the station does not see.
+
+class SightLine {
+  constructor(view, data, marks) {
+    Object.assign(this, {view, data, marks});
+    this.places = [];  // of the station, of what hides, of the hole
+  }
+
+  // -1 for none. Loops that are hidden for the most part have a line.
+  select(index) {
+    const {loops, frame, stations} = this.data;
+    const station = index >= 0 && loops.cause[index] === "hidden" ? stations[loops.hidden_from[index]] : undefined;
+    const places = station ? [loops.hidden_from_place, loops.hidden_by, loops.centroid] : [];
+    this.places = places.map((column) => to_scene(frame, vector_of(column, index)));
+    if (!this.places.every((place) => place.every(Number.isFinite))) this.places = [];
+    this.marks.choose(this.places.length > 0 ? loops.hidden_from[index] : -1);
+  }
+
+  // After each picture.
+  draw() {
+    const parts = [];
+    for (let i = 0; i + 1 < this.places.length; ++i) {
+      const ends = pixels_of_edge(this.view, this.places[i], this.places[i + 1]);
+      if (ends) parts.push(drawing("line", {...ends, class: "casing"}), drawing("line", {...ends, class: i === 0 ? "seen" : "behind"}));
+    }
+    const at = this.places.length > 0 ? pixel_of(this.view, this.places[1], 10) : null;
+    if (at) parts.push(drawing("circle", {cx: at[0], cy: at[1], r: 4}));
+    document.querySelector("#stations-over .sight").replaceChildren(...parts);
+  }
 }

@@ -5,8 +5,8 @@ set(page_folder ${CMAKE_CURRENT_LIST_DIR})
 set(three_folder /usr/share/javascript/three CACHE PATH "three.js, as Debian's libjs-three has it")
 set(page_styles page view widths print)  # in this order: later rules win
 set(page_libraries ${three_folder}/three.min.js ${three_folder}/examples/js/controls/OrbitControls.js)
-set(page_scripts data up format dom save causes colour shading bounds points lines veil scenes camera navigation frames picking pointer view
-    overlay names stations sight marks mark_tools link filter table histogram details area facts legend header tabs settings section keys measure plan print expose main)  # each uses those before it
+set(page_scripts data format dom causes legend bounds shading points lines scenes navigation pointer view overlay marks filter table
+    details facts controls section measure print main)  # only main does anything by itself; so their order does not matter
 list(TRANSFORM page_styles REPLACE "(.+)" "${page_folder}/\\1.css")
 list(TRANSFORM page_scripts REPLACE "(.+)" "${page_folder}/\\1.js")
 

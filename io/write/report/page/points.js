@@ -95,7 +95,7 @@ class PointCloud {
     });
     this.object = new THREE.Points(geometry, this.material);
     this.object.frustumCulled = false;
-    this.factor = 1;
+    this.factor = 1;  // of the size of points
   }
 
   set_colouring(name, theme) {
@@ -107,11 +107,6 @@ class PointCloud {
   set_heights(low, high) {
     this.uniforms.low.value = low;
     this.uniforms.high.value = high;
-  }
-
-  // The factor is relative to the default size.
-  set_factor(factor) {
-    this.factor = factor;
   }
 
   // Draws `count` points, larger if not all of them.

@@ -88,10 +88,7 @@ class PrintPages {
   pictures(shown) {
     const {data, view, units} = this.page;
     const made = {summary: null, of: new Map()};
-    if (!view) {
-      for (const index of shown) made.of.set(index, painted_loop(data, index, kPrintWidth, kPrintHeight, units));
-      return made;
-    }
+    if (!view) return made;
     const selected = view.scenes.selected;
     view.take_pictures(kPrintWidth, kPrintHeight, (picture) => {
       const {navigation} = view;
@@ -159,12 +156,7 @@ class PrintPages {
       ["Mark", (i) => (marks.mark[i] === kNoMark ? "" : mark_title(marks.mark[i])), "word"],
       [`Place x, y, z${units.name ? `, ${units.name}` : ""}`, (i) => table.place(i).join("  ")],
     ];
-    const rows = shown.slice(0, kSummaryRows).map(
-        (i) => element("tr", {}, ...columns.map(([, text, style]) => element("td", {class: style}, text(i)))));
-    return element("table", {class: "print-table"},
-                   element("caption", {}, shown.length > kSummaryRows ? `The ${kSummaryRows} largest` : "By size"),
-                   element("thead", {}, element("tr", {}, ...columns.map(([name, , style]) => element("th", {scope: "col", class: style}, name)))),
-                   element("tbody", {}, ...rows));
+    return place_table(shown.slice(0, kSummaryRows), columns, "print-table", shown.length > kSummaryRows ? `The ${kSummaryRows} largest` : "By size");
   }
 
   loop_page(index, at, count, pictures, plan) {
@@ -175,11 +167,119 @@ class PrintPages {
     return element("section", {class: "print-page"},
         this.head(loop_name(loops, index), `${at + 1} of ${format_count(count)} · ${data.report.title || "Scan"}`),
         picture ? element("img", {src: picture, class: "print-picture", alt: ""})
-                : element("p", {class: "print-words"}, "Not drawn: it passes through points far from all others."),
+                : element("p", {class: "print-words"}, this.page.view ? "Not drawn: it passes through points far from all others."
+                                                                      : "Not drawn: this browser gives no WebGL."),
         element("div", {class: "print-columns"}, plan.figure(index), details.measures(index)),
         element("div", {class: "print-note"},
                 element("p", {}, element("span", {class: "quiet"}, "Mark "),
                         name === kNoMark ? "none" : element("span", {}, mark_sign(name), mark_title(name))),
                 element("p", {class: "print-note-text"}, element("span", {class: "quiet"}, "Note "), marks.note[index])));
   }
+}
+
+// The scan from above with the place of one loop: drawn without WebGL, for paper.
+
+const kPlanWidth = 900, kPlanHeight = 780;  // pixels at most
+
+// One drawing of all points and loops, shared by the pages; the place of a loop lies over it.
+class Plan {
+  // `heights`: lowest and highest that is shown, in scene coordinates.
+  constructor(data, heights) {
+    this.data = data;
+    const {low, high} = scene_bounds(data).box;
+    const {up} = data.frame;
+    this.axes = [(up + 1) % 3, (up + 2) % 3];  // to the right, and to the top of the plan
+    const [a, b] = this.axes;
+    const margin = 0.03 * Math.max(high[a] - low[a], high[b] - low[b], 1e-6);
+    this.corner = [low[a] - margin, high[b] + margin];
+    const wide = high[a] - low[a] + 2 * margin, tall = high[b] - low[b] + 2 * margin;
+    this.factor = Math.min(kPlanWidth / wide, kPlanHeight / tall);
+    this.size = [Math.ceil(wide * this.factor), Math.ceil(tall * this.factor)];
+    this.source = this.draw(heights);
+  }
+
+  // Pixels of a scene position.
+  at(values, i) {
+    const [a, b] = this.axes;
+    return [(values[3 * i + a] - this.corner[0]) * this.factor, (this.corner[1] - values[3 * i + b]) * this.factor];
+  }
+
+  draw([lowest, highest]) {
+    const {points, loops, frame} = this.data;
+    const [width, height] = this.size;
+    const [canvas, pen] = paper(width, height);
+    pen.fillStyle = "#c9cfd1";
+    for (let i = 0; i < points.count; ++i) {
+      const at_height = points.positions[3 * i + frame.up];
+      if (at_height < lowest || at_height > highest) continue;
+      const [x, y] = this.at(points.positions, i);
+      pen.fillRect(x - 0.75, y - 0.75, 1.5, 1.5);
+    }
+    for (let loop = 0; loop < loops.count; ++loop) {
+      pen.strokeStyle = style_value(loops.is_hole[loop] ? "--hole" : "--outer");
+      pen.lineWidth = loops.is_hole[loop] ? 2 : 1.2;
+      trace_loop(pen, loops, loop, (i) => this.at(loops.vertices, i));
+      pen.stroke();
+    }
+    return canvas.toDataURL("image/png");
+  }
+
+  // The drawing, with a ring and lines to the edges at the loop; -1: without.
+  figure(index) {
+    const [width, height] = this.size;
+    const over = drawing("svg", {viewBox: `0 0 ${width} ${height}`, class: "plan-over", "aria-hidden": "true"});
+    const box = index < 0 ? null : loop_box(this.data.loops, index);
+    if (box) {
+      const [x, y] = this.at(box.middle, 0);
+      const radius = Math.max(16, 0.62 * Math.hypot(...this.axes.map((axis) => box.high[axis] - box.low[axis])) * this.factor);
+      const line = (x1, y1, x2, y2) => drawing("line", {x1, y1, x2, y2});
+      const {first, vertices} = this.data.loops;
+      const step = Math.max(1, Math.floor((first[index + 1] - first[index]) / 300));
+      const places = [];
+      for (let i = first[index]; i < first[index + 1]; i += step) places.push(this.at(vertices, i).map((value) => value.toFixed(1)).join());
+      over.append(drawing("polygon", {points: places.join(" ")}));
+      over.append(drawing("circle", {cx: x, cy: y, r: radius}), line(0, y, x - radius, y), line(x + radius, y, width, y),
+                  line(x, 0, x, y - radius), line(x, y + radius, x, height));
+    }
+    return element("figure", {class: "plan"},
+                   element("div", {class: "plan-box", style: `aspect-ratio:${width}/${height};width:min(100%, ${(84 * width / height).toFixed(2)}mm)`},
+                           element("img", {src: this.source, alt: ""}), over),
+                   element("figcaption", {class: "quiet"}, `From above, ${"xyz"[this.axes[0]]} to the right, ${"xyz"[this.axes[1]]} to the top`));
+  }
+}
+
+// A white canvas and its pen.
+function paper(width, height) {
+  const canvas = element("canvas", {width, height});
+  const pen = canvas.getContext("2d");
+  pen.fillStyle = "#fff";
+  pen.fillRect(0, 0, width, height);
+  return [canvas, pen];
+}
+
+// The closed path of a loop; `at(i)`: pixels of its vertex.
+function trace_loop(pen, {first}, loop, at) {
+  pen.beginPath();
+  for (let i = first[loop]; i < first[loop + 1]; ++i) pen.lineTo(...at(i));
+  pen.closePath();
+}
+
+// A bar of a round length, in the lower right corner; `pixel`: its size in the scan's unit.
+function draw_bar(pen, width, height, pixel, units) {
+  const length = round_step(0.18 * width * pixel);
+  if (!Number.isFinite(length) || !(length > 0)) return;
+  const long = length / pixel, right = width - 30, base = height - 24, high = 12;
+  pen.fillStyle = "#ffffffd9";
+  pen.fillRect(right - long - 14, base - 44, long + 28, 58);
+  pen.strokeStyle = pen.fillStyle = "#16191b";
+  pen.lineWidth = 2.5;
+  pen.beginPath();
+  pen.moveTo(right - long, base - high);
+  pen.lineTo(right - long, base);
+  pen.lineTo(right, base);
+  pen.lineTo(right, base - high);
+  pen.stroke();
+  pen.font = "22px sans-serif";
+  pen.textAlign = "right";
+  pen.fillText(units.length(length, 1), right, base - high - 6);
 }

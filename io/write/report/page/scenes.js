@@ -76,7 +76,7 @@ class Scenes {
   }
 
   set_point_size(factor) {
-    this.cloud.set_factor(factor);
+    this.cloud.factor = factor;
     this.on_change();
   }
 
@@ -127,7 +127,7 @@ class Scenes {
   }
 
   write_cause_colours({cause, causes}) {
-    const names = [...causes.map(({name}) => name), kNoCause];
+    const names = [...causes, kNoCause];
     const colours = new Map(names.map((name) => [name, css_rgb(style_value(cause_style(name))).map((value) => Math.round(255 * value))]));
     cause.forEach((name, i) => this.loop_colours.image.data.set(colours.get(name) || colours.get(kNoCause), 4 * i));
     this.loop_colours.needsUpdate = true;

@@ -7,8 +7,8 @@ const kSliderSteps = 200;  // at least
 
 // One of the two heights: a slider and a number field that say the same. At its end of the range it hides nothing.
 class HeightLimit {
-  // `name` of its controls, "above" or "below"; the range in the scan's unit; `on_change()` when the user has moved it.
-  constructor(name, range, off, units, on_change) {
+  // `name` of its controls, "above" or "below"; `on_change()` when the user has moved it. set_range() follows.
+  constructor(name, units, on_change) {
     Object.assign(this, {name, units});
     this.slider = find(`${name}-slider`);
     this.number = find(`${name}-number`);
@@ -20,10 +20,9 @@ class HeightLimit {
       on_change();
     });
     this.number.addEventListener("change", () => this.set(this.value));
-    this.set_range(range, off);
   }
 
-  // `off`: the end at which it hides nothing. It is there afterwards.
+  // In the scan's unit; `off`: the end at which it hides nothing. It is there afterwards.
   set_range({low, high, step, decimals}, off) {
     Object.assign(this, {low, high, decimals, off});
     Object.assign(this.slider, {min: this.text(low), max: this.text(high), step: this.text(step)});
@@ -60,28 +59,19 @@ class Section {
   // `on_change(low, high)` gives the heights that are shown, in scene coordinates, after each change.
   constructor(data, bounds, units, on_change) {
     Object.assign(this, {data, bounds, frame: data.frame, on_change});
-    this.former = null;  // heights before the flight to a loop that they hid
-    const range = this.range();
     const changed = () => { this.former = null; this.changed(); };
-    this.above = new HeightLimit("above", range, range.high, units, changed);
-    this.below = new HeightLimit("below", range, range.low, units, changed);
-    this.update(range);
+    this.above = new HeightLimit("above", units, changed);
+    this.below = new HeightLimit("below", units, changed);
+    this.set_ranges();
   }
 
-  range() { return slider_range(...scene_heights(this.bounds, this.data).map((height) => real_height(this.frame, height))); }
-
-  update({low, high}) {
-    find("section").disabled = this.data.points.count + this.data.loops.count === 0 || low === high;
-  }
-
-  // After frame.up has changed: all heights are shown.
-  turn_up() {
-    const range = this.range();
-    this.former = null;
+  // At first, and after frame.up has changed: all heights are shown.
+  set_ranges() {
+    const range = slider_range(...scene_heights(this.bounds, this.data).map((height) => real_height(this.frame, height)));
+    this.former = null;  // heights before the flight to a loop that they hid
     this.above.set_range(range, range.high);
     this.below.set_range(range, range.low);
-    this.update(range);
-    this.changed();
+    find("section").disabled = this.data.points.count + this.data.loops.count === 0 || range.low === range.high;
   }
 
   is_active() { return this.above.is_active() || this.below.is_active(); }

@@ -176,7 +176,7 @@ class LoopTable {
   }
 
   place(i) {
-    return [0, 1, 2].map((axis) => format_place(this.loops.centroid[3 * i + axis], this.decimals));
+    return vector_of(this.loops.centroid, i).map((value) => format_place(value, this.decimals));
   }
 
   select(index) {
@@ -240,24 +240,20 @@ class LoopTable {
     const text = (value) => (Number.isFinite(value) ? String(value) : "");
     const quoted = (words) => (/[",\r\n]/.test(words) ? `"${words.replace(/"/g, '""')}"` : words);
     const place = (value) => (Number.isFinite(value) ? String(short_place(value)) : "");
-    const names = ["points", "confidence", "prominence", "first_scale", "last_scale", "perimeter", "area", "diameter", "planarity", "mean_probability"];
-    // As in holes.csv.
-    const has_shares = loops.has_causes && !loops.has_changes;
-    const causes = has_shares ? kCauses.map(({name}) => name) : [];
-    const more = [...(loops.has_causes ? [loops.cause_word.toLowerCase()] : []),
-                  ...(has_shares ? ["x", "y", "z"].map((axis) => `hidden_by_${axis}${unit}`) : [])];
-    const cause = (i) => [...(loops.has_causes ? [loops.cause[i] === kNoCause ? "" : loops.cause[i]] : []),
-                          ...(has_shares ? Array.from(loops.hidden_by.subarray(3 * i, 3 * i + 3), place) : [])];
     const units = {first_scale: unit, last_scale: unit, perimeter: unit, area: square, diameter: unit};
-    const lines = [["id", "kind", ...names.map((name) => name + (units[name] || "")), ...causes, ...["x", "y", "z"].map((name) => name + unit),
-                    "nx", "ny", "nz", ...more, "mark", "note"].join(",")];
-    for (const i of this.shown) {
-      lines.push([loops.id[i], loops.is_hole[i] ? "hole" : "outer", ...names.map((name) => text(loops[name][i])),
-                  ...causes.map((name) => text(loops.shares[name][i])),
-                  ...Array.from(loops.centroid.subarray(3 * i, 3 * i + 3), place),
-                  ...Array.from(loops.normal.subarray(3 * i, 3 * i + 3), text), ...cause(i),
-                  marks.mark[i] === kNoMark ? "" : marks.mark[i], quoted(marks.note[i])].join(","));
-    }
-    return lines.join("\n") + "\n";
+    const vector = (names, column, words) => names.map((name, axis) => [name, (i) => words(column[3 * i + axis])]);
+    const axes = (before) => ["x", "y", "z"].map((axis) => before + axis + unit);
+    const has_shares = loops.has_causes && !loops.has_changes;
+    const columns = [  // as in holes.csv
+      ["id", (i) => loops.id[i]], ["kind", (i) => (loops.is_hole[i] ? "hole" : "outer")],
+      ...kMeasures.map((name) => [name + (units[name] || ""), (i) => text(loops[name][i])]),
+      ...(has_shares ? kCauses : []).map((name) => [name, (i) => text(loops.shares[name][i])]),
+      ...vector(axes(""), loops.centroid, place), ...vector(["nx", "ny", "nz"], loops.normal, text),
+      ...(loops.has_causes ? [[loops.cause_word.toLowerCase(), (i) => (loops.cause[i] === kNoCause ? "" : loops.cause[i])]] : []),
+      ...(has_shares ? vector(axes("hidden_by_"), loops.hidden_by, place) : []),
+      ["mark", (i) => (marks.mark[i] === kNoMark ? "" : marks.mark[i])], ["note", (i) => quoted(marks.note[i])],
+    ];
+    const lines = [columns.map(([name]) => name), ...this.shown.map((i) => columns.map(([, value]) => value(i)))];
+    return lines.map((line) => line.join(",")).join("\n") + "\n";
   }
 }
