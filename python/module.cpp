@@ -12,8 +12,8 @@
 #include "python/run.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/compare_command.hpp"
+#include "tools/commands/parameter_options.hpp"
 #include "tools/run/input_files.hpp"
-#include "tools/run/parameter_options.hpp"
 
 #include <filesystem>
 #include <optional>

@@ -3,7 +3,6 @@
 #include "engine/run/utf8.hpp"
 #include "tests/support/test.hpp"
 #include "tools/commands/summary.hpp"
-#include "tools/console/measures_text.hpp"
 #include "tools/console/progress.hpp"
 #include "tools/console/terminal.hpp"
 

@@ -3,7 +3,6 @@
 
 #include "engine/run/disk_space.hpp"
 #include "engine/run/machine_memory.hpp"
-#include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
 #include "tools/run/scan_warnings.hpp"
 

@@ -167,10 +167,6 @@ void require_outside_results(const fs::path& folder, const fs::path& out, const 
   require_lasting(folder);
 }
 
-Option add_results_folder(const Command& command, fs::path& folder) {
-  return command.add_option("DIR", folder, "Folder with the results of lacuna detect").type("DIR").required();
-}
-
 void remove_made_folders() {
   mutex.lock();  // and never unlocked
   for (auto folder = living.rbegin(); folder != living.rend(); ++folder) (*folder)->remove_empty();

@@ -5,7 +5,6 @@
 #include "engine/store/descriptor.hpp"
 #include "engine/store/temporary_folder.hpp"
 #include "io/read/files/result_folder.hpp"
-#include "tools/console/command_line.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -102,9 +101,6 @@ class ScratchFolder {
 // temporary folder of a run is refused, too. `out`: the results of this run, if it has any.
 void require_outside_results(const std::filesystem::path& folder, const std::filesystem::path& out,
                              const std::string& option);
-
-// Adds the argument DIR of commands that begin with the results of a run.
-Option add_results_folder(const Command& command, std::filesystem::path& folder);
 
 // For the thread that handles signals: removes the folders of all living MadeFolders that are empty. No
 // folder can be made afterwards: a thread that tries stops there, as the process is about to end.

@@ -229,13 +229,6 @@ std::vector<ScanInput> expand_inputs(const std::vector<fs::path>& given, const F
   return files;
 }
 
-Option add_scans(const Command& command, std::vector<fs::path>& scans) {
-  return command
-      .add_option("SCAN", scans,
-                  "Scan files, folders of them, or @LIST of their names; several are one registered scan")
-      .type("SCAN");
-}
-
 ReadOptions read_options(const FilesConfig& config) {
   return io::read_options(config.input, Memory::share(config.run.memory_limit).reading);
 }

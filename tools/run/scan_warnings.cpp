@@ -12,7 +12,6 @@
 #include "io/read/files/number.hpp"
 #include "io/read/scan/plan_system.hpp"
 #include "io/read/scan/scan_files.hpp"
-#include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
 #include "tools/run/coordinate_steps.hpp"
 

@@ -7,7 +7,6 @@
 #include "tools/console/command_line.hpp"
 
 #include <deque>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,7 +42,7 @@ struct EffectiveConfig {
 class ParameterOptions {
  public:
   // Adds an option for each parameter that is read, grouped by section in --help-all.
-  ParameterOptions(const Command& command, const ReadParameters& read);
+  ParameterOptions(CLI::App& command, const ReadParameters& read);
 
   // `config`, then the config file, then the command line. Throws `UsageError` for what is wrong in the file
   // and `WrongOption` for what is wrong on the command line.
@@ -61,9 +60,9 @@ class ParameterOptions {
   struct Given {
     bool is_read = false;
     std::string text;
-    std::optional<Option> option;  // none: of a constant, or of a parameter that is not read
+    CLI::Option* option = nullptr;  // none: of a constant, or of a parameter that is not read
 
-    bool is_given() const { return option && option->is_given(); }
+    bool is_given() const;
   };
   std::string config_file_;
   std::deque<Given> given_;  // as in parameters(); a deque, because the options point into it
