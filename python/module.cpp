@@ -12,7 +12,6 @@
 #include "python/run.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/commands/compare_command.hpp"
-#include "tools/commands/parameter_options.hpp"
 #include "tools/run/input_files.hpp"
 
 #include <filesystem>

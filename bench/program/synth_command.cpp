@@ -35,7 +35,7 @@ CLI::Option* add_choice(CLI::App& command, const std::string& option, const std:
                         T& value, const std::string& help) {
   std::array<std::string_view, N> names;
   std::ranges::transform(choices, names.begin(), &Choice<T>::name);
-  return add_choice(
+  return tools::add_choice(
       command, option, names, [&choices, &value](std::size_t place) { value = choices[place].value; }, help);
 }
 

@@ -11,11 +11,10 @@
 #include "io/read/scan/scan_files.hpp"
 #include "io/write/loops/json.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/commands/summary.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/terminal.hpp"
-#include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
+#include "tools/run/run_program.hpp"
 #include "tools/run/scan_warnings.hpp"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/commands/parameter_options.hpp"
 
 #include "engine/config/config.hpp"
 #include "engine/run/error.hpp"

@@ -6,11 +6,11 @@
 #include "io/write/report/render.hpp"
 #include "io/write/report/report.hpp"
 #include "io/write/report/scene.hpp"
-#include "io/write/results/voids.hpp"
+#include "io/write/results/results.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/terminal.hpp"
-#include "tools/run/folders.hpp"
+#include "tools/run/run_program.hpp"
 
 #include <algorithm>
 #include <cmath>

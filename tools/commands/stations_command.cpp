@@ -5,13 +5,12 @@
 #include "io/explain/stations/station.hpp"
 #include "io/read/crs/crs.hpp"
 #include "io/read/files/output_file.hpp"
-#include "io/read/files/result_folder.hpp"
 #include "io/read/rows/columns.hpp"
 #include "io/write/report/scene.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/terminal.hpp"
-#include "tools/run/folders.hpp"
+#include "tools/run/run_program.hpp"
 #include "tools/run/scan_warnings.hpp"
 
 #include <algorithm>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/commands/summary.hpp"
-
 #include "engine/run/disk_space.hpp"
 #include "engine/run/machine_memory.hpp"
+#include "tools/commands/commands.hpp"
 #include "tools/console/terminal.hpp"
 #include "tools/run/scan_warnings.hpp"
 

@@ -9,10 +9,8 @@
 #include "io/read/scan/scan_files.hpp"
 #include "io/read/scan/scan_pass.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/commands/summary.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/terminal.hpp"
-#include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
 #include "tools/run/run_program.hpp"
 

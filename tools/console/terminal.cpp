@@ -122,52 +122,27 @@ using namespace std::chrono_literals;
 // A thread that holds the console for longer is writing to a stderr that takes nothing.
 constexpr auto kLastLineAfter = 200ms;
 
-// stderr, with at most one line of progress below everything else.
-class Console {
- public:
-  void print_line(std::string_view line) {
-    const std::lock_guard lock(mutex_);
-    write(erased() + shortened(visible(line)) + '\n' + bar_);
-  }
-  void show_bar(std::string bar) {
-    const std::lock_guard lock(mutex_);
-    const std::string before = erased();
-    bar_ = std::move(bar);
-    write(before + bar_);
-  }
-  void clear_now() {
-    const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (lock && can_write_now()) write(std::exchange(bar_, "").empty() ? "" : kErase);
-  }
-  // Keeps the console. It avoids stdio, whose lock another thread may have.
-  void print_last_line(std::string_view line) {
-    if (!mutex_.try_lock_for(kLastLineAfter) || !can_write_now()) return;
-    const std::string text = erased() + shortened(visible(line)) + '\n';
-    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
-  }
-
- private:
+// stderr, with at most one line of progress below everything else. The object is never destroyed, since other
+// threads may write until the very end.
+struct Console {
   static constexpr const char* kErase = "\r\033[K";
 
-  std::string erased() const { return bar_.empty() ? "" : kErase; }
-  // Writes neither into a full pipe, nor to a terminal that has been stopped.
-  static bool can_write_now() {
-    pollfd err{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
-    return poll(&err, 1, 0) == 1;
-  }
-  static void write(std::string_view text) {
-    std::fwrite(text.data(), 1, text.size(), stderr);
-    std::fflush(stderr);
-  }
+  std::string erased() const { return bar.empty() ? "" : kErase; }
 
-  std::timed_mutex mutex_;
-  std::string bar_;
+  std::timed_mutex mutex;
+  std::string bar;
 };
+Console& console = *new Console;
 
-// The object is never destroyed, since other threads may write until the very end.
-Console& console() {
-  static Console* const instance = new Console;
-  return *instance;
+// Writes neither into a full pipe, nor to a terminal that has been stopped.
+bool can_write_now() {
+  pollfd err{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
+  return poll(&err, 1, 0) == 1;
+}
+
+void write_error(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
 }
 
 // The program's name comes before each line.
@@ -185,7 +160,7 @@ class ConsoleSink final : public spdlog::sinks::base_sink<std::mutex> {
       line.append(level.data(), level.size()).append(": ");
     }
     line.append(message.payload.data(), message.payload.size());
-    console().print_line(line);
+    print_line(line);
   }
   void flush_() override {}
 };
@@ -203,7 +178,7 @@ void quiet_log() {
 
 void print_error(std::string_view reason) {
   clear_progress();
-  console().print_line(name() + ": error: " + std::string(reason));
+  print_line(name() + ": error: " + std::string(reason));
 }
 
 void print_warnings(std::span<const std::string> warnings) {
@@ -215,23 +190,31 @@ const std::string& program_name() {
 }
 
 void print_line(std::string_view line) {
-  console().print_line(line);
+  const std::lock_guard lock(console.mutex);
+  write_error(console.erased() + shortened(visible(line)) + '\n' + console.bar);
 }
 
 void show_bar(std::string bar) {
-  console().show_bar(std::move(bar));
+  const std::lock_guard lock(console.mutex);
+  const std::string before = console.erased();
+  console.bar = std::move(bar);
+  write_error(before + console.bar);
 }
 
 void clear_progress() {
-  console().show_bar("");
-}
-
-void print_last_line(std::string_view line) {
-  console().print_last_line(line);
+  show_bar("");
 }
 
 void clear_progress_now() {
-  console().clear_now();
+  const std::unique_lock lock(console.mutex, std::try_to_lock);
+  if (lock && can_write_now()) write_error(std::exchange(console.bar, "").empty() ? "" : Console::kErase);
+}
+
+// Keeps the console. It avoids stdio, whose lock another thread may have.
+void print_last_line(std::string_view line) {
+  if (!console.mutex.try_lock_for(kLastLineAfter) || !can_write_now()) return;
+  const std::string text = console.erased() + shortened(visible(line)) + '\n';
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
 }
 
 std::size_t terminal_width() {

@@ -6,7 +6,7 @@
 #include "io/read/ept.hpp"
 #include "io/read/files/input_file.hpp"
 #include "io/read/files/number.hpp"
-#include "io/read/files/result_folder.hpp"
+#include "io/read/files/output_file.hpp"
 #include "io/read/formats.hpp"
 #include "io/read/rows/pose.hpp"
 #include "io/read/rows/scan_reader.hpp"
