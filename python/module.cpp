@@ -13,7 +13,6 @@
 #include "tools/commands/commands.hpp"
 #include "tools/commands/compare_command.hpp"
 #include "tools/run/input_files.hpp"
-#include "tools/run/parameter_options.hpp"
 
 #include <filesystem>
 #include <optional>

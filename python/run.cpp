@@ -6,8 +6,8 @@
 #include "engine/run/memory.hpp"
 #include "io/explain/area/check_area.hpp"
 #include "io/explain/stations/find_causes.hpp"
-#include "io/write/results/voids.hpp"
-#include "tools/commands/summary.hpp"
+#include "io/write/results/results.hpp"
+#include "tools/commands/commands.hpp"
 #include "tools/console/progress.hpp"
 #include "tools/run/scan_warnings.hpp"
 

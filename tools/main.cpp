@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
   using namespace lacuna::tools;
   CommandLine line("lacuna", "Lacuna finds holes in scanned surfaces, also in scans larger than memory.",
                    "lacuna " LACUNA_VERSION);
-  const Command program = line.program();
+  CLI::App& program = line.program();
   add_detect_command(program);
   add_info_command(program);
   add_check_command(program);

@@ -3,7 +3,6 @@
 
 #include "engine/model/loop.hpp"
 #include "io/write/loops/json.hpp"
-#include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
 
 #include <algorithm>

@@ -3,15 +3,15 @@
 // It throws `Error` when the job fails, and `UsageError` for options that are not possible.
 #pragma once
 
-namespace lacuna::tools {
-class Command;
+namespace CLI {
+class App;
 }
 
 namespace lacuna::bench {
 
-void add_synth_command(const tools::Command& program);     // makes scans with known holes
-void add_evaluate_command(const tools::Command& program);  // compares a result with the truth
-void add_make_command(const tools::Command& program);      // makes a folder of clouds and truth
-void add_score_command(const tools::Command& program);     // scores results for such a folder
+void add_synth_command(CLI::App& program);     // makes scans with known holes
+void add_evaluate_command(CLI::App& program);  // compares a result with the truth
+void add_make_command(CLI::App& program);      // makes a folder of clouds and truth
+void add_score_command(CLI::App& program);     // scores results for such a folder
 
 }  // namespace lacuna::bench

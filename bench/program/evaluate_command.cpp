@@ -10,6 +10,8 @@
 #include <memory>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
 namespace lacuna::bench {
 using namespace tools;
 namespace {
@@ -40,30 +42,30 @@ void run_evaluate(const EvaluateArguments& arguments) {
 
 }  // namespace
 
-void add_evaluate_command(const Command& program) {
-  const Command command = program.add_command("evaluate", "Compare the loops found with the true loops");
+void add_evaluate_command(CLI::App& program) {
+  CLI::App& command = *program.add_subcommand("evaluate", "Compare the loops found with the true loops");
   const auto arguments = std::make_shared<EvaluateArguments>();
   EvaluateArguments& a = *arguments;
   command
       .add_option("RESULT", a.result,
                   "Output folder of lacuna detect, its loops.ply, loops as text (ids, one loop per line), or "
                   "closed lines of a PLY file (element edge)")
-      .type("PATH")
-      .required();
+      ->type_name("PATH")
+      ->required();
   command
       .add_option("TRUTH", a.truth,
                   "A PLY mesh, whose boundary is the truth, or loops as text: ids, one loop per line")
-      .type("FILE")
-      .required();
+      ->type_name("FILE")
+      ->required();
   command
       .add_option(
           "--scan", a.scans,
           "Scan files that the ids of loops as text count; default: X.ply next to X.loops.txt, else the "
           "input of the run")
-      .type("FILE");
+      ->type_name("FILE");
   add_rule_options(command, a.rule);
   command.add_flag("--json", a.json, "Print all scores, and the decision on every loop, as JSON");
-  command.runs([arguments] { run_evaluate(*arguments); });
+  command.callback([arguments] { run_evaluate(*arguments); });
 }
 
 }  // namespace lacuna::bench

@@ -4,7 +4,6 @@
 #include "bench/synth/surface.hpp"
 #include "engine/run/error.hpp"
 #include "tools/console/command_line.hpp"
-#include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
 
 #include <array>
@@ -15,6 +14,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <CLI/CLI.hpp>
 
 namespace lacuna::bench {
 using namespace tools;
@@ -115,21 +116,20 @@ void run_make(const MakeArguments& arguments) {
 
 }  // namespace
 
-void add_make_command(const Command& program) {
-  const Command command =
-      program.add_command("make", "Make a folder of clouds whose holes are known, for `score`");
+void add_make_command(CLI::App& program) {
+  CLI::App& command =
+      *program.add_subcommand("make", "Make a folder of clouds whose holes are known, for `score`");
   const auto arguments = std::make_shared<MakeArguments>();
-  command
-      .add_choice(
-          "SET", kSets, [arguments](std::size_t set) { arguments->set = static_cast<CloudSet>(set); },
-          "surfaces, scans or all: which clouds")
-      .required();
+  add_choice(
+      command, "SET", kSets, [arguments](std::size_t set) { arguments->set = static_cast<CloudSet>(set); },
+      "surfaces, scans or all: which clouds")
+      ->required();
   command.add_option("DIR", arguments->folder, "the folder for X.ply and X.loops.txt of each cloud X")
-      .required();
+      ->required();
   command.add_option("--seed", arguments->seed, "Another seed makes other clouds of the same kinds")
-      .whole_number()
-      .show_default();
-  command.runs([arguments] { run_make(*arguments); });
+      ->check(whole_number())
+      ->capture_default_str();
+  command.callback([arguments] { run_make(*arguments); });
 }
 
 }  // namespace lacuna::bench

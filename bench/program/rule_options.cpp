@@ -5,19 +5,21 @@
 
 #include <cmath>
 
+#include <CLI/CLI.hpp>
+
 namespace lacuna::bench {
 
-void add_rule_options(const tools::Command& command, evaluation::EvaluationRule& rule) {
+void add_rule_options(CLI::App& command, evaluation::EvaluationRule& rule) {
   command
       .add_option("--tolerance", rule.tolerance,
                   "How far a loop may be off the true one, in spacings from 0 on; docs/evaluate.md")
-      .real_number()
-      .show_default();
+      ->check(real_number())
+      ->capture_default_str();
   command
       .add_option("--min-vertices", rule.min_vertices,
                   "True loops with fewer vertices count neither as found nor as missed")
-      .whole_number()
-      .show_default();
+      ->check(whole_number())
+      ->capture_default_str();
 }
 
 void check(const evaluation::EvaluationRule& rule) {

@@ -4,14 +4,14 @@
 
 #include "bench/evaluation/evaluation.hpp"
 
-namespace lacuna::tools {
-class Command;
+namespace CLI {
+class App;
 }
 
 namespace lacuna::bench {
 
 // The rule outlives the command.
-void add_rule_options(const tools::Command& command, evaluation::EvaluationRule& rule);
+void add_rule_options(CLI::App& command, evaluation::EvaluationRule& rule);
 
 // Throws `UsageError` for a rule that is not possible.
 void check(const evaluation::EvaluationRule& rule);

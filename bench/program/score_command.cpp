@@ -5,7 +5,6 @@
 #include "bench/program/rule_options.hpp"
 #include "engine/run/error.hpp"
 #include "tools/console/command_line.hpp"
-#include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
 
 #include <algorithm>
@@ -14,6 +13,8 @@
 #include <memory>
 #include <string>
 #include <vector>
+
+#include <CLI/CLI.hpp>
 
 namespace lacuna::bench {
 using namespace tools;
@@ -88,25 +89,25 @@ void run_score(const ScoreArguments& arguments) {
 
 }  // namespace
 
-void add_score_command(const Command& program) {
-  const Command command = program.add_command("score", "Score a program's loops for a folder of clouds");
+void add_score_command(CLI::App& program) {
+  CLI::App& command = *program.add_subcommand("score", "Score a program's loops for a folder of clouds");
   const auto arguments = std::make_shared<ScoreArguments>();
   ScoreArguments& a = *arguments;
   command
       .add_option("DIR", a.clouds,
                   "Folder of clouds X.ply with true loops X.loops.txt, as `make` writes it; without "
                   "X.loops.txt, X.ply is a mesh, whose boundary is the truth")
-      .required();
+      ->required();
   command
       .add_option("RESULTS", a.results,
                   "Folder of loops: for each cloud X the file X.txt (ids, one loop per line), X.ply (closed "
                   "lines), or the folder X of lacuna detect")
-      .type("DIR")
-      .required();
+      ->type_name("DIR")
+      ->required();
   add_rule_options(command, a.rule);
   command.add_flag("--each", a.each, "Print a row for each cloud instead of each kind");
   command.add_flag("--json", a.json, "Print every number as JSON");
-  command.runs([arguments] { run_score(*arguments); });
+  command.callback([arguments] { run_score(*arguments); });
 }
 
 }  // namespace lacuna::bench

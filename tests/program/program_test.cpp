@@ -227,21 +227,6 @@ TEST_CASE("a run creates its folder, prints what it found unless it is quiet, an
   }
 }
 
-TEST_CASE("results replace earlier results alone, and all of them") {
-  const ScratchFolder scratch;
-  const std::string scan = scratch.write("scan.txt", sheet(20));
-  const fs::path out = scratch / "out";
-  const Words plain = {"detect", scan, "--out", out.string(), "--quiet"};
-  REQUIRE(run_program(with(plain, {"--points", "--points-format", "ply", "--lids", "--obj", "--report"}))
-              .exit_code == 0);
-  CHECK(count_entries(out) == 10);
-  CHECK(run_program(plain).exit_code == 0);
-  CHECK(count_entries(out) == 6);
-  scratch.write("out/notes.txt", "mine");
-  check_failure(run_program(plain), 1, "out/notes.txt: is no result of an earlier run");
-  CHECK(count_entries(out) == 7);
-}
-
 TEST_CASE("a signal while results replace older ones leaves the older ones or all new ones") {
   const ScratchFolder scratch;
   const std::string scan = scratch.write("scan.txt", sheet(300));

@@ -2,8 +2,7 @@
 #include "engine/run/machine.hpp"
 #include "engine/run/words.hpp"
 #include "tests/support/test.hpp"
-#include "tools/commands/summary.hpp"
-#include "tools/console/measures_text.hpp"
+#include "tools/commands/commands.hpp"
 #include "tools/console/progress.hpp"
 #include "tools/console/terminal.hpp"
 
@@ -59,13 +58,6 @@ TEST_CASE("control characters are shown, not obeyed") {
                 "2J \xc2\x80 \xc2\x9f") == "\\u009b2J \\u0080 \\u009f");
   CHECK(visible("\x9b"
                 "2J") == "\\x9b2J");  // C1 as one byte
-}
-
-TEST_CASE("letters of any language stay as they are") {
-  for (const std::string text :
-       {"plain ~ text", "Größe", "点云.ply", "\xc2\xa0", "\xf0\x9f\x95\xb3", "a\\b"}) {
-    CHECK(visible(text) == text);
-  }
 }
 
 TEST_CASE("a long line keeps its begin and its end, and no character is cut") {

@@ -8,7 +8,6 @@
 #include "tests/support/e57_encoder.hpp"
 #include "tests/support/las_file.hpp"
 #include "tests/support/memory_scan.hpp"
-#include "tools/run/coordinate_steps.hpp"
 
 namespace lacuna::test {
 using namespace tools;

@@ -6,7 +6,6 @@
 #include "io/write/report/report.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
-#include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
 #include "tools/run/scan_warnings.hpp"
 
@@ -19,6 +18,7 @@
 #include <tuple>
 #include <utility>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 namespace lacuna::tools {
@@ -267,26 +267,28 @@ void Comparison::show_in(io::Scene& scene) const {
   }
 }
 
-void add_compare_command(const Command& program) {
-  const Command command = program.add_command(
+void add_compare_command(CLI::App& program) {
+  CLI::App& command = *program.add_subcommand(
       "compare", "Say which holes of two results are closed, opened, changed or the same");
   const auto arguments = std::make_shared<CompareArguments>();
-  command.add_option("BEFORE", arguments->before, "Output folder of lacuna detect").required().type("DIR");
+  command.add_option("BEFORE", arguments->before, "Output folder of lacuna detect")
+      ->required()
+      ->type_name("DIR");
   command.add_option("AFTER", arguments->after, "Output folder of a later run on the same place")
-      .required()
-      .type("DIR");
+      ->required()
+      ->type_name("DIR");
   command
       .add_option("--tolerance", arguments->tolerance,
                   "How far apart the curves of one hole may be, in units of the scan; 0: twice the "
                   "spacing of the place, and at least twice the median distance of neighbours")
-      .type("LENGTH");
+      ->type_name("LENGTH");
   command.add_flag("--json", arguments->json, "Print the same as JSON, for programs");
   command.add_flag(
       "--report", arguments->report,
       "Write changes.html into AFTER: its page, with the loops of both and what has become of them");
   command.add_flag("--overwrite", arguments->overwrite,
                    "Replace a changes.html that Lacuna did not write, too");
-  command.runs([arguments] { run_compare(*arguments); });
+  command.callback([arguments] { run_compare(*arguments); });
 }
 
 }  // namespace lacuna::tools

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/commands/detect_command.hpp"
-
+// `lacuna detect`: from scan files to their holes on disk. `lacuna check`: whether a scan covers an area; it
+// reads the scan once and finds no loops.
 #include "engine/kept_state.hpp"
 #include "engine/pipeline.hpp"
 #include "engine/store/temporary_folder.hpp"
@@ -9,9 +9,7 @@
 #include "io/read/scan/scan_pass.hpp"
 #include "io/write/results/results.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/commands/summary.hpp"
 #include "tools/console/terminal.hpp"
-#include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
 #include "tools/run/run_program.hpp"
 #include "tools/run/scan_warnings.hpp"
@@ -23,6 +21,7 @@
 #include <string>
 #include <utility>
 
+#include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
 
 namespace lacuna::tools {
@@ -37,15 +36,15 @@ using Clock = std::chrono::steady_clock;
 constexpr std::array<std::string_view, 4> kProgressStyles = {"bar", "plain", "json", "none"};
 
 struct DetectArguments {
-  explicit DetectArguments(const Command& command) : run(command, parameters_of_run()) {}
+  explicit DetectArguments(CLI::App& command) : run(command, parameters_of_run()) {}
 
   std::vector<fs::path> scans;
   bool print_config = false;
   ResultArguments run;
 };
 
-void require(const Command& command, const std::string& option) {
-  if (!command.option(option).is_given()) throw WrongOption(option + " is required");
+void require(const CLI::App& command, const std::string& option) {
+  if (command.count(option) == 0) throw WrongOption(option + " is required");
 }
 
 fs::path scratch_parent(const RunConfig& run, const ResultFolder& results) {
@@ -88,13 +87,13 @@ struct RunResources {
 
 }  // namespace
 
-RunArguments::RunArguments(const Command& command, const ReadParameters& read) : parameters(command, read) {
+RunArguments::RunArguments(CLI::App& command, const ReadParameters& read) : parameters(command, read) {
   const auto choose = [this](std::size_t style) { progress = static_cast<ProgressStyle>(style); };
-  command
-      .add_choice("--progress", kProgressStyles, choose,
-                  "How stderr shows progress. The default is bar on a terminal, else plain")
-      .rare();
-  command.add_flag("--quiet", quiet, "Print no progress and no summary, only warnings and errors").rare();
+  add_choice(command, "--progress", kProgressStyles, choose,
+             "How stderr shows progress. The default is bar on a terminal, else plain")
+      ->group(kRareOptions);
+  command.add_flag("--quiet", quiet, "Print no progress and no summary, only warnings and errors")
+      ->group(kRareOptions);
 }
 
 FilesConfig RunArguments::start(FilesConfig base) const {
@@ -120,12 +119,12 @@ ScanFiles open_inputs(const std::vector<ScanInput>& inputs, const FilesConfig& c
   return scan;
 }
 
-ResultArguments::ResultArguments(const Command& command, const ReadParameters& read)
+ResultArguments::ResultArguments(CLI::App& command, const ReadParameters& read)
     : RunArguments(command, read) {
   command
       .add_option("--out", out,
                   "Folder for the results: a new one, or one of earlier results, which they replace")
-      .type("DIR");
+      ->type_name("DIR");
 }
 
 void detect_to(const std::vector<ScanInput>& inputs, FilesConfig config, const ResultArguments& arguments) {
@@ -159,7 +158,7 @@ void detect_to(const std::vector<ScanInput>& inputs, FilesConfig config, const R
 
 namespace {
 
-void run_detect(const Command& command, const DetectArguments& arguments) {
+void run_detect(const CLI::App& command, const DetectArguments& arguments) {
   if (arguments.print_config) {
     std::cout << print_config(arguments.run.parameters.read().config);
     return;
@@ -173,17 +172,78 @@ void run_detect(const Command& command, const DetectArguments& arguments) {
 
 }  // namespace
 
-void add_detect_command(const Command& program) {
-  const Command command =
-      program.add_command("detect", "Find the holes of a scan and write them to a folder");
+void add_detect_command(CLI::App& program) {
+  CLI::App& command =
+      *program.add_subcommand("detect", "Find the holes of a scan and write them to a folder");
   // Its life ends with the callback's, the app's own.
   const auto arguments = std::make_shared<DetectArguments>(command);
   add_scans(command, arguments->scans);
   command
       .add_flag("--print-config", arguments->print_config,
                 "Print the parameters in effect as a config file, and end")
-      .rare();
-  command.runs([command, arguments] { run_detect(command, *arguments); });
+      ->group(kRareOptions);
+  command.callback([&command, arguments] { run_detect(command, *arguments); });
+}
+
+namespace {
+
+struct CheckArguments {
+  explicit CheckArguments(CLI::App& command) : run(command, parameters_of_check()) {}
+
+  std::vector<fs::path> scans;
+  ResultArguments run;
+};
+
+// Throws `AnswerIsNo` unless the scan covers the area, so that scripts see it.
+void run_check(const CheckArguments& arguments) {
+  FilesConfig base;
+  base.area.is_check = true;
+  const FilesConfig config = arguments.run.start(std::move(base));
+  if (config.area.area_tile > 0 && arguments.run.out.empty())
+    spdlog::warn("--area-tile changes nothing without --out");
+  if (config.output.report && arguments.run.out.empty())
+    spdlog::warn("--report changes nothing without --out");
+  const ScanFiles scan = open_inputs(expand_inputs(arguments.scans, config), config);
+  std::optional<OutFolder> out;
+  if (!arguments.run.out.empty()) {
+    out.emplace(arguments.run.out, kVoidsFile);
+    check_not_input(out->results(), scan);
+  }
+  const std::unique_ptr<Progress> progress = arguments.run.show_progress();
+  const AreaCheck check = check_scan(scan, config, *progress);
+  print_warnings(area_warnings(check, scan.length_unit()));
+  Eigen::AlignedBox3d bounds;
+  for (const AreaPolygon& polygon : check.polygons)
+    for (const Eigen::Vector2d& corner : polygon.outline.front())
+      bounds.extend(Eigen::Vector3d(corner.x(), corner.y(), 0));
+  print_warnings(filter_warnings(scan, check.counts, bounds));
+  const std::string_view unit = scan.length_unit();
+  const std::string answer = print_answer(check, unit);
+  std::string text = answer + "\n\n";
+  if (const std::string voids = print_voids(check, unit); !voids.empty()) text += voids + "\n";
+  text += "  area  " + print_covered(check, unit) + "\n" + print_classes(check, unit) + "\n" +
+          print_basis(check) + "\n";
+  if (out) {
+    for (const auto& file : write_voids(check, scan, config, out->results()))
+      text += "written: " + visible(file.string()) + "\n";
+    note_complete_results();
+  }
+  if (!arguments.run.quiet) std::cout << text;
+  if (!check.is_covered())
+    throw AnswerIsNo{(check.is_outline ? "outline of the scan" : config.area.area) + ": " + answer,
+                     check.answer() == AreaAnswer::kVoids};
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& program) {
+  CLI::App& command =
+      *program.add_subcommand("check", "Check whether a scan covers an area, without finding its loops");
+  const auto arguments = std::make_shared<CheckArguments>(command);
+  add_scans(command, arguments->scans)->required();
+  command.get_option("--report")
+      ->description("Write report.html too: one sheet with the answer and a map, for acceptance.");
+  command.callback([arguments] { run_check(*arguments); });
 }
 
 }  // namespace lacuna::tools

@@ -11,13 +11,10 @@
 #include "io/read/scan/scan_files.hpp"
 #include "io/write/loops/json.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/commands/summary.hpp"
 #include "tools/console/command_line.hpp"
-#include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
-#include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
-#include "tools/run/parameter_options.hpp"
+#include "tools/run/run_program.hpp"
 #include "tools/run/scan_warnings.hpp"
 
 #include <algorithm>
@@ -35,6 +32,7 @@
 #include <utility>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
 
 namespace lacuna::tools {
@@ -45,7 +43,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct InfoArguments {
-  explicit InfoArguments(const Command& command) : parameters(command, parameters_of_info()) {}
+  explicit InfoArguments(CLI::App& command) : parameters(command, parameters_of_info()) {}
 
   std::vector<fs::path> scans;
   bool json = false;
@@ -366,13 +364,13 @@ std::string info_json(const std::vector<fs::path>& scans, const FilesConfig& con
   return json_of(info.files, info.scan, info.run);
 }
 
-void add_info_command(const Command& program) {
-  const Command command =
-      program.add_command("info", "Show what scan files hold and what a run on them would take");
+void add_info_command(CLI::App& program) {
+  CLI::App& command =
+      *program.add_subcommand("info", "Show what scan files hold and what a run on them would take");
   const auto arguments = std::make_shared<InfoArguments>(command);
-  add_scans(command, arguments->scans).required();
+  add_scans(command, arguments->scans)->required();
   command.add_flag("--json", arguments->json, "Print the same as JSON, for programs");
-  command.runs([arguments] { run_info(*arguments); });
+  command.callback([arguments] { run_info(*arguments); });
 }
 
 }  // namespace lacuna::tools

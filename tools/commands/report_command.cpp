@@ -6,12 +6,11 @@
 #include "io/write/report/render.hpp"
 #include "io/write/report/report.hpp"
 #include "io/write/report/scene.hpp"
-#include "io/write/results/voids.hpp"
+#include "io/write/results/results.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/terminal.hpp"
-#include "tools/run/folders.hpp"
-#include "tools/run/parameter_options.hpp"
+#include "tools/run/run_program.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +21,8 @@
 #include <span>
 #include <string>
 #include <utility>
+
+#include <CLI/CLI.hpp>
 
 namespace lacuna::tools {
 
@@ -46,14 +47,14 @@ void run_report(const ReportArguments& arguments) {
 
 }  // namespace
 
-void add_report_command(const Command& program) {
-  const Command command = program.add_command(
+void add_report_command(CLI::App& program) {
+  CLI::App& command = *program.add_subcommand(
       "report", "Write report.html, the scan and its holes in 3D, for the results in a folder");
   const auto arguments = std::make_shared<ReportArguments>();
   add_results_folder(command, arguments->folder);
   command.add_flag("--overwrite", arguments->overwrite,
                    "Replace a report.html that Lacuna did not write, too");
-  command.runs([arguments] { run_report(*arguments); });
+  command.callback([arguments] { run_report(*arguments); });
 }
 
 namespace {
@@ -61,7 +62,7 @@ namespace {
 constexpr std::size_t kLeastSide = 16, kMostSide = 16384;  // pixels
 
 struct RenderArguments {
-  explicit RenderArguments(const Command& command)
+  explicit RenderArguments(CLI::App& command)
       : process(command, {.common = {"memory_limit"}, .rare = {}, .has_config_file = false}) {}
 
   ParameterOptions process;
@@ -124,33 +125,35 @@ void run_render(const RenderArguments& arguments) {
 
 }  // namespace
 
-void add_render_command(const Command& program) {
-  const Command command =
-      program.add_command("render", "Draw the scan and its holes as a PNG, without a browser");
+void add_render_command(CLI::App& program) {
+  CLI::App& command =
+      *program.add_subcommand("render", "Draw the scan and its holes as a PNG, without a browser");
   const auto arguments = std::make_shared<RenderArguments>(command);
   add_results_folder(command, arguments->folder);
   command.add_option("--out", arguments->out, "Picture to write, in PNG; its name ends in .png")
-      .type("FILE")
-      .name_ending_in(".png")
-      .required();
+      ->type_name("FILE")
+      ->check(name_ending_in(".png"))
+      ->required();
   command
       .add_option("--view", arguments->view,
                   "oblique, top (from above), front (along y), side (along -x), or the id of a loop")
-      .type("VIEW")
-      .show_default();
-  command.add_option("--size", arguments->size, "Width and height in pixels").type("WxH").show_default();
+      ->type_name("VIEW")
+      ->capture_default_str();
+  command.add_option("--size", arguments->size, "Width and height in pixels")
+      ->type_name("WxH")
+      ->capture_default_str();
   command
       .add_option("--hide-above", arguments->most_height,
                   "Draw nothing above this height, in units of the scan; by default nothing above a roof, "
                   "where the scan has one")
-      .real_number()
-      .type("Z");
+      ->check(real_number())
+      ->type_name("Z");
   command.add_flag("--as-it-came", arguments->as_it_came,
                    "Colours or intensities of the scan, where it has them, not probabilities");
   command.add_flag("--no-ids", arguments->without_ids, "Without the ids of the loops");
   command.add_flag("--overwrite", arguments->overwrite,
                    "Replace a file that lacuna render did not write, too");
-  command.runs([arguments] { run_render(*arguments); });
+  command.callback([arguments] { run_render(*arguments); });
 }
 
 }  // namespace lacuna::tools

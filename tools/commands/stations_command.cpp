@@ -5,14 +5,12 @@
 #include "io/explain/stations/station.hpp"
 #include "io/read/crs/crs.hpp"
 #include "io/read/files/output_file.hpp"
-#include "io/read/files/result_folder.hpp"
 #include "io/read/rows/columns.hpp"
 #include "io/write/report/scene.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/console/command_line.hpp"
-#include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
-#include "tools/run/folders.hpp"
+#include "tools/run/run_program.hpp"
 #include "tools/run/scan_warnings.hpp"
 
 #include <algorithm>
@@ -26,6 +24,7 @@
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <spdlog/spdlog.h>
 
 namespace lacuna::tools {
@@ -285,35 +284,38 @@ void run_stations(const StationsArguments& arguments) {
 
 }  // namespace
 
-void add_stations_command(const Command& program) {
-  const Command command =
-      program.add_command("stations", "Say where a scanner should stand next, to see what is hidden");
+void add_stations_command(CLI::App& program) {
+  CLI::App& command =
+      *program.add_subcommand("stations", "Say where a scanner should stand next, to see what is hidden");
   const auto arguments = std::make_shared<StationsArguments>();
   add_results_folder(command, arguments->folder);
   command.add_option("--count", arguments->count, "How many places at most")
-      .whole_number(1, 1000)
-      .show_default();
+      ->check(whole_number(1, 1000))
+      ->capture_default_str();
   const auto length = [&](const char* name, double& value, const char* help) {
-    return command.add_option(name, value, help).real_number().type("LENGTH").show_default();
+    return command.add_option(name, value, help)
+        ->check(real_number())
+        ->type_name("LENGTH")
+        ->capture_default_str();
   };
-  const Option height = length("--height", arguments->height,
-                               "Height of the scanner over the floor, in units of the scan; 0: 1.6 m");
+  CLI::Option* const height = length("--height", arguments->height,
+                                     "Height of the scanner over the floor, in units of the scan; 0: 1.6 m");
   length("--range", arguments->range, "How far it measures; 0: as far as the scan's stations, else 30 m");
-  const Option grid =
+  CLI::Option* const grid =
       length("--grid", arguments->grid, "Distance of the places that are tried; 0: as many as take seconds");
   command
       .add_option("--places", arguments->places,
                   "File with the places of the scanner to try, instead of those over the floor: x y z or "
                   "name x y z on each line")
-      .type("FILE")
-      .excludes(height)
-      .excludes(grid);
+      ->type_name("FILE")
+      ->excludes(height)
+      ->excludes(grid);
   command.add_option("--incidence", arguments->incidence, "Degrees between a ray and a surface, at least")
-      .real_number()
-      .type("DEGREES")
-      .show_default();
+      ->check(real_number())
+      ->type_name("DEGREES")
+      ->capture_default_str();
   command.add_flag("--overwrite", arguments->overwrite, "Replace a file that Lacuna did not write, too");
-  command.runs([arguments] { run_stations(*arguments); });
+  command.callback([arguments] { run_stations(*arguments); });
 }
 
 }  // namespace lacuna::tools

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/commands/summary.hpp"
-
 #include "engine/run/machine.hpp"
-#include "tools/console/measures_text.hpp"
+#include "tools/commands/commands.hpp"
 #include "tools/console/terminal.hpp"
 #include "tools/run/scan_warnings.hpp"
 

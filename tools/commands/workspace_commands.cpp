@@ -8,12 +8,8 @@
 #include "io/read/scan/scan_files.hpp"
 #include "io/read/scan/scan_pass.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/commands/detect_command.hpp"
-#include "tools/commands/summary.hpp"
 #include "tools/console/command_line.hpp"
-#include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
-#include "tools/run/folders.hpp"
 #include "tools/run/input_files.hpp"
 #include "tools/run/run_program.hpp"
 
@@ -28,6 +24,7 @@
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <spdlog/fmt/chrono.h>
 #include <spdlog/fmt/fmt.h>
 #include <unistd.h>
@@ -88,13 +85,13 @@ void clean(const fs::path& folder) {
 }
 
 template <class Run>
-void add_command(const Command& program, const std::string& name, const std::string& help, Run run) {
-  const Command command = program.add_command(name, help);
+void add_command(CLI::App& program, const std::string& name, const std::string& help, Run run) {
+  CLI::App& command = *program.add_subcommand(name, help);
   const auto folder = std::make_shared<fs::path>();
   command.add_option("WORKSPACE", *folder, "Folder that lacuna detect --workspace has kept")
-      .required()
-      .type("DIR");
-  command.runs([folder, run] { run(*folder); });
+      ->required()
+      ->type_name("DIR");
+  command.callback([folder, run] { run(*folder); });
 }
 
 }  // namespace
@@ -109,11 +106,11 @@ std::string print_state(const KeptState& state) {
   return text.empty() ? "no level is stored yet" : text;
 }
 
-void add_status_command(const Command& program) {
+void add_status_command(CLI::App& program) {
   add_command(program, "status", "Say what a workspace has of a run", print_status);
 }
 
-void add_clean_command(const Command& program) {
+void add_clean_command(CLI::App& program) {
   add_command(program, "clean", "Remove the files of a workspace, and the folder if it is empty then", clean);
 }
 
@@ -127,7 +124,7 @@ std::uint64_t minutes_of(const Step& step) {
 }
 
 struct PlanArguments {
-  explicit PlanArguments(const Command& command) : parameters(command, parameters_of_run()) {}
+  explicit PlanArguments(CLI::App& command) : parameters(command, parameters_of_run()) {}
 
   std::vector<fs::path> scans;
   std::size_t tasks = 0;
@@ -175,7 +172,7 @@ void run_plan(const PlanArguments& arguments) {
 }
 
 struct WorkArguments {
-  explicit WorkArguments(const Command& command) : run(command, parameters_of_process()) {}
+  explicit WorkArguments(CLI::App& command) : run(command, parameters_of_process()) {}
 
   fs::path workspace;
   std::string step;
@@ -205,7 +202,7 @@ void run_work(const WorkArguments& arguments) {
 }
 
 struct FinishArguments {
-  explicit FinishArguments(const Command& command) : run(command, parameters_of_process()) {}
+  explicit FinishArguments(CLI::App& command) : run(command, parameters_of_process()) {}
 
   fs::path workspace;
   ResultArguments run;
@@ -218,45 +215,47 @@ void run_finish(const FinishArguments& arguments) {
   detect_to(inputs_of(stored.names), config, arguments.run);
 }
 
-void add_workspace(const Command& command, fs::path& workspace) {
+void add_workspace(CLI::App& command, fs::path& workspace) {
   command.add_option("WORKSPACE", workspace, "Folder of lacuna plan, or of lacuna detect --workspace")
-      .required()
-      .type("DIR");
+      ->required()
+      ->type_name("DIR");
 }
 
 }  // namespace
 
-void add_plan_command(const Command& program) {
-  const Command command = program.add_command("plan", "Prepare a run that several processes share");
+void add_plan_command(CLI::App& program) {
+  CLI::App& command = *program.add_subcommand("plan", "Prepare a run that several processes share");
   const auto arguments = std::make_shared<PlanArguments>(command);
-  add_scans(command, arguments->scans).required();
+  add_scans(command, arguments->scans)->required();
   command.add_option("--tasks", arguments->tasks, "Tasks of each step that is shared")
-      .required()
-      .whole_number(1, kMostTasks)
-      .type("N");
+      ->required()
+      ->check(whole_number(1, kMostTasks))
+      ->type_name("N");
   command.add_flag("--tsv", arguments->tsv,
                    "For scripts, a line for each step: name, tasks, MiB and minutes of a task");
-  command.runs([arguments] { run_plan(*arguments); });
+  command.callback([arguments] { run_plan(*arguments); });
 }
 
-void add_work_command(const Command& program) {
-  const Command command = program.add_command("work", "Do one task of a step that lacuna plan names");
+void add_work_command(CLI::App& program) {
+  CLI::App& command = *program.add_subcommand("work", "Do one task of a step that lacuna plan names");
   const auto arguments = std::make_shared<WorkArguments>(command);
   add_workspace(command, arguments->workspace);
   command.add_option("--step", arguments->step, "Name of the step, such as evaluate-0")
-      .required()
-      .type("STEP");
-  command.add_option("--task", arguments->task, "Number of the task, from 0 on").whole_number().type("I");
-  command.runs([arguments] { run_work(*arguments); });
+      ->required()
+      ->type_name("STEP");
+  command.add_option("--task", arguments->task, "Number of the task, from 0 on")
+      ->check(whole_number())
+      ->type_name("I");
+  command.callback([arguments] { run_work(*arguments); });
 }
 
-void add_finish_command(const Command& program) {
-  const Command command =
-      program.add_command("finish", "Do what a shared run still lacks, and write its results");
+void add_finish_command(CLI::App& program) {
+  CLI::App& command =
+      *program.add_subcommand("finish", "Do what a shared run still lacks, and write its results");
   const auto arguments = std::make_shared<FinishArguments>(command);
   add_workspace(command, arguments->workspace);
-  command.option("--out").required();
-  command.runs([arguments] { run_finish(*arguments); });
+  command.get_option("--out")->required();
+  command.callback([arguments] { run_finish(*arguments); });
 }
 
 }  // namespace lacuna::tools

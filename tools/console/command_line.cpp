@@ -5,13 +5,10 @@
 #include "io/read/files/number.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <limits>
-#include <optional>
 
 #include <CLI/CLI.hpp>
 
@@ -20,12 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kRare = "rare: ";  // before the section of an option that --help leaves out
 constexpr std::string_view kGeneral = "Options";
 
 std::string section_of(const CLI::Option& option) {
   const std::string& group = option.get_group();
-  return group.starts_with(kRare) ? group.substr(std::string_view(kRare).size()) : group;
+  return group.starts_with(kRare) ? group.substr(kRare.size()) : group;
 }
 
 using Options = std::vector<const CLI::Option*>;
@@ -205,118 +201,32 @@ CLI::Validator allowing(const std::string& allowed, IsPossible is_possible) {
 
 }  // namespace
 
-const Option& Option::required() const {
-  option_->required();
-  return *this;
-}
-
-const Option& Option::type(const std::string& name) const {
-  option_->type_name(name);
-  return *this;
-}
-
-const Option& Option::section(const std::string& name) const {
-  option_->group(name);
-  return *this;
-}
-
-const Option& Option::help(const std::string& text) const {
-  option_->description(text);
-  return *this;
-}
-
-const Option& Option::show_default() const {
-  option_->capture_default_str();
-  return *this;
-}
-
-const Option& Option::show_default(const std::string& text) const {
-  const bool is_quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
-  const std::string value = is_quoted ? text.substr(1, text.size() - 2) : text;
-  if (value != "[]") option_->default_str(value);
-  return *this;
-}
-
-const Option& Option::excludes(const Option& other) const {
-  option_->excludes(other.option_);
-  return *this;
-}
-
-const Option& Option::once() const {
-  option_->multi_option_policy(CLI::MultiOptionPolicy::Throw);
-  return *this;
-}
-
-const Option& Option::joined_by_comma() const {
-  option_->delimiter(',')->multi_option_policy(CLI::MultiOptionPolicy::Join);
-  return *this;
-}
-
-const Option& Option::rare() const {
-  option_->group(kRare + section_of(*option_));
-  return *this;
-}
-
-const Option& Option::whole_number(std::size_t least, std::size_t most) const {
+CLI::Validator whole_number(std::size_t least, std::size_t most) {
   const bool is_bounded = most < std::numeric_limits<std::size_t>::max();
   const std::string range =
       is_bounded ? "a whole number from " + std::to_string(least) + " to " + std::to_string(most)
                  : "a whole number, " + std::to_string(least) + " or more";
-  option_->check(allowing(range, [least, most](const std::string& text) {
+  return allowing(range, [least, most](const std::string& text) {
     std::size_t value = 0;
     return io::parse_number(text, value) && value >= least && value <= most;
-  }));
-  return *this;
+  });
 }
 
-const Option& Option::real_number() const {
-  option_->check(allowing("a number without a unit, with a decimal point", [](const std::string& text) {
+CLI::Validator real_number() {
+  return allowing("a number without a unit, with a decimal point", [](const std::string& text) {
     double value = 0;
     return io::parse_number(text, value);
-  }));
-  return *this;
+  });
 }
 
-const Option& Option::name_ending_in(const std::string& ending) const {
-  option_->check(allowing("a name that ends in " + ending, [ending](const std::string& text) {
+CLI::Validator name_ending_in(const std::string& ending) {
+  return allowing("a name that ends in " + ending, [ending](const std::string& text) {
     return CLI::detail::to_lower(fs::path(text).extension().string()) == ending;
-  }));
-  return *this;
+  });
 }
 
-bool Option::is_given() const {
-  return option_->count() > 0;
-}
-
-Command Command::add_command(const std::string& name, const std::string& help) const {
-  return Command(*app_->add_subcommand(name, help));
-}
-
-template <class T>
-Option Command::add_option(const std::string& name, T& value, const std::string& help) const {
-  return Option(*app_->add_option(name, value, help));
-}
-template Option Command::add_option(const std::string&, std::string&, const std::string&) const;
-template Option Command::add_option(const std::string&, double&, const std::string&) const;
-template Option Command::add_option(const std::string&, std::size_t&, const std::string&) const;
-template Option Command::add_option(const std::string&, std::uint32_t&, const std::string&) const;
-template Option Command::add_option(const std::string&, std::array<double, 2>&, const std::string&) const;
-template Option Command::add_option(const std::string&, std::array<double, 3>&, const std::string&) const;
-template Option Command::add_option(const std::string&, fs::path&, const std::string&) const;
-template Option Command::add_option(const std::string&, std::optional<double>&, const std::string&) const;
-template Option Command::add_option(const std::string&, std::optional<fs::path>&, const std::string&) const;
-template Option Command::add_option(const std::string&, std::vector<std::string>&, const std::string&) const;
-template Option Command::add_option(const std::string&, std::vector<fs::path>&, const std::string&) const;
-
-template <class T>
-Option Command::add_flag(const std::string& name, T& value, const std::string& help) const {
-  return Option(*app_->add_flag(name, value, help));
-}
-template Option Command::add_flag(const std::string&, bool&, const std::string&) const;
-template Option Command::add_flag(const std::string&, std::string&, const std::string&) const;
-
-Option Command::add_choice(const std::string& name, std::span<const std::string_view> names,
-                           const std::function<void(std::size_t)>& choose, const std::string& help) const {
+CLI::Option* add_choice(CLI::App& command, const std::string& name, std::span<const std::string_view> names,
+                        const std::function<void(std::size_t)>& choose, const std::string& help) {
   const std::vector<std::string> all(names.begin(), names.end());
   const auto choose_by_name = [all, choose, name](const std::string& text) {
     const auto found = std::ranges::find(all, text);
@@ -324,20 +234,8 @@ Option Command::add_choice(const std::string& name, std::span<const std::string_
       throw WrongOption(name + " = " + text, "is not possible; allowed: " + CLI::detail::join(all, ", "));
     choose(static_cast<std::size_t>(found - all.begin()));
   };
-  CLI::Option* const option = app_->add_option_function<std::string>(name, choose_by_name, help);
-  return Option(*option->type_name(CLI::detail::join(all, "|")));
-}
-
-Option Command::option(const std::string& name) const {
-  return Option(*app_->get_option(name));
-}
-
-void Command::needs_command() const {
-  app_->require_subcommand(1);
-}
-
-void Command::runs(const std::function<void()>& action) const {
-  app_->callback(action);
+  return command.add_option_function<std::string>(name, choose_by_name, help)
+      ->type_name(CLI::detail::join(all, "|"));
 }
 
 CommandLine::CommandLine(const std::string& name, const std::string& help, const std::string& version)
@@ -350,10 +248,6 @@ CommandLine::CommandLine(const std::string& name, const std::string& help, const
 }
 
 CommandLine::~CommandLine() = default;
-
-Command CommandLine::program() const {
-  return Command(*app_);
-}
 
 void CommandLine::run(std::vector<std::string> arguments) {
   if (arguments.empty() || arguments.front() == "help") {

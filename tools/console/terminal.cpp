@@ -122,52 +122,27 @@ using namespace std::chrono_literals;
 // A thread that holds the console for longer is writing to a stderr that takes nothing.
 constexpr auto kLastLineAfter = 200ms;
 
-// stderr, with at most one line of progress below everything else.
-class Console {
- public:
-  void print_line(std::string_view line) {
-    const std::lock_guard lock(mutex_);
-    write(erased() + shortened(visible(line)) + '\n' + bar_);
-  }
-  void show_bar(std::string bar) {
-    const std::lock_guard lock(mutex_);
-    const std::string before = erased();
-    bar_ = std::move(bar);
-    write(before + bar_);
-  }
-  void clear_now() {
-    const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (lock && can_write_now()) write(std::exchange(bar_, "").empty() ? "" : kErase);
-  }
-  // Keeps the console. It avoids stdio, whose lock another thread may have.
-  void print_last_line(std::string_view line) {
-    if (!mutex_.try_lock_for(kLastLineAfter) || !can_write_now()) return;
-    const std::string text = erased() + shortened(visible(line)) + '\n';
-    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
-  }
-
- private:
+// stderr, with at most one line of progress below everything else. The object is never destroyed, since other
+// threads may write until the very end.
+struct Console {
   static constexpr const char* kErase = "\r\033[K";
 
-  std::string erased() const { return bar_.empty() ? "" : kErase; }
-  // Writes neither into a full pipe, nor to a terminal that has been stopped.
-  static bool can_write_now() {
-    pollfd err{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
-    return poll(&err, 1, 0) == 1;
-  }
-  static void write(std::string_view text) {
-    std::fwrite(text.data(), 1, text.size(), stderr);
-    std::fflush(stderr);
-  }
+  std::string erased() const { return bar.empty() ? "" : kErase; }
 
-  std::timed_mutex mutex_;
-  std::string bar_;
+  std::timed_mutex mutex;
+  std::string bar;
 };
+Console& console = *new Console;
 
-// The object is never destroyed, since other threads may write until the very end.
-Console& console() {
-  static Console* const instance = new Console;
-  return *instance;
+// Writes neither into a full pipe, nor to a terminal that has been stopped.
+bool can_write_now() {
+  pollfd err{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
+  return poll(&err, 1, 0) == 1;
+}
+
+void write_error(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
 }
 
 // The program's name comes before each line.
@@ -185,7 +160,7 @@ class ConsoleSink final : public spdlog::sinks::base_sink<std::mutex> {
       line.append(level.data(), level.size()).append(": ");
     }
     line.append(message.payload.data(), message.payload.size());
-    console().print_line(line);
+    print_line(line);
   }
   void flush_() override {}
 };
@@ -203,7 +178,7 @@ void quiet_log() {
 
 void print_error(std::string_view reason) {
   clear_progress();
-  console().print_line(name() + ": error: " + std::string(reason));
+  print_line(name() + ": error: " + std::string(reason));
 }
 
 void print_warnings(std::span<const std::string> warnings) {
@@ -215,29 +190,113 @@ const std::string& program_name() {
 }
 
 void print_line(std::string_view line) {
-  console().print_line(line);
+  const std::lock_guard lock(console.mutex);
+  write_error(console.erased() + shortened(visible(line)) + '\n' + console.bar);
 }
 
 void show_bar(std::string bar) {
-  console().show_bar(std::move(bar));
+  const std::lock_guard lock(console.mutex);
+  const std::string before = console.erased();
+  console.bar = std::move(bar);
+  write_error(before + console.bar);
 }
 
 void clear_progress() {
-  console().show_bar("");
-}
-
-void print_last_line(std::string_view line) {
-  console().print_last_line(line);
+  show_bar("");
 }
 
 void clear_progress_now() {
-  console().clear_now();
+  const std::unique_lock lock(console.mutex, std::try_to_lock);
+  if (lock && can_write_now()) write_error(std::exchange(console.bar, "").empty() ? "" : Console::kErase);
+}
+
+// Keeps the console. It avoids stdio, whose lock another thread may have.
+void print_last_line(std::string_view line) {
+  if (!console.mutex.try_lock_for(kLastLineAfter) || !can_write_now()) return;
+  const std::string text = console.erased() + shortened(visible(line)) + '\n';
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
 }
 
 std::size_t terminal_width() {
   winsize size{};
   const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
   return known ? size.ws_col : 80;
+}
+
+namespace {
+
+constexpr int kDigits = 3;
+constexpr double kLeastPlain = 1e-3, kMostPlain = 1e15;
+
+std::string print_number(double value) {
+  const double size = std::fabs(value);
+  if (size != 0 && !(size >= kLeastPlain && size < kMostPlain)) return fmt::format("{:.{}g}", value, kDigits);
+  if (size >= 999.5)
+    return (value < 0 ? "-" : "") + print_count(static_cast<std::uint64_t>(std::llround(size)));
+  // 9.996 has three digits as 10.0.
+  int decimals = size > 0 ? kDigits - 1 - static_cast<int>(std::floor(std::log10(size))) : kDigits - 1;
+  if (size * std::pow(10, decimals) >= std::pow(10, kDigits) - 0.5) --decimals;
+  return fmt::format("{:.{}f}", value, std::max(decimals, 0));
+}
+
+std::string with_unit(double value, std::string_view unit, const char* power) {
+  std::string text = print_number(value);
+  if (!unit.empty()) text.append(" ").append(unit).append(power);
+  return text;
+}
+
+}  // namespace
+
+std::string counted(std::uint64_t count, std::string_view one, std::string_view several) {
+  return print_count(count).append(" ").append(count == 1 ? one : several);
+}
+
+std::string print_length(double length, std::string_view unit) {
+  return with_unit(length, unit, "");
+}
+
+std::string print_area(double area, std::string_view unit) {
+  return with_unit(area, unit, "²");
+}
+
+std::string print_share(double share) {
+  return with_unit(100 * share, "%", "");
+}
+
+std::string print_place(const Eigen::Vector3d& place, double extent) {
+  constexpr int kMostDecimals = 12;
+  const double magnitude = extent > 0 && std::isfinite(extent) ? std::floor(std::log10(extent)) : 0;
+  const int decimals = std::clamp(2 - static_cast<int>(magnitude), 0, kMostDecimals);
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis) {
+    // -0.004 is 0.00, not -0.00.
+    const double step = std::pow(10, decimals);
+    const double value = std::round(place[axis] * step) / step + 0.0;
+    text += (axis > 0 ? " " : "") + fmt::format("{:.{}f}", value, decimals);
+  }
+  return text;
+}
+
+std::string print_table(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths(rows.front().size());
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  std::string table;
+  for (const auto& row : rows) {
+    table += "  " + row[0] + std::string(widths[0] - row[0].size(), ' ');
+    for (std::size_t i = 1; i < row.size(); ++i) {
+      table += "  " + std::string(widths[i] - row[i].size(), ' ') + row[i];
+    }
+    table += '\n';
+  }
+  return table;
+}
+
+std::string print_count(std::uint64_t count) {
+  std::string text = std::to_string(count);
+  for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, 1, ',');
+  return text;
 }
 
 std::string print_rate(std::uint64_t points, double seconds) {

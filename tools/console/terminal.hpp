@@ -9,6 +9,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
 
 namespace lacuna::tools {
 
@@ -47,6 +50,26 @@ void print_last_line(std::string_view line);
 void clear_progress_now();  // does not wait: leaves it where stderr takes nothing at the moment
 
 std::size_t terminal_width();  // columns; 80 where stderr is no terminal
+
+// Counts, lengths, areas, places and tables as a person reads them. `unit` is the unit of the scan's
+// coordinates, such as "m"; empty if not known.
+
+std::string print_count(std::uint64_t count);  // "1,234,567"
+// "1 void", "1,234 voids"
+std::string counted(std::uint64_t count, std::string_view one, std::string_view several);
+
+// Prints three digits, without an exponent from 0.001 to a million: "0.0123 m", "2.28 m", "1,234 m".
+std::string print_length(double length, std::string_view unit);
+std::string print_area(double area, std::string_view unit);  // "3.97 m²"
+std::string print_share(double share);                       // "100 %" for 1
+
+// Prints x y z, to a hundredth of the power of ten below `extent`, the size of the scan. So all places of one
+// scan have equally many decimals.
+std::string print_place(const Eigen::Vector3d& place, double extent);
+
+// Prints rows of equally many cells; there is at least one row. Each column is as wide as its widest cell.
+// The first column is aligned to the left, the others to the right.
+std::string print_table(const std::vector<std::vector<std::string>>& rows);
 
 std::string print_rate(std::uint64_t points, double seconds);  // "1.25 M points/s"
 std::string print_duration(double seconds);                    // "0.42 s", "12.3 s", "3:07 min", "1:02:03 h"

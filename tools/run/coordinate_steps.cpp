@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/run/coordinate_steps.hpp"
+#include "tools/run/scan_warnings.hpp"
 
 #include <algorithm>
 #include <array>

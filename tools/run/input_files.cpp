@@ -6,7 +6,7 @@
 #include "io/read/ept.hpp"
 #include "io/read/files/input_file.hpp"
 #include "io/read/files/number.hpp"
-#include "io/read/files/result_folder.hpp"
+#include "io/read/files/output_file.hpp"
 #include "io/read/formats.hpp"
 #include "io/read/rows/pose.hpp"
 #include "io/read/rows/scan_reader.hpp"
@@ -227,13 +227,6 @@ std::vector<ScanInput> expand_inputs(const std::vector<fs::path>& given, const F
   }
   if (config.skip_damaged) leave_out_damaged(options, files);
   return files;
-}
-
-Option add_scans(const Command& command, std::vector<fs::path>& scans) {
-  return command
-      .add_option("SCAN", scans,
-                  "Scan files, folders of them, or @LIST of their names; several are one registered scan")
-      .type("SCAN");
 }
 
 ReadOptions read_options(const FilesConfig& config) {

@@ -4,7 +4,6 @@
 
 #include "io/read/options/options.hpp"
 #include "io/read/scan/scan_files.hpp"
-#include "tools/console/command_line.hpp"
 
 #include <filesystem>
 #include <vector>
@@ -22,9 +21,6 @@ namespace lacuna::tools {
 // folder or list names no scan, if a pose is not valid, and for "-".
 std::vector<io::ScanInput> expand_inputs(const std::vector<std::filesystem::path>& given,
                                          const io::FilesConfig& config = {});
-
-// Adds the argument SCAN of a command, for `expand_inputs`.
-Option add_scans(const Command& command, std::vector<std::filesystem::path>& scans);
 
 // Returns the options by which a run with this config reads its files.
 io::ReadOptions read_options(const io::FilesConfig& config);

@@ -9,11 +9,8 @@
 #include "io/read/crs/crs.hpp"
 #include "io/read/crs/crs_text.hpp"
 #include "io/read/files/number.hpp"
-#include "io/read/scan/plan_system.hpp"
 #include "io/read/scan/scan_files.hpp"
-#include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
-#include "tools/run/coordinate_steps.hpp"
 
 #include <algorithm>
 #include <array>
@@ -47,15 +44,22 @@ std::string more_files(std::size_t count) {
   return ", and " + print_count(count) + (count == 1 ? " more file" : " more files");
 }
 
-// One warning names the first of the files for which the condition holds, and counts the others. `text` says
-// what it is, of the first one.
-template <class IsIt, class Text>
-void warn_of_files(const ScanFiles& scan, std::vector<std::string>& warnings, const IsIt& is_it,
-                   const Text& text) {
-  const auto first = std::ranges::find_if(scan.files(), is_it);
-  if (first == scan.files().end()) return;
-  const auto others = static_cast<std::size_t>(std::count_if(first + 1, scan.files().end(), is_it));
-  warnings.push_back(visible(first->name.string()) + more_files(others) + ": " + text(*first));
+// A warning of files: `when` it comes, and its `words` about the first file that it holds for. The others are
+// counted, or have lines of their own.
+struct FileRule {
+  std::function<bool(const ScanFile&)> when;
+  std::function<std::string(const ScanFile&)> words;
+  bool has_line_for_each = false;
+};
+
+void warn_of_files(const ScanFiles& scan, std::vector<std::string>& warnings, const FileRule& rule) {
+  auto first = std::ranges::find_if(scan.files(), rule.when);
+  for (; first != scan.files().end(); first = std::find_if(first + 1, scan.files().end(), rule.when)) {
+    const auto others = std::count_if(first + 1, scan.files().end(), rule.when);
+    const std::size_t more = rule.has_line_for_each ? 0 : static_cast<std::size_t>(others);
+    warnings.push_back(visible(first->name.string()) + more_files(more) + ": " + rule.words(*first));
+    if (!rule.has_line_for_each) return;
+  }
 }
 
 // One warning has the notes of all files that are alike. `notes_of_file` returns those of file i.
@@ -100,89 +104,96 @@ void warn_of_own_axes(const ScanFiles& scan, const ScanCounts& counts, std::vect
       "points lie around 0 0 0, and not around the viewpoint " + print_point(*first->scanner) +
       "; if they are in the axes of their scanner, `FILE pose=viewpoint` in a list moves each PCD to its "
       "place, and `pose=` with numbers any file";
-  warn_of_files(scan, warnings, is_moved, [&](const ScanFile&) { return text; });
+  warn_of_files(scan, warnings, {is_moved, [&](const ScanFile&) { return text; }});
 }
 
-void warn_of_other_systems(const ScanFiles& scan, std::vector<std::string>& warnings) {
-  const ScanFile* first = nullptr;
-  for (const ScanFile& file : scan.files()) {
-    if (file.crs.empty()) continue;
-    if (first == nullptr) first = &file;
-    if (is_same_crs(file.crs, first->crs)) continue;
-    warnings.push_back(
-        visible(file.name.string()) + ": its coordinate reference system differs from the first file: " +
-        crs_name(file.crs) + ", not " + crs_name(first->crs) + "; results name none, unless --crs states it");
-  }
+// What the user states of all files: files that contradict it.
+FileRule overridden(std::string ScanFile::*text, const std::function<bool(const std::string&)>& is_same,
+                    const std::string& what, const std::string& stated) {
+  return {[=](const ScanFile& file) { return !(file.*text).empty() && !is_same(file.*text); },
+          [=](const ScanFile& first) {
+            return "its " + what + " is " + crs_name(first.*text) + "; the stated one holds, " +
+                   crs_name(stated);
+          }};
 }
 
-void warn_of_two_systems(const ScanFiles& scan, std::vector<std::string>& warnings) {
-  const auto text = [](const ScanFile& first) {
-    const std::string holds = crs_name(first.crs);
-    return "its records name two coordinate reference systems, " + holds + " and " +
-           crs_name(first.other_crs) + "; " + holds +
-           " holds, by a bit of the header (global encoding); --crs states another";
-  };
-  warn_of_files(
-      scan, warnings, [](const ScanFile& file) { return !file.other_crs.empty(); }, text);
+// Where the user states no system: what the files say of theirs, in the order of its lines.
+std::vector<FileRule> rules_of_systems(const ScanFiles& scan) {
+  const auto has_crs = [](const ScanFile& file) { return !file.crs.empty(); };
+  const auto first = std::ranges::find_if(scan.files(), has_crs);
+  if (first == scan.files().end()) return {};
+  return {
+      {.when = [](const ScanFile& file) { return !file.other_crs.empty(); },
+       .words =
+           [](const ScanFile& file) {
+             const std::string holds = crs_name(file.crs);
+             return "its records name two coordinate reference systems, " + holds + " and " +
+                    crs_name(file.other_crs) + "; " + holds +
+                    " holds, by a bit of the header (global encoding); --crs states another";
+           }},
+      {.when = [=](const ScanFile& file) { return has_crs(file) && !is_same_crs(file.crs, first->crs); },
+       .words =
+           [=](const ScanFile& file) {
+             return "its coordinate reference system differs from the first file: " + crs_name(file.crs) +
+                    ", not " + crs_name(first->crs) + "; results name none, unless --crs states it";
+           },
+       .has_line_for_each = true},
+      // A file with a pose is in the system of the others, not in its own.
+      {.when =
+           [&](const ScanFile& file) { return !scan.common_crs().empty() && !has_crs(file) && !file.pose; },
+       .words =
+           [&](const ScanFile&) {
+             return "without a coordinate reference system; the system of the other files holds, " +
+                    crs_name(scan.common_crs());
+           }}};
 }
 
-// A file with a pose is in the system of the others, not in its own.
-void warn_of_missing_systems(const ScanFiles& scan, std::vector<std::string>& warnings) {
-  const std::string& crs = scan.common_crs();
-  if (crs.empty()) return;
-  const auto text = [&](const ScanFile&) {
-    return "without a coordinate reference system; the system of the other files holds, " + crs_name(crs);
-  };
-  warn_of_files(
-      scan, warnings, [](const ScanFile& file) { return file.crs.empty() && !file.pose; }, text);
-}
-
-void warn_of_other_units(const ScanFiles& scan, std::vector<std::string>& warnings) {
+// Where the user states no unit: files whose unit is another than that of the first one with a unit, and
+// files that contradict themselves.
+std::vector<FileRule> rules_of_units(const ScanFiles& scan) {
   const auto has_unit = [](const ScanFile& file) { return !file.unit.empty(); };
   const auto first = std::ranges::find_if(scan.files(), has_unit);
-  if (first == scan.files().end() || !scan.length_unit().empty()) return;
-  const auto text = [&](const ScanFile& other) {
-    return "its unit is " + other.unit + ", not " + first->unit + " as in " + visible(first->name.string()) +
-           "; results name none, unless --unit states it";
-  };
-  warn_of_files(
-      scan, warnings, [&](const ScanFile& file) { return has_unit(file) && file.unit != first->unit; }, text);
+  const bool are_same = first == scan.files().end() || !scan.length_unit().empty();
+  return {
+      {.when = [=](const ScanFile& file) { return !are_same && has_unit(file) && file.unit != first->unit; },
+       .words =
+           [=](const ScanFile& other) {
+             return "its unit is " + other.unit + ", not " + first->unit + " as in " +
+                    visible(first->name.string()) + "; results name none, unless --unit states it";
+           }},
+      {.when = [](const ScanFile& file) { return !file.contradiction.empty(); },
+       .words = [](const ScanFile& file) { return crs_name(file.crs) + ": " + file.contradiction; }}};
 }
 
-// Warns of files that contradict what the user states of all: `is_other` of a file.
-template <class IsOther>
-void warn_of_overridden(const ScanFiles& scan, std::string ScanFile::*text, const IsOther& is_other,
-                        const std::string& what, const std::string& stated,
-                        std::vector<std::string>& warnings) {
-  warn_of_files(
-      scan, warnings,
-      [&](const ScanFile& file) { return !(file.*text).empty() && is_other(file.*text, stated); },
-      [&](const ScanFile& first) {
-        return "its " + what + " is " + crs_name(first.*text) + "; the stated one holds, " + crs_name(stated);
-      });
-}
-
-void warn_of_contradictions(const ScanFiles& scan, std::vector<std::string>& warnings) {
-  warn_of_files(
-      scan, warnings, [](const ScanFile& file) { return !file.contradiction.empty(); },
-      [](const ScanFile& first) { return crs_name(first.crs) + ": " + first.contradiction; });
-}
-
-void warn_of_z_units(const ScanFiles& scan, std::vector<std::string>& warnings) {
-  const auto text = [](const ScanFile& first) {
-    return "z is in " + first.z_unit + ", and is brought into the unit of x and y; --unit-z states another " +
-           "unit; the annotated scan keeps its own z";
-  };
-  warn_of_files(
-      scan, warnings, [](const ScanFile& file) { return file.z_factor != 1; }, text);
-}
-
-void warn_of_degrees(const ScanFiles& scan, std::vector<std::string>& warnings) {
-  constexpr const char* kText =
-      "x and y look like longitude and latitude in degrees, and holes need lengths; project them first, as "
-      "with `gdaltransform`; if they are lengths, --unit m or another unit says so";
-  warn_of_files(scan, warnings, std::mem_fn(&ScanFile::may_be_degrees),
-                [](const ScanFile&) { return kText; });
+std::vector<FileRule> rules_before_a_run(const ScanFiles& scan) {
+  const std::string &crs = scan.stated_crs().crs, &unit = scan.stated_crs().unit;
+  std::vector<FileRule> rules;
+  if (crs.empty()) {
+    rules = rules_of_systems(scan);
+  } else {
+    rules.push_back(overridden(
+        &ScanFile::crs, [&](const std::string& other) { return is_same_crs(other, crs); },
+        "coordinate reference system", crs));
+  }
+  if (crs.empty() && unit.empty())
+    rules.push_back({std::mem_fn(&ScanFile::may_be_degrees), [](const ScanFile&) {
+                       return "x and y look like longitude and latitude in degrees, and holes need lengths; "
+                              "project them first, as with `gdaltransform`; if they are lengths, --unit m or "
+                              "another unit says so";
+                     }});
+  if (unit.empty()) {
+    std::ranges::move(rules_of_units(scan), std::back_inserter(rules));
+  } else {
+    rules.push_back(overridden(
+        &ScanFile::unit, [&](const std::string& other) { return other == unit; }, "unit", unit));
+  }
+  rules.push_back({[](const ScanFile& file) { return file.z_factor != 1; },
+                   [](const ScanFile& first) {
+                     return "z is in " + first.z_unit +
+                            ", and is brought into the unit of x and y; --unit-z states another unit; the "
+                            "annotated scan keeps its own z";
+                   }});
+  return rules;
 }
 
 // Throws `Error` if lengths in the system are not those on the ground, where a file lies.
@@ -248,23 +259,7 @@ std::vector<std::string> input_warnings(const ScanFiles& scan) {
   for (const std::size_t i : repeated_files(scan))
     warnings.push_back(file_name(scan, i) + ": given more than once; its points are the same");
   warn_of_notes(scan, warnings, [&](std::size_t i) { return scan.files()[i].notes; });
-  if (scan.stated_crs().crs.empty()) {
-    warn_of_two_systems(scan, warnings);
-    warn_of_other_systems(scan, warnings);
-    warn_of_missing_systems(scan, warnings);
-  } else {
-    warn_of_overridden(scan, &ScanFile::crs, std::not_fn(is_same_crs), "coordinate reference system",
-                       scan.stated_crs().crs, warnings);
-  }
-  if (scan.stated_crs().crs.empty() && scan.stated_crs().unit.empty()) warn_of_degrees(scan, warnings);
-  if (scan.stated_crs().unit.empty()) {
-    warn_of_other_units(scan, warnings);
-    warn_of_contradictions(scan, warnings);
-  } else {
-    warn_of_overridden(scan, &ScanFile::unit, std::not_equal_to<>(), "unit", scan.stated_crs().unit,
-                       warnings);
-  }
-  warn_of_z_units(scan, warnings);
+  for (const FileRule& rule : rules_before_a_run(scan)) warn_of_files(scan, warnings, rule);
   return warnings;
 }
 
@@ -326,10 +321,12 @@ std::vector<std::string> filter_warnings(const ScanFiles& scan, const ScanCounts
                        " %, are left out as noise, of the classes 7 and 18; --keep-noise keeps them");
   if (!scan.config().drop_origin || left_out.origin > 0 || bounds.isEmpty()) return warnings;
   if (bounds.exteriorDistance(Eigen::Vector3d::Zero().eval()) <= bounds.diagonal().norm()) return warnings;
-  warn_of_files(scan, warnings, std::mem_fn(&ScanFile::has_scanner_at_zero), [](const ScanFile&) {
-    return "the place of the scanner is 0 0 0, far from the points, and --drop-origin dropped none; rays "
-           "without return may be at the true place, where --leave-out drops a box";
-  });
+  warn_of_files(scan, warnings,
+                {std::mem_fn(&ScanFile::has_scanner_at_zero), [](const ScanFile&) {
+                   return "the place of the scanner is 0 0 0, far from the points, and --drop-origin dropped "
+                          "none; rays "
+                          "without return may be at the true place, where --leave-out drops a box";
+                 }});
   return warnings;
 }
 

@@ -69,4 +69,11 @@ std::string nothing_warning(const Detection& detection, const SelectionConfig& s
 std::vector<std::string> scan_warnings(const io::ScanFiles& scan, const io::ExplainedDetection& detection,
                                        const io::FilesConfig& config);
 
+// Returns a line where coordinates are in steps of more than half of the distance to the neighbours, and this
+// changes the surface. So it is for steps across a quarter of the surface, which divide it into layers. So it
+// is where half of the points share places, and for single precision far from 0 0 0. A grid in x and y is no
+// such case. Steps are those of the sample: the median over its points of the gap to the next value. Empty
+// for other scans.
+std::string steps_warning(const Detection& detection, bool is_single_precision);
+
 }  // namespace lacuna::tools

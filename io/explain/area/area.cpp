@@ -7,7 +7,7 @@
 #include "io/explain/area/area_polygons.hpp"
 #include "io/explain/area/plan_shapes.hpp"
 #include "io/read/crs/crs.hpp"
-#include "io/read/scan/plan_system.hpp"
+#include "io/read/scan/scan_files.hpp"
 #include "io/read/scan/scan_pass.hpp"
 
 #include <algorithm>

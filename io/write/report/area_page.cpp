@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/write/report/area_page.hpp"
 
 #include "engine/run/error.hpp"
 #include "io/read/crs/crs_text.hpp"
@@ -138,33 +137,6 @@ Json read_area_section(const std::filesystem::path& folder) {
 namespace {
 
 constexpr std::size_t kMostRows = 8, kMostOnMap = 500;
-
-// The page of a run has more rules for paper than for the screen. The sheet looks alike on both.
-constexpr std::string_view kStyle = R"(
-body { background: #fff; padding: 10mm; }
-main { max-width: 182mm; margin: 0 auto; }
-.print-head h1 { font-size: 14pt; margin: 0; }
-.fields { display: grid; grid-template-columns: 1fr 1fr; gap: 1mm 8mm; margin-bottom: 3mm; }
-.fields label { display: flex; gap: 2mm; color: var(--muted); }
-.fields input { flex: 1; min-width: 0; border: 0; border-bottom: .4pt solid var(--line); color: var(--ink); background: none; }
-.answer { font-size: 12pt; font-weight: 600; border-left: 2mm solid var(--done); padding-left: 3mm; }
-.answer.no { border-color: var(--hole); }
-.area-map { max-height: 80mm; margin: 3mm 0 1mm; }
-.figures .pairs { columns: 2; column-gap: 8mm; margin-top: 3mm; }
-.figures .pairs div { break-inside: avoid; }
-.area-map .tile { fill: var(--outer); stroke: none; }
-.area-map text { font-size: 13px; paint-order: stroke; stroke: #fff; stroke-width: 2px; }
-.print-columns { gap: 0 8mm; }
-.print-columns ul { padding-left: 4mm; font-size: 8.5pt; }
-.pairs dd { max-width: 72%; }
-@page { size: A4; margin: 10mm; }
-@media print {
-  :root { font-size: 7.5pt; }
-  body { padding: 0; }
-  .area-map { max-height: 72mm; }
-  .print .pairs div { padding: .4mm 0; }
-}
-)";
 
 std::string escaped(std::string_view text) {
   std::string html;
@@ -398,7 +370,7 @@ std::string style() {
   std::string css(kReportPage.substr(begin, kReportPage.find(kEnd, begin) - begin));
   for (std::size_t at = css.find(kPaper); at != css.npos; at = css.find(kPaper, at))
     css.replace(at, kPaper.size(), "@media all");
-  return css.append(kStyle);
+  return css.append(kSheetStyle);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include "engine/run/error.hpp"
 #include "io/read/files/number.hpp"
-#include "io/read/files/result_folder.hpp"
+#include "io/read/files/output_file.hpp"
 #include "io/write/loops/loop_measures.hpp"
 #include "io/write/report/scene.hpp"
 

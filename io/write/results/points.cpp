@@ -1,5 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/write/results/points.hpp"
+// The annotated scan: every row of the input in order, all of its columns, then the results.
+//
+// With points_format `input`, each file of the scan has one of the same name in the folder `points`. LAS, LAZ
+// and PLY stay what they are, and text becomes CSV. LAS and LAZ files keep their header, records, scale and
+// extra bytes. Files of other formats become PLY. So does LAS with a pose, since its scale may not hold the
+// moved coordinates. The ending of each name follows the format.
+//
+// Else all files are joined to one, points.ply or points.csv, by the names of columns.
+//
+// A column of the input with the name of a result is left out, as an earlier run wrote it. PLY and CSV name
+// results scalar_probability, scalar_angle and so on, as CloudCompare shows them. In PLY, `quality` is the
+// probability for MeshLab, unless the input has a `quality`. Each file is read once more.
 
 #include "engine/run/error.hpp"
 #include "io/read/las/las_writer.hpp"

@@ -5,13 +5,10 @@
 #include "engine/run/parallel.hpp"
 #include "io/read/crs/crs.hpp"
 #include "io/read/rows/columns.hpp"
-#include "io/read/scan/plan_system.hpp"
 #include "io/read/scan/scan_files.hpp"
 #include "io/write/report/report.hpp"
 #include "io/write/report/scene.hpp"
 #include "io/write/results/gis_results.hpp"
-#include "io/write/results/points.hpp"
-#include "io/write/results/voids.hpp"
 
 #include <cmath>
 #include <functional>

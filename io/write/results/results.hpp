@@ -4,9 +4,9 @@
 
 #include "engine/export.hpp"
 #include "engine/model/detection.hpp"
+#include "io/explain/area/area_check.hpp"
 #include "io/explain/stations/cause.hpp"
 #include "io/read/files/output_file.hpp"
-#include "io/read/files/result_folder.hpp"
 #include "io/read/options/options.hpp"
 #include "io/read/ply/ply.hpp"
 #include "io/read/rows/pose.hpp"
@@ -102,5 +102,29 @@ void write_sample(const Detection& detection, const ScanFiles& scan, const Outpu
 // are uint, or, from 2^32 points on, double, which is exact up to 2^53.
 std::vector<PlyProperty> position_and_id(const Detection& detection, const ScanFiles& scan,
                                          const OutputConfig& config);
+
+// The voids of an area as files: voids.json, voids.csv and voids.gpkg. docs/area.md describes them.
+
+// Writes voids.json, voids.csv and voids.gpkg to the folder. The first has the sums, the voids with their
+// outlines, and the table; what is not finite is null. The second has a line for each void; what is not
+// finite is empty. Memory: one void. Throws `Error`.
+void add_voids(const AreaCheck& check, const ScanFiles& scan, const AreaConfig& config,
+               const ResultFolder& folder);
+
+// Writes these files alone to the folder, and the sheet of the check (io/write/report/report.hpp) where
+// the config wants a report, which then takes its name. Returns the files. Throws `Error`.
+LACUNA_API std::vector<std::filesystem::path> write_voids(const AreaCheck& check, const ScanFiles& scan,
+                                                          const FilesConfig& config, ResultFolder& folder);
+
+// The annotated scan (points.cpp).
+
+// Throws `Error` if the annotated scan of the config cannot be written, as far as headers and names show it.
+// Two files of the scan may have the same name, or a format may not hold its results. Cheap, for a program to
+// check before the work.
+void check_points(const ScanFiles& scan, const FilesConfig& config);
+
+// Writes the annotated scan, if the config wants it. Memory: a batch of one file at a time. Throws `Error`.
+void write_points(const ExplainedDetection& detection, const ScanFiles& scan, const FilesConfig& config,
+                  const ResultFolder& folder);
 
 }  // namespace lacuna::io

@@ -116,17 +116,6 @@ TEST_CASE("a printed config reads back as itself, whatever its values") {
   CHECK(again.run.memory_limit == 1'500'000'001);
 }
 
-TEST_CASE("every key is unique and gives its option") {
-  FilesConfig config;
-  std::set<std::string> options;
-  for (const Parameter& parameter : parameters(config)) {
-    CHECK(options.insert(parameter.option()).second);
-    CHECK_FALSE(parameter.help.empty());
-  }
-  for (const char* option : {"--orient-normals", "--tile-points", "--points", "--points-normals"})
-    CHECK(options.contains(option));
-}
-
 TEST_CASE("the least and the largest value of each number are possible, the next ones are not") {
   FilesConfig config;
   for (const Parameter& parameter : parameters(config)) {
@@ -180,15 +169,6 @@ TEST_CASE("a memory limit that is too little for a report or for GDAL is refused
   CHECK_NOTHROW(check_config(config));
 }
 
-TEST_CASE("lists of numbers come as text with commas and as arrays, and print as arrays") {
-  FilesConfig config;
-  const std::vector<Parameter> all = parameters(config);
-  find(all, "bounds").set("-1, 2.5,3 4");
-  CHECK(config.input.bounds == std::vector{-1.0, 2.5, 3.0, 4.0});
-  CHECK(find(all, "bounds").print() == "[-1.0, 2.5, 3.0, 4.0]");
-  CHECK(read("[input]\nbounds = [1, 2.5, 3, 4]\n").input.bounds == std::vector{1.0, 2.5, 3.0, 4.0});
-}
-
 TEST_CASE("an impossible value or an unknown key in a file is an error with its line") {
   const std::string first = "[neighbourhood]\n";
   test::check_reasons({{first + "\nk = 0\n", ":3: k = 0 is not possible; allowed: a whole number from 1"},
@@ -212,17 +192,6 @@ TEST_CASE("an impossible value or an unknown key in a file is an error with its 
                        {"k = 1\n", "outside of a section (\"k\" belongs in [neighbourhood])"},
                        {"[[neighbourhood]]\nk = 1\n", "neighbourhood"}},
                       error_of_file);
-}
-
-TEST_CASE("a whole number is a number, and a size may be one") {
-  const FilesConfig config = read("[neighbourhood]\neps = 2\n[run]\nmemory_limit = 4000000000\n");
-  CHECK(config.neighbourhood.eps == 2.0);
-  CHECK(config.run.memory_limit == 4'000'000'000);
-}
-
-TEST_CASE("every prefix of the default config is read or refused, never more") {
-  const std::string whole = print_config(FilesConfig{});
-  for (std::size_t length = 0; length < whole.size(); length += 23) error_of_file(whole.substr(0, length));
 }
 
 TEST_CASE("a config file that cannot be read is named") {

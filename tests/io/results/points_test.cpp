@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/write/results/points.hpp"
 
 #include "io/write/results/results.hpp"
 #include "tests/io/io_support.hpp"

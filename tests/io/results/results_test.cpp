@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+// What a run writes: loops, reports and points; local coordinates; the shares of cells that holes cover.
 #include "io/write/results/results.hpp"
 
 #include "io/read/formats.hpp"
+#include "io/write/results/gis_results.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/io/results/fake_detection.hpp"
 #include "tests/support/json.hpp"
+#include "tests/support/test.hpp"
 
 namespace lacuna::test {
 
@@ -136,27 +139,6 @@ TEST_CASE("ids beyond 32 bits are written as double, and coordinates in the scan
   CHECK(boundary.rows == Rows{{0.1, 2, 3, 0.75, 5'000'000'001.0, 0, 0.75}});
 }
 
-TEST_CASE("points.ply keeps every property of the input and adds the results", "[io]") {
-  const ScratchFolder folder;
-  const auto file =
-      folder.write("a.ply", ascii_ply("9 0.1 nan 3 77\n8 4 5 6 77\n7 7 8 9 77\n",
-                                      "property uchar red\n" + kXyz + "property int scalar_loop\n"));
-  const ScanFiles scan({file}, {});
-  write_results(FakeDetection().with_results(3), scan, with_points(PointsFormat::kPly, true), folder / "out");
-  const Table table = read_table(folder / "out/points.ply");
-  CHECK(table.names == Names{"red", "x", "y", "z", "scalar_probability", "scalar_angle", "scalar_halfdisc",
-                             "scalar_shape", "scalar_boundary", "scalar_coherent", "scalar_loop", "quality",
-                             "nx", "ny", "nz"});
-  REQUIRE(table.rows.size() == 3);
-  CHECK(table.rows[0][1] == 0.1f);
-  CHECK(std::isnan(table.rows[0][2]));
-  CHECK(table.rows[2] == std::vector<double>{7, 7, 8, 9, 2, 0.25, 0.5, 0.75, 1, 0, -1, 2, 0, 0, 1});
-  const auto reader = open_scan(folder / "out/points.ply", {});
-  CHECK(reader->layout().find("red")->type == Scalar::kUint8);
-  CHECK(reader->layout().find("x")->type == Scalar::kFloat32);
-  CHECK(reader->layout().find("scalar_coherent")->type == Scalar::kUint8);
-}
-
 TEST_CASE("points.ply joins files by property name", "[io]") {
   const ScratchFolder folder;
   const auto a = folder.write("a.ply", ascii_ply("1 2 3 9 0.5\n4 5 6 8 0.5\n7 8 9 7 0.5\n",
@@ -190,6 +172,7 @@ TEST_CASE("normals of the input stay, and are not written a second time", "[io]"
   const Table table = read_table(folder / "out/points.ply");
   CHECK(table.names.size() == 6 + 8);
   CHECK(table.rows.at(0)[3] == 1);
+  CHECK(open_scan(folder / "out/points.ply", {})->layout().find("scalar_coherent")->type == Scalar::kUint8);
 }
 
 TEST_CASE("an earlier result that is an input is never replaced", "[io]") {
@@ -226,5 +209,108 @@ TEST_CASE("an input that changed during the run is an error that leaves no resul
     CHECK(folder.names() == Names{"a.ply"});
   }
 }
+
+TEST_CASE("the offset is the middle of the scan without its strays in whole units, 0 without points",
+          "[io]") {
+  OutputConfig config;
+  FakeDetection detection;
+  CHECK_FALSE(local_offset(detection, config));
+  config.local_coordinates = true;
+  CHECK(*local_offset(detection, config) == Eigen::Vector3d(0, 0, 0));
+  detection.numbers.bounds = {Eigen::Vector3d(-1e6, -2, 0), Eigen::Vector3d(500'000, 5'400'000, 7)};
+  detection.numbers.strays.rest = {Eigen::Vector3d(400'000, -2, -0.25), Eigen::Vector3d(500'001, 1.5, 0)};
+  const Eigen::Vector3d offset = *local_offset(detection, config);
+  CHECK(offset == Eigen::Vector3d(450'001, 0, 0));
+  CHECK(print_offset(offset) == "lacuna offset 450001 0 0");  // and no -0
+  CHECK(print_offset({-1e22, 0.5, 1e5}) == "lacuna offset -10000000000000000000000 0.5 100000");
+}
+
+TEST_CASE("what is too far from the offset for a float is infinite", "[io]") {
+  CHECK(nearest_float(1e39) == std::numeric_limits<float>::infinity());
+  CHECK(nearest_float(-1e300) == -std::numeric_limits<float>::infinity());
+  CHECK(nearest_float(0.1) == 0.1f);
+  CHECK(nearest_float(3.4e38) == 3.4e38f);
+  CHECK(std::isnan(nearest_float(std::nan(""))));
+}
+
+TEST_CASE("an offset in a header is added to the positions, and to nothing else", "[io]") {
+  const ScratchFolder folder;
+  const std::string ply =
+      ply_header("comment lacuna offset 500000 -2.5 1e3\n" +
+                 vertices(2,
+                          "property float nx\nproperty uchar X\nproperty float y\nproperty double z\n"
+                          "property float quality\n")) +
+      "1 2 0.5 3 4\n5 6 nan 7 8\n";
+  const Table table = read_table(folder.write("a.ply", ply), 1);
+  CHECK(table.names == std::vector<std::string>{"nx", "x", "y", "z", "quality"});
+  CHECK(table.rows[0] == std::vector<double>{1, 500'002, -2, 1003, 4});
+  CHECK(table.rows[1][1] == 500'006);
+  CHECK(std::isnan(table.rows[1][2]));
+  CHECK(table.rows[1][3] == 1007);
+}
+
+TEST_CASE("an offset that is not three finite numbers, or a second one, is an error with its line", "[io]") {
+  const auto with = [](const std::string& comment) {
+    return ply_header("comment " + comment + "\n" + vertices(1)) + "1 2 3\n";
+  };
+  std::vector<Wrong> cases = {
+      {with("lacuna offset 1 2 3\ncomment lacuna offset 1 2 3"), "line 4: a second 'lacuna offset'"}};
+  for (const std::string numbers : {"", " 1 2", " 1 2 3 4", " 1 2 x", " 1 2 nan", " inf 2 3"})
+    cases.push_back({with("lacuna offset" + numbers), "line 3: 'lacuna offset X Y Z' with three numbers"});
+  check_refused("a.ply", cases);
+  const ScratchFolder folder;
+  for (const char* other : {"offset 1 2", "lacuna", "lacuna detect", "lacuna offsets", "lacuna offset 1 2 3"})
+    CHECK(read_error(folder.write("a.ply", with(other))).empty());
+}
+
+namespace {
+
+using namespace io;
+
+// Cells with an edge of 1, of which the north-west corner is at 0 `rows`.
+CoverageGrid grid(std::size_t columns, std::size_t rows) {
+  CoverageGrid grid{.corner = {0, static_cast<double>(rows)}, .edge = 1, .columns = columns, .rows = rows};
+  grid.points.resize(grid.size());
+  grid.holes.resize(grid.size());
+  return grid;
+}
+
+TEST_CASE("a polygon covers the share of each cell that lies within it") {
+  CoverageGrid three = grid(3, 2);
+  add_polygon({Ring2{{0.5, 0.5}, {2.25, 0.5}, {2.25, 2}, {0.5, 2}}}, three);
+  CHECK(three.holes == std::vector<float>{0.5F, 1, 0.25F, 0.25F, 0.5F, 0.125F});
+
+  CoverageGrid triangle = grid(1, 1);
+  add_polygon({Ring2{{0, 0}, {1, 0}, {0, 1}}}, triangle);
+  CHECK(triangle.holes[0] == Approx(0.5).margin(1e-6));
+
+  CoverageGrid with_a_notch = grid(4, 1);  // not convex
+  add_polygon({Ring2{{0, 0}, {4, 0}, {4, 1}, {3, 1}, {3, 0.5}, {1, 0.5}, {1, 1}, {0, 1}}}, with_a_notch);
+  CHECK(with_a_notch.holes == std::vector<float>{1, 0.5F, 0.5F, 1});
+}
+
+TEST_CASE("what lies within an inner ring is not covered") {
+  CoverageGrid four = grid(4, 1);
+  const Ring2 hole = {{0, 0}, {4, 0}, {4, 1}, {0, 1}},
+              island = {{1, 0.25}, {1, 0.75}, {2.5, 0.75}, {2.5, 0.25}};
+  add_polygon({hole, island}, four);
+  CHECK(four.holes == std::vector<float>{1, 0.5F, 0.75F, 1});
+}
+
+TEST_CASE("a polygon that reaches beyond the grid covers what is in it") {
+  CoverageGrid two = grid(2, 1);
+  add_polygon({Ring2{{-5, -5}, {1.5, -5}, {1.5, 7}, {-5, 7}}}, two);
+  CHECK(two.holes == std::vector<float>{1, 0.5F});
+  add_polygon({Ring2{{10, 10}, {12, 10}, {11, 12}}}, two);
+  CHECK(two.holes == std::vector<float>{1, 0.5F});
+}
+
+TEST_CASE("a polygon seen from its edge covers nothing") {
+  CoverageGrid one = grid(1, 1);
+  add_polygon({Ring2{{0.2, 0.3}, {0.8, 0.3}, {0.8, 0.3}, {0.2, 0.3}}}, one);
+  CHECK(one.holes[0] == 0);
+}
+
+}  // namespace
 
 }  // namespace lacuna::test

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/read/scan/plan_system.hpp"
-
+#include "io/read/scan/scan_files.hpp"
 #include "io/read/scan/scan_pass.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/drawn_files.hpp"

@@ -25,6 +25,7 @@ endfunction()
 
 join_files(page ${page_folder}/page.html)
 join_files(style ${page_styles})
+join_files(sheet_style ${page_folder}/sheet.css)
 join_files(three ${page_libraries})
 join_files(script ${page_scripts})
 string(REPLACE "/*{style}*/" "${style}" page "${page}")
@@ -62,6 +63,7 @@ function(hash_elements result name)
   set(${result} "${sources}" PARENT_SCOPE)
 endfunction()
 
+string(REGEX REPLACE "\n\n$" "\n" sheet_style "${sheet_style}")
 hash_elements(script_sources script)
 hash_elements(style_sources style)
 string(REPLACE "{scripts}" "${script_sources}" page "${page}")
@@ -73,6 +75,8 @@ file(WRITE ${REPORT_PAGE}.new "#include \"io/write/report/report.hpp\"
 namespace lacuna::io {
 
 const std::string_view kReportPage = R\"lacuna_page(${page})lacuna_page\";
+const std::string_view kSheetStyle = R\"lacuna_page(
+${sheet_style})lacuna_page\";
 
 }  // namespace lacuna::io
 ")

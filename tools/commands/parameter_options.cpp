@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/run/parameter_options.hpp"
 
 #include "engine/config/config.hpp"
 #include "engine/run/error.hpp"
 #include "engine/run/memory.hpp"
 #include "engine/run/words.hpp"
+#include "tools/commands/commands.hpp"
 #include "tools/console/terminal.hpp"
 
 #include <algorithm>
@@ -18,6 +18,7 @@
 #include <variant>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <link.h>
 #include <malloc.h>
 #include <sys/mman.h>
@@ -107,6 +108,12 @@ std::string type_name(const Parameter& parameter) {
                                                                     : std::visit(TypeName{}, parameter.value);
 }
 
+// Shows a default of the config file without its quotes; an empty list has none.
+void show_default(CLI::Option& option, const std::string& text) {
+  const bool is_quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
+  if (text != "[]") option.default_str(is_quoted ? text.substr(1, text.size() - 2) : text);
+}
+
 constexpr std::uint64_t kMiB = 1 << 20;
 
 // Gives back the tables of symbols that the dynamic linker has read: 20 MiB, since OpenVDB is linked. The
@@ -175,34 +182,36 @@ ReadParameters parameters_of_process() {
   return {.common = {"memory_limit"}, .rare = {"threads", "scratch"}, .has_config_file = false};
 }
 
-ParameterOptions::ParameterOptions(const Command& command, const ReadParameters& read) {
+bool ParameterOptions::Given::is_given() const {
+  return option != nullptr && option->count() > 0;
+}
+
+ParameterOptions::ParameterOptions(CLI::App& command, const ReadParameters& read) {
   if (read.has_config_file)
     command
         .add_option(
             "--config", config_file_,
             "Config file (TOML), or the name of one that is installed; options of the command line override "
             "it")
-        .type("CONFIG");
+        ->type_name("CONFIG");
   FilesConfig defaults;
   for (const Parameter& parameter : parameters(defaults)) {
     Given& given = given_.emplace_back();
     given.is_read = read.has(parameter);
     if (!given.is_read || parameter.is_constant) continue;
     const bool is_flag = std::holds_alternative<bool*>(parameter.value);
-    const std::string help(parameter.help);
-    const Option option =
-        is_flag ? command.add_flag(parameter.option(), given.text, help)
-                : command.add_option(parameter.option(), given.text,
-                                     help + " Allowed: " + std::string(parameter.allowed) + ".");
-    option.type(type_name(parameter)).section(std::string(parameter.section));
-    if (!is_named(parameter, read.common)) option.rare();
-    if (parameter.key == "leave_out" || parameter.key == "classes") {
-      option.joined_by_comma();  // one box, or one file, each
+    const std::string help(parameter.help), group(parameter.section);
+    given.option = is_flag ? command.add_flag(parameter.option(), given.text, help)
+                           : command.add_option(parameter.option(), given.text,
+                                                help + " Allowed: " + std::string(parameter.allowed) + ".");
+    given.option->type_name(type_name(parameter));
+    given.option->group(is_named(parameter, read.common) ? group : std::string(kRare) + group);
+    if (parameter.key == "leave_out" || parameter.key == "classes") {  // one box, or one file, each
+      given.option->delimiter(',')->multi_option_policy(CLI::MultiOptionPolicy::Join);
     } else {
-      option.once();
+      given.option->multi_option_policy(CLI::MultiOptionPolicy::Throw);
     }
-    if (!is_flag) option.show_default(parameter.print());
-    given.option = option;
+    if (!is_flag) show_default(*given.option, parameter.print());
   }
 }
 
@@ -269,6 +278,19 @@ std::vector<std::string> ParameterOptions::idle_warnings(FilesConfig config,
     }
   }
   return warnings;
+}
+
+CLI::Option* add_scans(CLI::App& command, std::vector<fs::path>& scans) {
+  return command
+      .add_option("SCAN", scans,
+                  "Scan files, folders of them, or @LIST of their names; several are one registered scan")
+      ->type_name("SCAN");
+}
+
+CLI::Option* add_results_folder(CLI::App& command, fs::path& folder) {
+  return command.add_option("DIR", folder, "Folder with the results of lacuna detect")
+      ->type_name("DIR")
+      ->required();
 }
 
 }  // namespace lacuna::tools
