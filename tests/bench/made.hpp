@@ -2,6 +2,7 @@
 // Synthetic scans, read back: the vocabulary of the tests of `lacuna-bench synth`.
 #pragma once
 
+#include "bench/evaluation/loops_reader.hpp"
 #include "bench/synth/scan.hpp"
 #include "bench/synth/surface.hpp"
 #include "tests/support/las_file.hpp"
@@ -10,6 +11,7 @@ namespace lacuna::synth {
 
 using Position = std::array<float, 3>;
 
+using evaluation::read_loops;
 using test::at;
 using test::read_file;
 
@@ -30,8 +32,8 @@ void check_refused(const ScratchFolder& folder, Options options, Summary (*write
   CHECK(folder.names().empty());
 }
 
-// The rows of a PLY as bytes, all of `stride`; fails the test when header and size disagree.
-// Rows have `stride` bytes, and those of moving scanners a time behind them.
+// The rows of a PLY as bytes; fails the test when header and size disagree. Rows have `stride` bytes, and
+// those of moving scanners a time behind them.
 inline std::vector<std::string> rows_of(const fs::path& file, std::size_t stride) {
   const std::string bytes = read_file(file);
   const std::size_t body = bytes.find("end_header\n") + 11;
@@ -50,29 +52,8 @@ inline std::vector<Position> positions_of(const fs::path& file, std::size_t stri
   return positions;
 }
 
-inline std::vector<std::vector<std::uint64_t>> loops_of(const fs::path& file) {
-  std::ifstream in(file);
-  std::vector<std::vector<std::uint64_t>> loops;
-  for (std::string line; std::getline(in, line);) {
-    if (line.starts_with('#')) continue;
-    std::istringstream words(line);
-    loops.emplace_back(std::istream_iterator<std::uint64_t>(words), std::istream_iterator<std::uint64_t>());
-  }
-  return loops;
-}
-
-// Without the lines that begin with one of these.
-inline std::string lines_without(const std::vector<std::string>& begins, const std::string& text) {
-  std::istringstream in(text);
-  std::string kept;
-  for (std::string line; std::getline(in, line);)
-    if (std::ranges::none_of(begins, [&](const auto& begin) { return line.starts_with(begin); }))
-      kept += line + "\n";
-  return kept;
-}
-
 // The points of each loop, whatever the order of the points in the file.
-inline std::multiset<std::set<Position>> places_of(const std::vector<std::vector<std::uint64_t>>& loops,
+inline std::multiset<std::set<Position>> places_of(const std::vector<matching::LoopIds>& loops,
                                                    const std::vector<Position>& points) {
   std::multiset<std::set<Position>> all;
   for (const auto& loop : loops) {
@@ -83,30 +64,17 @@ inline std::multiset<std::set<Position>> places_of(const std::vector<std::vector
   return all;
 }
 
-// What the comment before each loop says.
-inline std::vector<std::string> names_of(const fs::path& file) {
-  std::ifstream in(file);
-  std::vector<std::string> names;
-  std::string line;
-  std::getline(in, line);
-  while (std::getline(in, line))
-    if (line.starts_with("# ")) names.push_back(line.substr(2));
-  return names;
-}
-
 inline double distance(const Position& a, const Position& b) {
   return std::hypot(double(a[0]) - b[0], double(a[1]) - b[1], double(a[2]) - b[2]);
 }
 
 inline SurfaceOptions small_surface(const ScratchFolder& folder, SurfaceKind kind = SurfaceKind::kPlane) {
-  SurfaceOptions options;
-  options.out = folder / "made.ply";
-  options.truth = folder / "made.loops.txt";
-  options.kind = kind;
-  options.points = 20'000;
-  options.holes = 5;
-  options.hole_radius = {3, 7};
-  return options;
+  return {.out = folder / "made.ply",
+          .truth = folder / "made.loops.txt",
+          .kind = kind,
+          .points = 20'000,
+          .holes = 5,
+          .hole_radius = {3, 7}};
 }
 
 inline std::size_t rims_of(SurfaceKind kind) {

@@ -1,59 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
+// The commands that make scans with known holes: `synth` one, `make` a folder of them for `score`.
 #include "bench/program/commands.hpp"
 #include "bench/synth/scan.hpp"
 #include "bench/synth/surface.hpp"
 #include "engine/run/error.hpp"
 #include "tools/console/command_line.hpp"
+#include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lacuna::bench {
+
 using namespace tools;
 using namespace io;
+using namespace synth;
+namespace fs = std::filesystem;
 
 namespace {
 
-using namespace synth;
+// ---- synth
 
-// Returns a value by its name.
-template <class T>
-struct Choice {
-  std::string_view name;
-  T value;
-};
-
+// Adds an option whose words are the values of T, in order.
 template <class T, std::size_t N>
-Option add_choice(const Command& command, const std::string& option, const std::array<Choice<T>, N>& choices,
-                  T& value, const std::string& help) {
-  std::array<std::string_view, N> names;
-  std::ranges::transform(choices, names.begin(), &Choice<T>::name);
+Option add_choice(const Command& command, const std::string& option,
+                  const std::array<std::string_view, N>& words, T& value, const std::string& help) {
   return command.add_choice(
-      option, names, [&choices, &value](std::size_t place) { value = choices[place].value; }, help);
+      option, words, [&value](std::size_t place) { value = static_cast<T>(place); }, help);
 }
 
-constexpr std::array<Choice<SurfaceKind>, 7> kKinds{{{"plane", SurfaceKind::kPlane},
-                                                     {"waves", SurfaceKind::kWaves},
-                                                     {"cylinder", SurfaceKind::kCylinder},
-                                                     {"torus", SurfaceKind::kTorus},
-                                                     {"sphere-cap", SurfaceKind::kSphereCap},
-                                                     {"sphere", SurfaceKind::kSphere},
-                                                     {"cube", SurfaceKind::kCube}}};
-constexpr std::array<Choice<PositionKind>, 2> kPositions{
-    {{"jittered", PositionKind::kJittered}, {"random", PositionKind::kRandom}}};
-constexpr std::array<Choice<SceneKind>, 7> kScenes{{{"room", SceneKind::kRoom},
-                                                    {"court", SceneKind::kCourt},
-                                                    {"hall", SceneKind::kHall},
-                                                    {"vault", SceneKind::kVault},
-                                                    {"street", SceneKind::kStreet},
-                                                    {"plant", SceneKind::kPlant},
-                                                    {"aerial", SceneKind::kAerial}}};
-constexpr std::array<Choice<Order>, 2> kOrders{{{"scanline", Order::kScanline}, {"random", Order::kRandom}}};
+constexpr std::array<std::string_view, 7> kKinds{"plane",      "waves",  "cylinder", "torus",
+                                                 "sphere-cap", "sphere", "cube"};
+constexpr std::array<std::string_view, 2> kPositions{"jittered", "random"}, kOrders{"scanline", "random"};
+constexpr std::array<std::string_view, 7> kScenes{"room",   "court", "hall",  "vault",
+                                                  "street", "plant", "aerial"};
 
 template <class Options>
 struct Arguments {
@@ -134,7 +122,7 @@ void add_surface(const Command& synth) {
     if (options.positions == PositionKind::kRandom && jitter.is_given())
       throw UsageError(
           "--jitter: random positions have no grid to be off; allowed with --positions jittered");
-    const SurfaceSummary made = write_surface(options);
+    const Made made = write_surface(options);
     std::cout << visible(options.out.string()) << ": " << made.points << " points; "
               << visible(made.truth.string()) << ": " << made.loops << " true loops\n";
   });
@@ -186,10 +174,102 @@ void add_scan(const Command& synth) {
       .show_default("-60 90");
   app.runs([arguments] {
     const ScanOptions options = arguments->chosen();
-    const ScanSummary made = write_scan(options);
+    const Made made = write_scan(options);
     std::cout << visible(options.out.string()) << ": " << made.points << " points of " << made.rays
               << " rays; " << visible(made.truth.string()) << ": " << made.loops << " true loops\n";
   });
+}
+
+// ---- make
+
+// A cloud's kind is its name up to the first hyphen (score_commands.cpp).
+template <class Options>
+struct Cloud {
+  std::string_view name;
+  Options options;  // all but files, points and seed
+};
+
+// Each cloud of each set has a seed of its own.
+constexpr std::uint64_t kFirstSeed = 301, kSeedsOfSet = 1000;
+constexpr std::uint64_t kSurfacePoints = 40'000, kScanPoints = 150'000;
+
+std::vector<Cloud<SurfaceOptions>> surfaces() {
+  using enum SurfaceKind;
+  using enum PositionKind;
+  return {{"surface-plane", {.kind = kPlane}},
+          {"surface-waves", {.kind = kWaves, .density_factor = 4}},
+          {"surface-cylinder", {.kind = kCylinder, .density_step = 4}},
+          {"surface-torus", {.kind = kTorus}},
+          {"surface-cap", {.kind = kSphereCap}},
+          {"random-plane", {.kind = kPlane, .positions = kRandom}},
+          {"random-waves", {.kind = kWaves, .positions = kRandom}},
+          {"random-torus", {.kind = kTorus, .positions = kRandom, .noise = 0.25}},
+          {"noise-plane", {.kind = kPlane, .noise = 0.5}},
+          {"noise-waves", {.kind = kWaves, .noise = 0.5}},
+          {"noise-torus", {.kind = kTorus, .positions = kRandom, .noise = 0.5}},
+          {"closed-sphere", {.kind = kSphere, .holes = 0}},
+          {"closed-torus", {.kind = kTorus, .holes = 0, .positions = kRandom}},
+          {"closed-cube", {.kind = kCube, .holes = 0, .noise = 0.25}}};
+}
+
+std::vector<Cloud<ScanOptions>> scans() {
+  using enum SceneKind;
+  return {{"station-room", {.scene = kRoom, .stations = 1}},
+          {"station-court", {.scene = kCourt, .stations = 1}},
+          {"station-vault", {.scene = kVault, .stations = 1}},
+          {"lidar-room", {.scene = kRoom, .stations = 3, .registration = 0.005}},
+          {"lidar-court", {.scene = kCourt, .stations = 2}},
+          {"lidar-hall", {.scene = kHall, .stations = 2}},
+          {"lidar-plant", {.scene = kPlant, .stations = 3}},
+          {"rings-court", {.scene = kCourt, .stations = 3, .ring_ratio = 5}},
+          {"rings-street", {.scene = kStreet, .stations = 3, .ring_ratio = 5}},
+          {"aerial-even", {.scene = kAerial, .stations = 4, .noise = 0.03}},
+          {"aerial-steps", {.scene = kAerial, .stations = 3, .station_factor = 5, .noise = 0.05}},
+          {"noise-room", {.scene = kRoom, .stations = 2, .noise = 0.03}},
+          {"noise-street", {.scene = kStreet, .stations = 3, .noise = 0.05}}};
+}
+
+enum class CloudSet { kSurfaces, kScans, kAll };
+constexpr std::array<std::string_view, 3> kSets{"surfaces", "scans", "all"};
+
+struct MakeArguments {
+  CloudSet set = CloudSet::kAll;
+  fs::path folder;
+  std::uint64_t seed = 1;
+};
+
+struct Totals {
+  std::uint64_t clouds = 0, points = 0, loops = 0;
+};
+
+template <class Options, class Write>
+void make(const std::vector<Cloud<Options>>& clouds, std::uint64_t points, const MakeArguments& arguments,
+          const Write& write, Totals& made) {
+  for (std::size_t i = 0; i < clouds.size(); ++i) {
+    Options options = clouds[i].options;
+    options.out = arguments.folder / (std::string(clouds[i].name) + ".ply");
+    options.points = points;
+    options.seed = kFirstSeed + kSeedsOfSet * (arguments.seed - 1) + i;  // modulo 2^64
+    const auto summary = write(options);
+    ++made.clouds;
+    made.points += summary.points;
+    made.loops += summary.loops;
+  }
+}
+
+void run_make(const MakeArguments& arguments) {
+  std::error_code failure;
+  fs::create_directories(arguments.folder, failure);
+  if (failure) throw Error(arguments.folder.string() + ": cannot be made: " + failure.message());
+  Totals made;
+  if (arguments.set != CloudSet::kScans) make(surfaces(), kSurfacePoints, arguments, write_surface, made);
+  if (arguments.set != CloudSet::kSurfaces) {
+    make(
+        scans(), kScanPoints, arguments, [](const ScanOptions& o) { return write_scan(o); }, made);
+  }
+  std::cout << visible(arguments.folder.string()) << ": " << print_count(made.clouds) << " clouds of "
+            << print_count(made.points) << " points, and " << print_count(made.loops) << " true loops (seed "
+            << arguments.seed << ")\n";
 }
 
 }  // namespace
@@ -199,6 +279,19 @@ void add_synth_command(const Command& program) {
   synth.needs_command();
   add_surface(synth);
   add_scan(synth);
+}
+
+void add_make_command(const Command& program) {
+  const Command command =
+      program.add_command("make", "Make a folder of clouds whose holes are known, for `score`");
+  const auto arguments = std::make_shared<MakeArguments>();
+  add_choice(command, "SET", kSets, arguments->set, "surfaces, scans or all: which clouds").required();
+  command.add_option("DIR", arguments->folder, "the folder for X.ply and X.loops.txt of each cloud X")
+      .required();
+  command.add_option("--seed", arguments->seed, "Another seed makes other clouds of the same kinds")
+      .whole_number()
+      .show_default();
+  command.runs([arguments] { run_make(*arguments); });
 }
 
 }  // namespace lacuna::bench

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Places of the points of a synthetic surface, in the plane of its grid.
+// surface_points: the places of a surface's points in the plane of its grid, the holes among them, and the
+// true loops of these.
+//
+// Idea: holes are ellipses, each inside of a cell of a coarse lattice. Points are near the nodes of the grid,
+// or a Poisson process. A place depends on the seed and the number of its point alone. True loops are the
+// edges of what is left of the grid, or the points nearest to a place that goes around a hole.
+//
+// Cost: constant for a point; the loops' points in memory.
 #pragma once
 
-#include "bench/synth/hole_field.hpp"
 #include "bench/synth/surface_grid.hpp"
 
 #include <cstdint>
@@ -26,8 +32,7 @@ class Positions {
   virtual std::vector<NumberLoop> true_loops() const = 0;
 };
 
-// Returns the positions that the options choose. Both arguments must outlive the result.
-std::unique_ptr<Positions> make_positions(const SurfaceGrid& grid, const HoleField& holes,
-                                          const SurfaceOptions& options);
+// Returns the positions that the options choose. Throws `Error` when the holes do not fit.
+std::unique_ptr<Positions> make_positions(const SurfaceGrid& grid, const SurfaceOptions& options);
 
 }  // namespace lacuna::synth

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/evaluation/cloud_score.hpp"
-#include "bench/evaluation/print.hpp"
+// The commands that compare loops with the truth: `evaluate` those of one scan, `score` those of a folder.
+#include "bench/evaluation/evaluation.hpp"
 #include "bench/program/commands.hpp"
-#include "bench/program/rule_options.hpp"
 #include "engine/run/error.hpp"
 #include "tools/console/command_line.hpp"
 #include "tools/console/measures_text.hpp"
 #include "tools/console/terminal.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -16,11 +16,50 @@
 #include <vector>
 
 namespace lacuna::bench {
+
 using namespace tools;
+using namespace evaluation;
+namespace fs = std::filesystem;
+
 namespace {
 
-namespace fs = std::filesystem;
-using namespace evaluation;
+void add_rule_options(const Command& command, EvaluationRule& rule) {
+  command
+      .add_option("--tolerance", rule.tolerance,
+                  "How far a loop may be off the true one, in spacings from 0 on; docs/evaluate.md")
+      .real_number()
+      .show_default();
+  command
+      .add_option("--min-vertices", rule.min_vertices,
+                  "True loops with fewer vertices count neither as found nor as missed")
+      .whole_number()
+      .show_default();
+}
+
+void check(const EvaluationRule& rule) {
+  if (!(rule.tolerance >= 0 && std::isfinite(rule.tolerance)))
+    throw WrongOption("--tolerance", "must be a number of spacings from 0 on");
+}
+
+// ---- evaluate
+
+struct EvaluateArguments {
+  fs::path result, truth;
+  std::vector<fs::path> scans;
+  EvaluationRule rule;
+  bool json = false;
+};
+
+void run_evaluate(const EvaluateArguments& arguments) {
+  check(arguments.rule);
+  Result result = read_result(arguments.result);
+  const Truth truth = read_truth(arguments.truth, {arguments.scans.begin(), arguments.scans.end()}, result);
+  const Evaluation evaluation = evaluate(result, truth, arguments.rule);
+  const EvaluationText text{result, truth, evaluation, arguments.result, arguments.truth, arguments.rule};
+  std::cout << (arguments.json ? print_json(text) : print_verdict(text));
+}
+
+// ---- score
 
 struct ScoreArguments {
   fs::path clouds, results;
@@ -87,6 +126,32 @@ void run_score(const ScoreArguments& arguments) {
 }
 
 }  // namespace
+
+void add_evaluate_command(const Command& program) {
+  const Command command = program.add_command("evaluate", "Compare the loops found with the true loops");
+  const auto arguments = std::make_shared<EvaluateArguments>();
+  EvaluateArguments& a = *arguments;
+  command
+      .add_option("RESULT", a.result,
+                  "Output folder of lacuna detect, its loops.ply, loops as text (ids, one loop per line), or "
+                  "closed lines of a PLY file (element edge)")
+      .type("PATH")
+      .required();
+  command
+      .add_option("TRUTH", a.truth,
+                  "A PLY mesh, whose boundary is the truth, or loops as text: ids, one loop per line")
+      .type("FILE")
+      .required();
+  command
+      .add_option(
+          "--scan", a.scans,
+          "Scan files that the ids of loops as text count; default: X.ply next to X.loops.txt, else the "
+          "input of the run")
+      .type("FILE");
+  add_rule_options(command, a.rule);
+  command.add_flag("--json", a.json, "Print all scores, and the decision on every loop, as JSON");
+  command.runs([arguments] { run_evaluate(*arguments); });
+}
 
 void add_score_command(const Command& program) {
   const Command command = program.add_command("score", "Score a program's loops for a folder of clouds");
