@@ -13,6 +13,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
 namespace lacuna::synth {
 
@@ -25,6 +26,7 @@ struct ScanOptions {
   std::uint64_t points = 1'000'000;  // about: rays are chosen to return so many
   std::uint32_t stations = 2;        // [1, 255]; strips of a flight, lanes of a drive
   bool drives = false;               // along x, with profiles at right angles to its path
+  std::vector<double> places;        // x y z of further stations
   double station_factor = 1;         // [0.01, 100]: points of the first station over points of each other one
   std::uint32_t sweeps = 1;          // [1, 8], of each station; several are tilted, so that they cross
   double noise = 0.002;              // along the ray, metres, standard deviation

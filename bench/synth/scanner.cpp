@@ -43,6 +43,8 @@ std::vector<Vec3> place_stations(const Scene& scene, const ScanOptions& options)
                      low.y + (v - std::floor(v)) * (high.y - low.y), low.z};
     if (!occupied(scene, place, kClearance)) stations.push_back(place);
   }
+  for (std::size_t i = 0; i + 2 < options.places.size(); i += 3)
+    stations.push_back({options.places[i], options.places[i + 1], options.places[i + 2]});
   return stations;
 }
 
