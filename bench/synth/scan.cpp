@@ -2,10 +2,7 @@
 #include "bench/synth/scan.hpp"
 
 #include "bench/synth/curves.hpp"
-#include "bench/synth/made_files.hpp"
-#include "bench/synth/sampled_surface.hpp"
 #include "bench/synth/scanner.hpp"
-#include "bench/synth/surface_points.hpp"
 #include "engine/run/error.hpp"
 #include "io/read/files/number.hpp"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/synth/surface_points.hpp"
 
-#include "bench/synth/arithmetic.hpp"
 #include "engine/run/error.hpp"
 
 #include <algorithm>
