@@ -23,12 +23,8 @@ MOST = 1.1  # times as many
 
 def main():
     functions, table = sys.argv[1:3]
-    lines = []
     with open(functions) as file:
-        for line in file:
-            match = re.match(r"\s*([\d,]+)\s+(\S.*)", line)
-            if match:
-                lines.append((match[2], int(match[1].replace(",", ""))))
+        lines = [(name, int(count.replace(",", ""))) for count, name in re.findall(r"^\s*([\d,]+)\s+(\S.*)$", file.read(), re.M)]
     counts = {}
     for part, pattern in PARTS.items():
         found = [count for name, count in lines if re.match(pattern, name)]

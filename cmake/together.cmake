@@ -10,9 +10,9 @@ function(compile_together target)
   get_target_property(sources ${target} SOURCES)
   foreach(source ${sources})
     # Some sources stay apart: those that are compiled once for each instruction set, and a table that the compiler
-    # computes. Scenes have the same names for their parts.
+    # computes.
     file(STRINGS ${source} apart REGEX "simd/targets.hpp" LIMIT_COUNT 1)
-    if(apart OR source MATCHES "paged_file|_scene.cpp")
+    if(apart OR source MATCHES "paged_file")
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
       continue()
     endif()

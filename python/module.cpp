@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lacuna._core: what python/lacuna calls. Everything else is Python.
 #include "bench/evaluation/evaluation.hpp"
-#include "bench/evaluation/print.hpp"
 #include "engine/run/error.hpp"
 #include "io/read/files/output_file.hpp"
 #include "io/write/report/report.hpp"

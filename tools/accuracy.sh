@@ -65,7 +65,7 @@ add_peer() {
   peers+=("--$name" "$build/peers/$program")
 }
 if ((!no_peers)); then
-  add_peer pcl libpcl-dev pcl_boundary_points
+  add_peer pcl libpcl-dev pcl_boundary
   add_peer cgal libcgal-dev cgal_border_loops
 fi
 

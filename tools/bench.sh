@@ -134,7 +134,7 @@ run_once() {
     return 1
   fi
   [[ $run != warm-up ]] || return 0
-  python3 bench/record.py --csv "$csv" --case "$case" --positions "$kind" --order "$order" \
+  python3 bench/speed.py record --csv "$csv" --case "$case" --positions "$kind" --order "$order" \
     --program "$program" --threads "$thread_count" --run "$run" --scan "$scan" --begin "$begin" --end "$end" \
     --time "$work/time" --printed "$work/printed" --report "$work/out/run.json"
 }
@@ -204,10 +204,10 @@ fi
   ((${#detect_options[@]} == 0)) || echo "detect options: ${detect_options[*]}"
   echo
   for failure in "${failures[@]}"; do echo "FAILED: $failure"; done
-  [[ ! -e $csv ]] || python3 bench/summarise.py table "$csv"
+  [[ ! -e $csv ]] || python3 bench/speed.py table "$csv"
 } | tee "$stem.txt"
 
-[[ ! -e $csv ]] || python3 bench/summarise.py results "$csv" >"$stem.md"
+[[ ! -e $csv ]] || python3 bench/speed.py results "$csv" >"$stem.md"
 echo
 ls -1 "$stem".*
 ((${#failures[@]} == 0))

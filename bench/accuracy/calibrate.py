@@ -11,10 +11,8 @@ Logistic regression gives the coefficients."""
 
 import argparse
 import itertools
-import json
 import math
 import os
-import shutil
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -26,8 +24,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from degrade import Scan, doubled, falling_by_ten, halved, kept_with  # noqa: E402
 from range_map import SCENES, range_map  # noqa: E402
 import real as eye  # noqa: E402
-from sets import (GROUPS, RANGE_NOISES, SYNTH_KINDS, cut_mesh, degraded, fail, is_lidar, made_mesh,  # noqa: E402
-                  quick_sets, real, run, synth)
+from sets import (GROUPS, RANGE_NOISES, SYNTH_KINDS, cut_mesh, degraded, detected, evaluated, fail,  # noqa: E402
+                  is_lidar, made_mesh, quick_sets, real, synth)
 
 UNDECIDED = ("joined", "parted", "P", "U")  # such loops are neither right nor wrong
 RATED = "rated"  # group of the loops that were rated by eye
@@ -160,14 +158,6 @@ class Loop:
         return self.verdict not in ("false", "step", *eye.WRONG)
 
 
-def verdicts(arguments, case, result):
-    """One for each loop of a folder of `lacuna detect`, or of loops as text."""
-    positions = [] if case.truth == case.scan else ["--scan", case.scan]
-    matches = json.loads(run([arguments.bench, "evaluate", result, case.truth, "--json", *positions,
-                              "--min-vertices", case.min_vertices]))["loop_matches"]
-    return [match["verdict"] for match in matches]
-
-
 def probability(log_odds):
     return (1 + np.tanh(log_odds / 2)) / 2  # never overflows
 
@@ -205,12 +195,9 @@ def rated(group, loop, verdict):
 
 def standing_loops(arguments, case):
     folder = arguments.work / "out" / "calibrate" / case.name
-    shutil.rmtree(folder, ignore_errors=True)  # another version's results would be refused
-    run([arguments.lacuna, "detect", case.scan, "--out", folder, "--quiet", "--threads", 1, "--sample-points", 0,
-         "--min-confidence", 0])
-    found = json.loads((folder / "holes.json").read_text(encoding="utf-8"))["loops"]
-    return [rated(case.group, loop, verdict)
-            for loop, verdict in zip(found, verdicts(arguments, case, folder), strict=True)]
+    found = detected(arguments, case.scan, folder, ["--threads", 1, "--sample-points", 0, "--min-confidence", 0])
+    matches = evaluated(arguments, folder, case.scan, case.truth, case.min_vertices)["loop_matches"]
+    return [rated(case.group, loop, match["verdict"]) for loop, match in zip(found, matches, strict=True)]
 
 
 def rated_loops(arguments, name):
@@ -313,7 +300,6 @@ def parse_arguments():
 def main():
     arguments = parse_arguments()
     (arguments.work / "sets").mkdir(parents=True, exist_ok=True)
-    (arguments.work / "out" / "calibrate").mkdir(parents=True, exist_ok=True)
     fitted, tested = fit_sets(arguments), test_sets(arguments)
     for case in [*fitted, *tested]:
         if not case.scan.exists():

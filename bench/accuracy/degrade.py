@@ -6,8 +6,7 @@ import math
 from dataclasses import dataclass
 from itertools import product
 
-from mesh import read_mesh
-from thin import part_of, read_loops
+from mesh import read_mesh, write_ply
 
 
 @dataclass
@@ -20,7 +19,18 @@ class Scan:
 def read_scan(scan, truth, spacing):
     """The true loops are a text, or the boundary of the scan's own triangles."""
     mesh = read_mesh(scan)
-    return Scan(mesh.positions, mesh.boundary_loops() if truth == scan else read_loops(truth), spacing)
+    if truth == scan:
+        return Scan(mesh.positions, mesh.boundary_loops(), spacing)
+    with open(truth, encoding="utf-8") as lines:
+        return Scan(mesh.positions, [list(map(int, line.split())) for line in lines if not line.startswith("#")], spacing)
+
+
+def write_points(points, loops, out):
+    """A PLY file of points, and their true loops next to it."""
+    out.with_suffix(".loops.txt").write_text(
+        f"# one boundary loop per line, 0-based point ids of {out.name}\n"
+        + "".join(" ".join(map(str, loop)) + "\n" for loop in loops), encoding="utf-8")
+    write_ply(out, points)
 
 
 def box_of(points):
@@ -28,15 +38,37 @@ def box_of(points):
     return [(min(axis), max(axis)) for axis in zip(*points)]
 
 
+def part_of(scan, kept):
+    """The kept points, and the ones that are left of each true loop, in its order."""
+    place = {vertex: i for i, vertex in enumerate(kept)}
+    left = [[place[vertex] for vertex in loop if vertex in place] for loop in scan.loops]
+    return Scan([scan.points[vertex] for vertex in kept], [loop for loop in left if loop], scan.spacing)
+
+
 def kept_with(scan, chance, draw):
-    kept = [vertex for vertex, point in enumerate(scan.points) if draw.random() < chance(point)]
-    points, loops = part_of(scan.points, scan.loops, kept)
-    return Scan(points, loops, scan.spacing)
+    return part_of(scan, [vertex for vertex, point in enumerate(scan.points) if draw.random() < chance(point)])
 
 
 def halved(scan, draw):
     """A random half of the points."""
     return kept_with(scan, lambda point: 0.5, draw)
+
+
+def quartered(scan, draw):
+    """A random one in four points: a surface is sampled as if each point knew of no other."""
+    return kept_with(scan, lambda point: 0.25, draw)
+
+
+def overlapping(scan, draw):
+    """Two scans of one surface. The first has a random one in four points of the lower 60 % in x. The second has as many
+    of the upper 60 %, 0.003 too high. A point that both have drawn belongs to the first."""
+    low, high = box_of(scan.points)[0]
+    share = [(x - low) / (high - low) for x, _, _ in scan.points]
+    first, second = ([vertex for vertex in range(len(share)) if is_in(share[vertex]) and draw.random() < 0.25]
+                     for is_in in (lambda s: s < 0.6, lambda s: s > 0.4))
+    part = part_of(scan, first + sorted(set(second) - set(first)))
+    raised = [(x, y, z + 0.003) for x, y, z in part.points[len(first):]]
+    return Scan(part.points[:len(first)] + raised, part.loops, scan.spacing)
 
 
 def falling_by_ten(scan, draw):

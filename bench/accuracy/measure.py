@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Finds the holes of a set, with Lacuna and with its peers, and evaluates them: one row for each method."""
 
-import json
-import shutil
+import os
 import subprocess
 
-from sets import run
+from sets import detected, evaluated, run
 
 # Numbers of loops from `lacuna-bench evaluate`. All are columns of the CSV; all but the first are columns of the table.
 COUNTS = ("true", "found", "false", "joined", "parted", "step", "repeated")
@@ -26,9 +25,7 @@ def known_methods(lacuna):
 
 def evaluate(arguments, case, method, result):
     """`result` is a folder of `lacuna detect`, or loops as text. Loops as text have no boundary points."""
-    positions = [] if case.truth == case.scan else ["--scan", case.scan]
-    scores = json.loads(run([arguments.bench, "evaluate", result, case.truth, "--json", *positions,
-                             "--min-vertices", case.min_vertices]))
+    scores = evaluated(arguments, result, case.scan, case.truth, case.min_vertices)
     row = {"group": case.group, "set": case.name, "points": scores["points"], "method": method,
            "min_vertices": case.min_vertices}
     row |= {key: scores.get(key) for key in (*COUNTS, "loops", "confidence_auc")}
@@ -43,8 +40,7 @@ def evaluate(arguments, case, method, result):
 
 def detect(arguments, case, method, options):
     folder = arguments.work / "out" / method / case.name
-    shutil.rmtree(folder, ignore_errors=True)  # another version's results would be refused
-    run([arguments.lacuna, "detect", case.scan, "--out", folder, "--quiet", *options, *arguments.detect_options])
+    detected(arguments, case.scan, folder, [*options, *arguments.detect_options])
     return evaluate(arguments, case, method, folder)
 
 
@@ -58,7 +54,7 @@ def peer_result(result, program, case, command):
 def pcl(arguments, case, neighbours, degrees):
     """PCL's boundary points. It finds no loops."""
     folder = arguments.work / "pcl" / f"{case.name}-{neighbours}-{degrees}"
-    peer_result(folder / "boundary.ply", arguments.pcl, case, [arguments.pcl, case.scan, folder, neighbours, degrees])
+    peer_result(folder / "boundary.ply", arguments.pcl, case, [arguments.pcl, case.scan, os.cpu_count(), neighbours, degrees, folder])
     row = evaluate(arguments, case, f"pcl-k{neighbours}-a{degrees}", folder)
     return row | dict.fromkeys((*COUNTS[1:], "loops", "confidence_auc", *(f"found {width}" for width in WIDTHS)))
 

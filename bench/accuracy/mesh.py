@@ -5,12 +5,20 @@ import math
 import os
 import random
 import struct
-import sys
-from array import array
 
 SIZES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I", "float": "f",
          "double": "d", "int8": "b", "uint8": "B", "int16": "h", "uint16": "H", "int32": "i", "uint32": "I",
          "float32": "f", "float64": "d"}
+
+
+def border_ends(faces):
+    """The ends of the half-edges without an opposite one, by their beginnings."""
+    edges = {edge for face in faces for edge in zip(face, face[1:] + face[:1])}
+    ends = {}
+    for a, b in sorted(edges):
+        if (b, a) not in edges:
+            ends.setdefault(a, []).append(b)
+    return ends
 
 
 class Mesh:
@@ -20,22 +28,9 @@ class Mesh:
         self.positions = positions
         self.faces = faces
 
-    def boundary_vertices(self):
-        """Ends of the edges on one face only."""
-        faces_at = {}
-        for face in self.faces:
-            for a, b in zip(face, face[1:] + face[:1]):
-                edge = (min(a, b), max(a, b))
-                faces_at[edge] = faces_at.get(edge, 0) + 1
-        return {vertex for edge, count in faces_at.items() if count == 1 for vertex in edge}
-
     def boundary_loops(self):
         """Simple loops: half-edges without an opposite one, chained, and cut where they pass a vertex twice."""
-        edges = {edge for face in self.faces for edge in zip(face, face[1:] + face[:1])}
-        ends = {}
-        for a, b in sorted(edges):
-            if (b, a) not in edges:
-                ends.setdefault(a, []).append(b)
+        ends = border_ends(self.faces)
         loops = []
         for start in sorted(ends):
             chain = [start]
@@ -116,19 +111,18 @@ def read_mesh(file):
     return Mesh(positions, faces)
 
 
-def write_mesh(mesh, file):
+def write_ply(file, positions, faces=None):
     """Binary little-endian, coordinates as float."""
-    header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(mesh.positions)}\n"
-              "property float x\nproperty float y\nproperty float z\n"
-              f"element face {len(mesh.faces)}\nproperty list uchar int vertex_indices\nend_header\n")
-    coordinates = array("f", (value for position in mesh.positions for value in position))
-    if sys.byteorder == "big":
-        coordinates.byteswap()
+    header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(positions)}\n"
+              "property float x\nproperty float y\nproperty float z\n")
+    if faces is not None:
+        header += f"element face {len(faces)}\nproperty list uchar int vertex_indices\n"
     partial = f"{file}.partial"
     with open(partial, "wb") as out:
-        out.write(header.encode())
-        out.write(coordinates.tobytes())
-        for face in mesh.faces:
+        out.write(f"{header}end_header\n".encode())
+        for position in positions:
+            out.write(struct.pack("<3f", *position))
+        for face in faces or ():
             out.write(struct.pack(f"<B{len(face)}i", len(face), *face))
     os.replace(partial, file)
 
@@ -137,7 +131,7 @@ def cut_balls(mesh, spacing, radii, margin, seed):
     """Removes the vertices in one ball per radius, around vertices drawn at random. Balls keep `margin` from each
     other and from the mesh's own boundary. Lengths but `spacing` are in spacings."""
     draw = random.Random(seed)
-    boundary = [mesh.positions[vertex] for vertex in mesh.boundary_vertices()]
+    boundary = [mesh.positions[vertex] for loop in mesh.boundary_loops() for vertex in loop]
     balls = []
     for radius in sorted(radii, reverse=True):
         for _ in range(10_000):

@@ -7,10 +7,9 @@ the cosine between the ray and the normal there."""
 
 import math
 import random
-from collections import Counter
 from statistics import median
 
-from mesh import Mesh
+from mesh import Mesh, border_ends
 
 MISS = (math.inf, 0.0)
 EYE = 3.0  # above the scene, which lies about the origin; rays go down
@@ -253,9 +252,7 @@ def grid_triangles(seen, rays):
 
 def touched_twice(triangles):
     """The rays where the boundary touches itself."""
-    edges = {(t[i - 1], t[i]) for t in triangles for i in range(3)}
-    leaving = Counter(a for a, b in edges if (b, a) not in edges)
-    return [ray for ray, count in leaving.items() if count > 1]
+    return [ray for ray, ends in border_ends(triangles).items() if len(ends) > 1]
 
 
 def range_map(scene, perspective, noise, strays, seed):

@@ -4,15 +4,13 @@
 
 import argparse
 import collections
-import json
 import os
-import shutil
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from sets import run  # noqa: E402
+from sets import detected, evaluated  # noqa: E402
 
 RATED = Path(__file__).resolve().parent / "real"
 RIGHT, PARTLY, WRONG = "R", "P", "GVN"  # as real/*.eye.txt have them; G, V and N are three ways to be wrong
@@ -37,22 +35,17 @@ def reported_loops(arguments, name, options):
     loops."""
     rated = rated_loops(RATED / f"{name}.eye.txt")
     folder = arguments.work / "out" / "real" / name
-    shutil.rmtree(folder, ignore_errors=True)  # another version's results would be refused
     folder.parent.mkdir(parents=True, exist_ok=True)
     truth = folder.with_suffix(".loops.txt")
     truth.write_text("".join(" ".join(ids) + "\n" for _, _, ids in rated), encoding="utf-8")
     scan = arguments.scans / f"{name}.ply"
-    if not arguments.results:
-        run([arguments.lacuna, "detect", scan, "--out", folder, "--quiet", "--threads", 1, "--sample-points", 0, "--unit", "m",
-             *options])
     result = arguments.results / f"{name}.txt" if arguments.results else folder
-    scores = json.loads(run([arguments.bench, "evaluate", result, truth, "--scan", scan, "--json", "--min-vertices", 1]))
+    if not arguments.results:
+        loops = detected(arguments, scan, folder, ["--threads", 1, "--sample-points", 0, "--unit", "m", *options])
     places = [match["true_loop"] if match["verdict"] in ("found", "repeated") else None
-              for match in scores["loop_matches"]]
+              for match in evaluated(arguments, result, scan, truth, 1)["loop_matches"]]
     if arguments.results:  # a list has neither kinds nor confidences: a loop is of the kind that it matches
         loops = [{"kind": "hole" if place is None else rated[place][1], "confidence": 0} for place in places]
-    else:
-        loops = json.loads((folder / "holes.json").read_text(encoding="utf-8"))["loops"]
     return list(zip(loops, places, strict=True)), rated
 
 

@@ -10,7 +10,6 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from floors import check_floors, read_floors  # noqa: E402
 from measure import known_methods, measure  # noqa: E402
 from sets import GROUPS, fail  # noqa: E402
 from table import print_table, print_widths  # noqa: E402
@@ -27,11 +26,38 @@ def write_csv(results, file):
                                  for key, value in row.items()})
 
 
+def check_floors(file, results):
+    """Every group that has run keeps to all of its floors, and has one; else the reasons and status 1. Columns of the
+    file: set (GROUP, or GROUP/SET), method, true, found (at least), false (at most). Lines with # are remarks."""
+    rows = [row for rows in results for row in rows]
+    groups = {row["group"] for row in rows}
+    with open(file, encoding="utf-8", newline="") as lines:
+        floors = [floor for floor in csv.DictReader(line for line in lines if not line.startswith("#"))
+                  if floor["set"].split("/")[0] in groups]
+    problems = []
+    for floor in floors:
+        name = f"{floor['set']}, {floor['method']}"
+        own = [row for row in rows if row["method"] == floor["method"]
+               and floor["set"] in (row["group"], f"{row['group']}/{row['set']}")]
+        true, found, false = (sum(row[key] for row in own) for key in ("true", "found", "false"))
+        if true != int(floor["true"]):
+            problems.append(f"{name}: {true} true loops, not {floor['true']}: sets have changed, or have not run")
+            continue
+        if found < int(floor["found"]):
+            problems.append(f"{name}: {found} found of {true}, floor {floor['found']}")
+        if false > int(floor["false"]):
+            problems.append(f"{name}: {false} false, ceiling {floor['false']}")
+    problems += [f"{group}: no floor" for group in sorted(groups - {floor["set"].split("/")[0] for floor in floors})]
+    if problems:
+        fail("below the floors\n" + "\n".join(problems))
+    print(f"{len(floors)} floors held")
+
+
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--lacuna", type=Path, required=True, help="the program that finds holes")
     parser.add_argument("--bench", type=Path, required=True, help="the program lacuna-bench")
-    parser.add_argument("--pcl", type=Path, help="pcl_boundary_points of bench/peers; without it PCL does not run")
+    parser.add_argument("--pcl", type=Path, help="pcl_boundary of bench/peers; without it PCL does not run")
     parser.add_argument("--cgal", type=Path, help="cgal_border_loops of bench/peers; without it CGAL does not run")
     parser.add_argument("--work", type=Path, required=True, help="sets and results; sets are kept")
     parser.add_argument("--data", type=Path, required=True, help="folder of the real scans")
@@ -51,7 +77,6 @@ def main():
     arguments = parse_arguments()
     (arguments.work / "sets").mkdir(parents=True, exist_ok=True)
     methods = known_methods(arguments.lacuna)
-    floors = read_floors(arguments.floors) if arguments.floors else []
     results = []
     for sets in GROUPS:
         for case in sets(arguments):
@@ -67,7 +92,7 @@ def main():
     print()
     print_widths(results, list(methods))
     if arguments.floors:
-        check_floors(floors, [row for rows in results for row in rows])
+        check_floors(arguments.floors, results)
 
 
 if __name__ == "__main__":

@@ -5,17 +5,17 @@ import functools
 import itertools
 import json
 import random
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from mesh import cut_balls, read_mesh, write_mesh
+from degrade import doubled, falling_by_ten, halved, overlapping, quartered, read_scan, with_outliers, write_points
+from mesh import cut_balls, read_mesh, write_ply
 from range_map import SCENES, range_map
-from degrade import doubled, falling_by_ten, halved, read_scan, with_outliers
 from screens import SHAPES, screens
-from thin import overlap, thin, write_points
 
 SYNTH_KINDS = ["plane", "waves", "cylinder", "torus", "sphere-cap"]
 CLOSED_KINDS = ["torus", "sphere", "cube"]
@@ -61,6 +61,20 @@ def run(command):
     return done.stdout
 
 
+def evaluated(arguments, result, scan, truth, min_vertices):
+    """What `lacuna-bench evaluate` says of a folder of `lacuna detect`, or of loops as text."""
+    positions = [] if truth == scan else ["--scan", scan]
+    return json.loads(run([arguments.bench, "evaluate", result, truth, "--json", *positions, "--min-vertices", min_vertices]))
+
+
+def detected(arguments, scan, folder, options):
+    """The loops of `lacuna detect`, whose results another version would not replace."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    run([arguments.lacuna, "detect", scan, "--out", folder, "--quiet", *options])
+    return json.loads((folder / "holes.json").read_text(encoding="utf-8"))["loops"]
+
+
 def synth(arguments, group, name, kind, options):
     """Made by `lacuna-bench synth KIND`."""
     scan = arguments.work / "sets" / f"{name}.ply"
@@ -72,29 +86,10 @@ def surface(arguments, group, name, options):
     return synth(arguments, group, name, "surface", options)
 
 
-def from_dense(arguments, group, name, options, points, write):
-    """`write` makes the scan of a surface with half the spacing, four times the density."""
-    scan = arguments.work / "sets" / f"{name}.ply"
-
-    def make():
-        dense = arguments.work / "dense.ply"
-        run([arguments.bench, "synth", "surface", dense, "--spacing", 0.005, "--points", points, "--jitter", 0.5,
-             *options])
-        write(dense, dense.with_suffix(".loops.txt"), scan)
-
-    return Set(group, name, scan, scan.with_suffix(".loops.txt"), 8, make)
-
-
-def uneven_surface(arguments, group, name, options, seed, points=160_000):
-    """One in four points: sampled as if each point knew of no other."""
-    return from_dense(arguments, group, name, options, points,
-                      lambda dense, truth, scan: thin(dense, truth, 4, seed, scan))
-
-
-def overlapping_surface(arguments, group, name, options, seed, points):
-    """Two scans of it, the second 0.3 spacings too high."""
-    return from_dense(arguments, group, name, options, points,
-                      lambda dense, truth, scan: overlap(dense, truth, 4, seed, 0.003, scan))
+def from_dense(arguments, group, name, options, seed, points=160_000, treatment=quartered):
+    """Made of a surface with half the spacing, four times the density."""
+    dense = surface(arguments, "dense", f"dense-{name}", ["--spacing", 0.005, "--points", points, "--jitter", 0.5, *options])
+    return degraded(arguments, dense, group, name, treatment, 8, seed)
 
 
 def synth_sets(arguments):
@@ -113,7 +108,7 @@ def synth_sets(arguments):
 def uneven_sets(arguments):
     for seed, kind in enumerate(SYNTH_KINDS, start=1):
         for noise in NOISES:
-            yield uneven_surface(arguments, "uneven", f"uneven-{kind}-noise{round(100 * noise)}",
+            yield from_dense(arguments, "uneven", f"uneven-{kind}-noise{round(100 * noise)}",
                                  ["--kind", kind, "--holes", 13, "--hole-radius", 8, 24, "--seed", seed,
                                   "--noise", 2 * noise], seed)
 
@@ -124,7 +119,7 @@ def closed_sets(arguments):
             options = ["--kind", kind, "--holes", 0, "--seed", seed]
             name = f"{kind}-noise{round(100 * noise)}"
             yield surface(arguments, "closed", f"closed-{name}", [*options, "--points", 40_000, "--noise", noise])
-            yield uneven_surface(arguments, "closed-uneven", f"closed-uneven-{name}",
+            yield from_dense(arguments, "closed-uneven", f"closed-uneven-{name}",
                                  [*options, "--noise", 2 * noise], seed)
 
 
@@ -144,14 +139,19 @@ def real(arguments, name):
 def made_mesh(arguments, group, name, make):
     """A mesh that `make` returns, scan and truth in one."""
     file = arguments.work / "sets" / f"{name}.ply"
-    return Set(group, name, file, file, make=lambda: write_mesh(make(), file))
+
+    def write():
+        mesh = make()
+        write_ply(file, mesh.positions, mesh.faces)
+
+    return Set(group, name, file, file, make=write)
 
 
 def spacing_of(arguments, truth):
-    """The accuracy on the scan whose truth this is."""
+    """The spacing of the scan whose truth this is."""
     none = arguments.work / "none.loops.txt"
     none.write_text("# no loops\n", encoding="utf-8")
-    return json.loads(run([arguments.bench, "evaluate", none, truth, "--json"]))["spacing"]
+    return evaluated(arguments, none, truth, truth, 8)["spacing"]
 
 
 def cut_mesh(arguments, file, seed):
@@ -286,11 +286,11 @@ def quick_sets(arguments):
         yield surface(arguments, "quick", f"quick-{name}", options)
     for seed in (1, 2, 3):
         for kind in ("waves", "torus"):
-            yield uneven_surface(arguments, "quick", f"quick-uneven-{kind}-{seed}",
+            yield from_dense(arguments, "quick", f"quick-uneven-{kind}-{seed}",
                                  dense_holes(kind, "--noise", 0.5), seed, 64_000)
-        yield uneven_surface(arguments, "quick", f"quick-uneven-closed-{seed}",
-                             ["--kind", "sphere", "--holes", 0, "--noise", 0.5], seed, 64_000)
-    yield overlapping_surface(arguments, "quick", "quick-overlapping", dense_holes("plane"), 1, 64_000)
+        yield from_dense(arguments, "quick", f"quick-uneven-closed-{seed}",
+                         ["--kind", "sphere", "--holes", 0, "--noise", 0.5], seed, 64_000)
+    yield from_dense(arguments, "quick", "quick-overlapping", dense_holes("plane"), 1, 64_000, overlapping)
     for seed, (name, kind, treatment) in enumerate([("half", "cylinder", halved), ("tenth", "waves", falling_by_ten),
                                                     ("doubled", "sphere-cap", doubled)], start=221):
         source = surface(arguments, "quick", f"quick-whole-{kind}", holes(kind, "--points", 16_000, "--noise", 0.25))

@@ -1,6 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/evaluation/cloud_score.hpp"
-
+// cloud_score: the scores of `lacuna-bench score`, of one cloud and of many: per hole, per area and per
+// point.
+//
+// Idea: the surface of a hole is the triangulation of its loop that has the least area. It is divided into
+// pieces so small that the centroid of a piece decides for it. A piece counts as found, or as right, where a
+// hole of the other kind is near.
+//
+// Source: completeness and correctness of the ISPRS benchmark on indoor modelling,
+// https://www.isprs.org/resources/datasets/benchmarks/IndoorModeling/results.aspx.
+// Cost: n log n for points and pieces. Memory: the pieces of the true holes.
+#include "bench/evaluation/evaluation.hpp"
 #include "io/explain/lids/make_lid.hpp"
 #include "io/explain/matching/nearest.hpp"
 
@@ -153,8 +162,10 @@ class TrueSurfaces {
   double found_ = 0, right_ = 0;
 };
 
-}  // namespace
-
+// Outer curves have no surface, and neither
+// has a loop with a point that is not finite. Loops along steps of density take no part. A loop that repeats
+// another has no right place. Places of a hole are near others within the mean tolerance of the hole's
+// points. Pieces have edges of at most half of that tolerance. With a tolerance of 0, all areas are 0.
 HoleAreas compare_areas(std::span<const LoopIds> loops, const Truth& truth, const LoopAccuracy& accuracy,
                         const MatchRule& rule) {
   if (!(rule.tolerance > 0)) return {};
@@ -169,6 +180,8 @@ HoleAreas compare_areas(std::span<const LoopIds> loops, const Truth& truth, cons
   }
   return surfaces.areas();
 }
+
+}  // namespace
 
 CloudScore score_cloud(const Result& result, const Truth& truth, const EvaluationRule& rule) {
   const Evaluation evaluation = evaluate(result, truth, rule);

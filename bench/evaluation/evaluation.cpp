@@ -188,7 +188,7 @@ Truth read_truth(const fs::path& file, std::vector<ScanInput> scans, Result& res
   if (mesh && !scans.empty())
     throw Error(file.string() + ": is a mesh, its vertices are the scan; no --scan is allowed");
   const std::vector<Triangle> triangles = mesh ? read_triangles(file) : std::vector<Triangle>{};
-  std::vector<NamedLoopIds> loops = mesh ? std::vector<NamedLoopIds>{} : read_named_loops(file);
+  TrueRows rows = mesh ? TrueRows{} : read_true_rows(file);
   if (mesh) scans = {file};
   if (scans.empty()) scans = scans_of(file, result);
   truth.positions = read_positions(scans, result.columns);
@@ -196,11 +196,9 @@ Truth read_truth(const fs::path& file, std::vector<ScanInput> scans, Result& res
   if (mesh) {
     take_mesh(triangles, truth);
   } else {
-    truth.steps = read_marked(file, kStepMark);
-    for (const LoopIds& step : truth.steps) check_ids(file, step, truth);
-    for (LoopIds& loop : read_marked(file, kNarrowMark))
-      loops.push_back({std::move(loop), "narrow hole", true});
-    take_loops(std::move(loops), truth);
+    for (const LoopIds& step : rows.steps) check_ids(file, step, truth);
+    truth.steps = std::move(rows.steps);
+    take_loops(std::move(rows.loops), truth);
   }
   add_vertices(result, truth);
   return truth;

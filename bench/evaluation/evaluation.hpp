@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// evaluation: compares a result with the truth. Files in, scores out.
+// evaluation: compares a result with the truth, of one scan and of many. Files in, scores out, and their
+// text.
 //
 // Idea: a found loop is right where its points lie near the edges of one true loop, and along most of it.
 // Where points are far apart, near is farther. What is neither right nor wrong, such as loops along steps of
@@ -8,13 +9,16 @@
 // Source: docs/evaluate.md. Cost: n log n, for points and edges.
 #pragma once
 
-#include "bench/evaluation/measures.hpp"
+#include "engine/model/loop.hpp"
 #include "io/explain/matching/match_loops.hpp"
+#include "io/explain/matching/nearest.hpp"
 #include "io/read/scan/scan_files.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -70,6 +74,59 @@ struct EvaluationRule {
   double tolerance = 2;
   std::size_t min_vertices = 8;
 };
+
+// ---- Measures: how far apart points are, and how large loops
+
+// Returns the spacing of a place, also where it is sampled in lines. An even sampling of this spacing has its
+// 32nd neighbour as far away. Returns 0 where there are no more than 32 points. Cost: log n.
+double spacing_of_place(const Eigen::Vector3d& place, const PointTree& tree);
+
+// Returns the median over the points; 0 for fewer than two. The points are finite and distinct. If there are
+// more than 130,000 points, the function takes as many, evenly spread. Cost: n log n, for the tree.
+// `tree` has these points.
+double median_spacing(std::span<const Eigen::Vector3d> points, const PointTree& tree);
+
+double median(std::vector<double> values);  // the upper one of two; 0 without values
+
+// In units of the scan.
+struct LoopSize {
+  double perimeter = 0;             // sum of the edges' lengths
+  double diameter = 0;              // largest distance between two vertices
+  double area = 0;                  // projected along its normal; of an open loop: closed over its centre
+  Eigen::Vector3d centre{0, 0, 0};  // mean of the vertices
+};
+
+// Ids are places in `positions`, which are finite there. A loop without edges has a size of 0.
+LoopSize size_of(const TrueLoop& loop, std::span<const Eigen::Vector3d> positions);
+LoopSize size_of(const LoopIds& loop, std::span<const Eigen::Vector3d> positions);
+
+// Returns whether a true loop goes around a hole or around a piece of surface.
+// Uses the rule for found loops (engine/loops/measure_loop.hpp): the surface is where the means of the 15
+// nearest points are. `points` are the points of the tree, and ids are places in `positions`. Returns nothing
+// for fewer than three ids.
+std::optional<LoopKind> kind_of(const LoopIds& loop, std::span<const Eigen::Vector3d> positions,
+                                std::span<const Eigen::Vector3d> points, const PointTree& tree);
+
+// ---- How many true holes are found, by their width: how small a hole a program finds
+
+// Returns the width of a hole, 2 area / perimeter, in local spacings: the mean distance of its vertices to
+// their 4 nearest other points. `points` are the points of the tree, and
+// the vertices are among them. Returns nothing for an outer curve, and for a loop without a kind or a
+// spacing. A loop of a mesh gets its kind from kind_of().
+std::optional<double> hole_width(const TrueLoop& loop, std::span<const Eigen::Vector3d> positions,
+                                 std::span<const Eigen::Vector3d> points, const PointTree& tree);
+
+struct Tally {
+  std::size_t found = 0, all = 0;
+};
+
+// Spacings. A class of widths begins at one of these, and ends before the next; the last one has no end.
+inline constexpr std::array kWidths = {0u, 2u, 3u, 5u, 10u};
+using HolesByWidth = std::array<Tally, kWidths.size()>;
+
+// Counts the true loops that count and have a width, by class. Both spans are in the order of the true loops.
+HolesByWidth holes_by_width(std::span<const std::optional<double>> widths,
+                            std::span<const TrueMatch> matches);
 
 // ---- Scores of loops
 
@@ -138,5 +195,63 @@ MatchRule match_rule(const Truth& truth, const EvaluationRule& rule, std::span<c
 // Throws `Error` if the result is of another scan: it has ids, or a number of points, that the truth does not
 // have. Throws, too, if the points of a loop are in no order.
 Evaluation evaluate(const Result& result, const Truth& truth, const EvaluationRule& rule);
+
+// ---- Scores of a cloud, per hole, per area and per point
+
+// In squares of the unit of the scan.
+// Completeness is covered / truth, and correctness right / found.
+struct HoleAreas {
+  double truth = 0, covered = 0;  // of the true holes that count, and the part of it near found holes
+  double found = 0, right = 0;    // of the found holes, and the part of it near true holes, counting or not
+};
+
+struct CloudScore {
+  Tally holes, outer_curves;    // that count
+  std::size_t false_loops = 0;  // with those that match a true loop which another loop has found
+  std::size_t repeated = 0;     // these alone
+  std::size_t joined_or_parted = 0;
+  HoleAreas areas;       // squares of the spacing
+  PointAccuracy points;  // the boundary points where the result has them, else the points of the loops
+};
+
+// Loops along steps of density are neither right nor wrong: they have no area and
+// no points. Points of true loops that do not count are right if they are flagged, and not missed otherwise.
+// Throws `Error` as evaluate() does.
+CloudScore score_cloud(const Result& result, const Truth& truth, const EvaluationRule& rule);
+
+// ---- What is printed of one result
+
+struct EvaluationText {
+  const Result& result;
+  const Truth& truth;
+  const Evaluation& evaluation;
+  std::filesystem::path result_path, truth_path;
+  EvaluationRule rule;
+};
+
+// Prints one sentence with the numbers of found and false loops, and the holes found by width. Then it prints
+// a line for each true loop, the largest first, with its name, size, place, and what found it. Then it prints
+// a line for each loop that matches no true loop.
+std::string print_verdict(const EvaluationText& text);
+
+// Returns all scores, and every number behind them, by loop.
+std::string print_json(const EvaluationText& text);
+
+// ---- And of many clouds
+
+// By kind of cloud. There is at least one kind, and each has a cloud.
+using ScoresByKind = std::map<std::string, std::vector<CloudScore>>;
+
+// What was scored, for the JSON.
+struct ScoredFolders {
+  std::filesystem::path clouds, results;
+  std::vector<std::filesystem::path> without_result;
+  EvaluationRule rule;
+};
+
+// Prints three tables, per hole, per area and per point. Each has a row for each kind, and one for all.
+std::string print_scores(const ScoresByKind& kinds);
+// Returns every number of the tables, and those behind them.
+std::string print_json(const ScoresByKind& kinds, const ScoredFolders& folders);
 
 }  // namespace lacuna::evaluation

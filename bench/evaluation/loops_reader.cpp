@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -56,10 +57,11 @@ std::vector<std::uint64_t> read_column(const std::filesystem::path& file, std::s
   return column;
 }
 
-std::vector<NamedLoopIds> read_ply_loops(const std::filesystem::path& file) {
+TrueRows read_ply_loops(const std::filesystem::path& file) {
   const std::vector<std::uint64_t> ids = read_column(file, "scalar_id");
   const std::vector<std::uint64_t> loop_of = read_column(file, "scalar_loop");
-  std::vector<NamedLoopIds> loops;
+  TrueRows rows;
+  std::vector<NamedLoopIds>& loops = rows.loops;
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const bool known = loop_of[i] + 1 == loops.size();
     if (!known && loop_of[i] != loops.size()) {
@@ -70,7 +72,7 @@ std::vector<NamedLoopIds> read_ply_loops(const std::filesystem::path& file) {
     if (!known) loops.emplace_back();
     loops.back().ids.push_back(ids[i]);
   }
-  return loops;
+  return rows;
 }
 
 // Returns the remainder of a comment's line, its words divided by one blank.
@@ -83,11 +85,9 @@ std::string read_comment(InputFile& in, std::string_view first) {
   return text;
 }
 
-// Returns "window" for "# window". The mark of the file is no name, and a marked row is none.
+// Returns "window" for "# window". The mark of the file is no name.
 std::string name_in(std::string comment) {
   if (comment.starts_with(kLoopsTextMark)) return {};
-  for (const std::string_view mark : {kStepMark, kNarrowMark})
-    if (comment.starts_with(std::string(mark) + " ")) return {};
   comment.erase(0, comment.find_first_not_of("# "));
   return comment;
 }
@@ -101,50 +101,54 @@ std::uint64_t parse_id(const InputFile& in, std::string_view word) {
   return id;
 }
 
-std::vector<NamedLoopIds> read_text_loops(InputFile& in) {
-  std::vector<NamedLoopIds> loops;
+// Without `has_marks`, marked rows are comments.
+TrueRows read_rows(const std::filesystem::path& file, bool has_marks) {
+  InputFile in(file);
+  if (looks_like_ply({.first_bytes = in.peek(4), .size = in.remaining()})) return read_ply_loops(file);
+  TrueRows rows;
+  std::vector<NamedLoopIds> narrow;
   std::string name;
   while (in.next_row()) {
-    LoopIds loop;
+    LoopIds ids;
+    std::string_view mark;
     while (const auto word = in.next_word()) {
-      if (word->starts_with('#') && loop.empty()) {
-        name = word->size() <= kLongestComment ? name_in(read_comment(in, std::string(*word))) : "";
+      if (!word->starts_with('#') || !ids.empty() || !mark.empty()) {
+        ids.push_back(parse_id(in, *word));
+        continue;
+      }
+      name.clear();
+      if (has_marks && *word == kStepMark) {
+        mark = kStepMark;
+      } else if (has_marks && *word == kNarrowMark) {
+        mark = kNarrowMark;
+      } else {
+        if (word->size() <= kLongestComment) name = name_in(read_comment(in, std::string(*word)));
         break;
       }
-      loop.push_back(parse_id(in, *word));
     }
     while (!in.end_row()) in.next_word();  // the rest of a comment
-    if (!loop.empty()) loops.push_back({std::move(loop), std::exchange(name, "")});
+    if (mark == kStepMark) {
+      rows.steps.push_back(std::move(ids));
+    } else if (mark == kNarrowMark) {
+      narrow.push_back({std::move(ids), "narrow hole", true});
+    } else if (!ids.empty()) {
+      rows.loops.push_back({std::move(ids), std::exchange(name, "")});
+    }
   }
-  return loops;
+  std::ranges::move(narrow, std::back_inserter(rows.loops));
+  return rows;
 }
 
 }  // namespace
 
-std::vector<NamedLoopIds> read_named_loops(const std::filesystem::path& file) {
-  InputFile in(file);
-  if (looks_like_ply({.first_bytes = in.peek(4), .size = in.remaining()})) return read_ply_loops(file);
-  return read_text_loops(in);
-}
-
 std::vector<LoopIds> read_loops(const std::filesystem::path& file) {
   std::vector<LoopIds> loops;
-  for (NamedLoopIds& loop : read_named_loops(file)) loops.push_back(std::move(loop.ids));
+  for (NamedLoopIds& loop : read_rows(file, false).loops) loops.push_back(std::move(loop.ids));
   return loops;
 }
 
-std::vector<LoopIds> read_marked(const std::filesystem::path& file, std::string_view mark) {
-  std::vector<LoopIds> rows;
-  InputFile in(file);
-  if (looks_like_ply({.first_bytes = in.peek(4), .size = in.remaining()})) return rows;
-  while (in.next_row()) {
-    if (const auto word = in.next_word(); word && *word == mark) {
-      LoopIds& row = rows.emplace_back();
-      while (const auto id = in.next_word()) row.push_back(parse_id(in, *id));
-    }
-    while (!in.end_row()) in.next_word();
-  }
-  return rows;
+TrueRows read_true_rows(const std::filesystem::path& file) {
+  return read_rows(file, true);
 }
 
 std::vector<std::uint64_t> read_ids(const std::filesystem::path& file) {
@@ -170,12 +174,6 @@ Property find_end(const InputFile& in, const PlyElement& edge, std::string_view 
   if (!property || !is_integer(property->type))
     in.fail_at_line(in.line(), "element 'edge' has no integer " + in_quotes(name));
   return *property;
-}
-
-std::vector<double> read_ends(const RowBatch& rows, std::size_t stride, const Property& property) {
-  std::vector<double> ends;
-  load_column(rows, stride, property, ends);
-  return ends;
 }
 
 std::uint64_t checked_vertex(const InputFile& in, double vertex, std::size_t edge, std::size_t vertices) {
@@ -211,7 +209,9 @@ std::vector<Neighbours> read_neighbours(InputFile& in) {
     }
   }
   require_end(in);
-  const std::vector<double> from = read_ends(edges, stride, first), to = read_ends(edges, stride, second);
+  std::vector<double> from, to;
+  load_column(edges, stride, first, from);
+  load_column(edges, stride, second, to);
   std::vector<Neighbours> neighbours(vertices, {kNone, kNone});
   for (std::size_t i = 0; i < edges.count; ++i) {
     const std::uint64_t a = checked_vertex(in, from[i], i, vertices);

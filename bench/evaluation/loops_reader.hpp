@@ -37,20 +37,23 @@ struct NamedLoopIds {
   bool is_narrow = false;
 };
 
+// What a file of true loops has. Loops that are too narrow to count follow the others.
+struct TrueRows {
+  std::vector<NamedLoopIds> loops;
+  std::vector<LoopIds> steps;
+};
+
 // The first line of a file of true loops begins with this text. The line is about the file and names no loop.
 inline constexpr std::string_view kLoopsTextMark = "# one boundary loop per line, 0-based point ids of ";
-
-// Reads loops with their names. In text, the comment in the line before a loop is its name, words divided by
-// one blank. The name is cut to 200 bytes. Loops of a PLY file have no names.
-std::vector<NamedLoopIds> read_named_loops(const std::filesystem::path& file);
 
 // In a file of true loops, a line of ids that is no true loop begins with one of these. Other readers take it
 // for a comment. In a row of ids, neighbours are joined by an edge. A step of density is closed where its
 // first id is its last, too. A hole that is too narrow to count is closed, as a true loop is.
 inline constexpr std::string_view kStepMark = "#step", kNarrowMark = "#narrow";
 
-// Reads the rows with a mark. Only text has them. Throws `Error`.
-std::vector<LoopIds> read_marked(const std::filesystem::path& file, std::string_view mark);
+// Reads loops with their names, and the rows with a mark. In text, the comment in the line before a loop is
+// its name, words divided by one blank. The name is cut to 200 bytes. A PLY file has neither names nor marks.
+TrueRows read_true_rows(const std::filesystem::path& file);
 
 // Returns the ids of boundary.ply, in file order. Throws `Error`.
 std::vector<std::uint64_t> read_ids(const std::filesystem::path& file);

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // The holes that remain where CGAL's advancing front has reconstructed the surface: its border loops, as a
 // text that `lacuna-bench evaluate` reads. A triangle whose circumradius is above the bound is no candidate.
-#include "bench/peers/border_loops.hpp"
-#include "bench/peers/read_scan.hpp"
+#include "bench/peers/peer.hpp"
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <set>
+#include <span>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <CGAL/Advancing_front_surface_reconstruction.h>
@@ -22,6 +25,9 @@ using namespace lacuna::peers;
 
 namespace fs = std::filesystem;
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
+
+using Triangle = std::array<std::size_t, 3>;  // ids of points, all triangles turning the same way
+using Loop = std::vector<std::size_t>;
 
 struct BoundedRadius {
   double bound;
@@ -45,6 +51,49 @@ std::vector<Point> load_points(const char* file) {
     points.emplace_back(coordinates[i], coordinates[i + 1], coordinates[i + 2]);
   }
   return points;
+}
+
+using HalfEdge = std::pair<std::size_t, std::size_t>;
+
+// Ends of the half-edges without an opposite one, by their beginnings.
+std::map<std::size_t, std::vector<std::size_t>> border_ends(std::span<const Triangle> triangles) {
+  std::set<HalfEdge> edges;
+  for (const auto& [a, b, c] : triangles) edges.insert({{a, b}, {b, c}, {c, a}});
+  std::map<std::size_t, std::vector<std::size_t>> ends;
+  for (const auto& [from, to] : edges) {
+    if (!edges.contains({to, from})) ends[from].push_back(to);
+  }
+  return ends;
+}
+
+// Returns the border of a mesh as simple loops. The function chains half-edges without an opposite one, and
+// cuts a chain where it passes a vertex a second time. It leaves out a chain with an open end, as at
+// triangles that do not turn the same way. Cost: O(n log n) for n triangles. The same triangles give the same
+// loops.
+std::vector<Loop> border_loops(std::span<const Triangle> triangles) {
+  std::map<std::size_t, std::vector<std::size_t>> ends = border_ends(triangles);
+  std::vector<Loop> loops;
+  while (!ends.empty()) {
+    Loop chain{ends.begin()->first};
+    std::map<std::size_t, std::size_t> place{{chain[0], 0}};  // of each vertex in the chain
+    for (auto next = ends.begin(); next != ends.end(); next = ends.find(chain.back())) {
+      const std::size_t to = next->second.back();
+      next->second.pop_back();
+      if (next->second.empty()) ends.erase(next);
+      const auto [first, is_new] = place.try_emplace(to, chain.size());
+      if (is_new) {
+        chain.push_back(to);
+        continue;
+      }
+      const auto begin = chain.begin() + static_cast<std::ptrdiff_t>(first->second);
+      loops.emplace_back(begin, chain.end());
+      for (const std::size_t id : loops.back()) {
+        if (id != to) place.erase(id);
+      }
+      chain.erase(begin + 1, chain.end());
+    }
+  }
+  return loops;
 }
 
 void write_loops(const fs::path& file, const std::vector<Loop>& loops, std::size_t fewest) {
@@ -78,19 +127,9 @@ void run(const char* scan, const fs::path& file, double radius, int fewest) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 5) {
-    std::fprintf(
-        stderr,
-        "usage: %s SCAN.ply OUT.loops.txt RADIUS FEWEST\n"
-        "RADIUS: the largest of a triangle, in units of the scan; FEWEST: points of a loop that is written\n",
-        argv[0]);
-    return 2;
-  }
-  try {
-    run(argv[1], argv[2], std::atof(argv[3]), std::atoi(argv[4]));
-    return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", argv[0], error.what());
-    return 1;
-  }
+  return run_main(
+      argc, argv, 4, 4,
+      "SCAN.ply OUT.loops.txt RADIUS FEWEST\n"
+      "RADIUS: the largest of a triangle, in units of the scan; FEWEST: points of a loop that is written",
+      [&] { run(argv[1], argv[2], std::atof(argv[3]), std::atoi(argv[4])); });
 }

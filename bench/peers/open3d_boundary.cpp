@@ -4,7 +4,6 @@
 // radius is the median distance of the last neighbour, so that half of the points have all of their
 // neighbours. Finding the radius is not timed.
 #include "bench/peers/peer.hpp"
-#include "bench/peers/read_scan.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/peers/read_scan.hpp"
-
+#include "bench/peers/peer.hpp"
 #include "io/read/scan/scan_pass.hpp"
 
 namespace lacuna::peers {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/synth/scanner.hpp"
 
-#include "bench/synth/trig.hpp"
 #include "engine/run/error.hpp"
 
 #include <algorithm>
@@ -25,6 +24,10 @@ constexpr double kDriveRange = 5;      // metres at which profiles of a drive ar
 constexpr double kPause = 5;           // seconds between strips
 constexpr double kLeafReflectance = 0.2;
 
+constexpr double kSamePlace = 1e-5;       // metres along the ray
+constexpr double kLeastIncidence = 0.25;  // cosines, in the spacing
+constexpr double kLeastElevation = 0.3;
+
 enum Stream : std::uint64_t { kPlaces = 16, kAims, kRanges, kStrays, kProbes, kRegistrations, kCrowns };
 
 // Spreads places over the floor by the plane's golden ratio (R2 sequence, Roberts 2018), clear of all things.
@@ -45,28 +48,17 @@ std::vector<Vec3> place_stations(const Scene& scene, const ScanOptions& options)
   return stations;
 }
 
-// Returns the middles of lanes at equal distances over the ground where stations may be.
-std::vector<Vec3> place_lanes(const Scene& scene, const ScanOptions& options) {
-  const double distance = (scene.stand_high.y - scene.stand_low.y) / options.stations;
-  std::vector<Vec3> middles;
-  for (std::uint32_t lane = 0; lane < options.stations; ++lane) {
-    middles.push_back({0.5 * (scene.stand_low.x + scene.stand_high.x),
-                       scene.stand_low.y + (lane + 0.5) * distance, scene.stand_low.z});
-  }
-  return middles;
-}
-
-// Returns the middles of strips at equal distances, as high as their swaths need to overlap.
+// Returns the middles of lanes or strips at equal distances over the ground where stations may be. Strips are
+// as high as their swaths need to overlap.
 std::vector<Vec3> place_strips(const Scene& scene, const ScanOptions& options) {
-  const Random random(options.seed, kPlaces);
   const double distance = (scene.stand_high.y - scene.stand_low.y) / options.stations;
   const auto [sine, cosine] = sin_cos(kSwath);
-  const double shift = random.uniform(0, -0.05, 0.05);
+  const double shift = scene.flown ? Random(options.seed, kPlaces).uniform(0, -0.05, 0.05) : 0;
+  const double height = scene.flown ? kHalfSwath * distance * cosine / sine : 0;
   std::vector<Vec3> middles;
   for (std::uint32_t strip = 0; strip < options.stations; ++strip) {
     middles.push_back({0.5 * (scene.stand_low.x + scene.stand_high.x),
-                       scene.stand_low.y + (strip + 0.5 + shift) * distance,
-                       scene.stand_low.z + kHalfSwath * distance * cosine / sine});
+                       scene.stand_low.y + (strip + 0.5 + shift) * distance, scene.stand_low.z + height});
   }
   return middles;
 }
@@ -87,9 +79,7 @@ Scanner::Scanner(const ScanOptions& options, Scene scene)
       range_(options.seed, kRanges),
       stray_(options.seed, kStrays),
       leaves_(options.seed, kCrowns),
-      stations_(scene_.flown     ? place_strips(scene_, options)
-                : options.drives ? place_lanes(scene_, options)
-                                 : place_stations(scene_, options)) {
+      stations_(moves() ? place_strips(scene_, options) : place_stations(scene_, options)) {
   if (options_.registration > 0) misplace_stations();
   lay_sweeps();
   lay_rays();
@@ -246,6 +236,114 @@ Ray Scanner::ray(std::uint64_t index) const {
   return {.sweep = static_cast<std::uint32_t>(after - sweeps_.begin() - 1),
           .azimuth = across / static_cast<double>(sweep.scanlines),
           .elevation = lowest_ + upright_ * (up / static_cast<double>(sweep.per_scanline))};
+}
+
+// ---- Which places are sampled
+
+std::string in_words(const Cause& cause, const Scene& scene) {
+  switch (cause.kind) {
+    case Cause::kEdge:
+      return std::string("edge of ") + scene.name_of(cause.number);
+    case Cause::kShadow:
+      return std::string("shadow of ") + scene.name_of(cause.number);
+    case Cause::kWindow:
+      return "window";
+    case Cause::kDoor:
+      return "door";
+    case Cause::kBelow:
+      return "tripod circle of station " + std::to_string(cause.number);
+    case Cause::kAbove:
+      return "zenith circle of station " + std::to_string(cause.number);
+    case Cause::kWater:
+      return "water";
+    case Cause::kStrip:
+      return "side of strip " + std::to_string(cause.number);
+    case Cause::kFar:
+      return "out of range";
+    case Cause::kNone:
+      break;
+  }
+  return "gap";
+}
+
+Visibility::Visibility(const Scanner& scanner)
+    : scanner_(scanner), lowest_(sin_cos(scanner.lowest()).sin), highest_(sin_cos(scanner.highest()).sin) {
+  if (scanner.highest() - scanner.lowest() == 1) lowest_ = -1, highest_ = 1;  // a whole turn
+
+  for (std::uint32_t sweep = 0; sweep < scanner.sweeps().size(); ++sweep) sweeps_.push_back(sweep);
+}
+
+Visibility Visibility::part(std::uint32_t station, bool is_of_station) const {
+  Visibility part = *this;
+  std::erase_if(part.sweeps_, [&](std::uint32_t sweep) {
+    return (scanner_.sweeps()[sweep].station == station) != is_of_station;
+  });
+  return part;
+}
+
+Cause Visibility::cause(const ScenePoint& place, std::uint32_t number) const {
+  const Scene& scene = scanner_.scene();
+  const Sweep& sweep = scanner_.sweeps()[number];
+  const Vec3 eye = scanner_.eye(sweep, place.position);
+  const Vec3 arm = place.position - eye;
+  const double range = std::sqrt(dot(arm, arm));
+  const Vec3 direction = (1 / range) * arm;
+  const double facing = -dot(direction, place.normal);
+  const double elevation = dot(direction, scene.flown ? sweep.y : sweep.axis);
+  const bool is_ahead =
+      scanner_.moves() && 2 * std::fabs(dot(eye - sweep.origin, sweep.x)) > scanner_.strip_length();
+  if (is_ahead) return {Cause::kStrip, sweep.station};
+  if (elevation < lowest_) return {scene.flown ? Cause::kStrip : Cause::kBelow, sweep.station};
+  if (elevation > highest_) return {scene.flown ? Cause::kStrip : Cause::kAbove, sweep.station};
+  if (range > scanner_.max_range()) return {Cause::kFar, sweep.station};
+  if ((place.two_sided ? std::fabs(facing) : facing) < scanner_.least_cosine())
+    return {Cause::kEdge, place.shape};
+  const Hit hit = cast(scene, {eye, direction});
+  if (hit.range > range + kSamePlace) return {Cause::kDoor, place.shape};
+  if (hit.reflectance == 0 && scene.is_wall(hit.shape)) return {Cause::kWindow, hit.shape};
+  if (hit.reflectance == 0 && scene.is_terrain(hit.shape)) return {Cause::kWater, hit.shape};
+  if (hit.shape != place.shape) return {Cause::kShadow, hit.shape};
+  if (hit.range < range - kSamePlace) return {Cause::kEdge, place.shape};
+  return {};
+}
+
+std::optional<Vec3> Visibility::facing(const ScenePoint& place) const {
+  for (const std::uint32_t sweep : sweeps_) {
+    if (cause(place, sweep).kind != Cause::kNone) continue;
+    const Vec3 eye = scanner_.eye(scanner_.sweeps()[sweep], place.position);
+    return dot(eye - place.position, place.normal) < 0 ? -1 * place.normal : place.normal;
+  }
+  return std::nullopt;
+}
+
+double Visibility::density(const ScenePoint& place, std::uint32_t number) const {
+  if (cause(place, number).kind != Cause::kNone) return 0;
+  const Sweep& sweep = scanner_.sweeps()[number];
+  const Scene& scene = scanner_.scene();
+  const Vec3 eye = scanner_.eye(sweep, place.position);
+  const Vec3 arm = place.position - eye;
+  const double square = dot(arm, arm);
+  const double range = std::sqrt(square);
+  const double incidence = std::max(std::fabs(dot(arm, place.normal)) / range, kLeastIncidence);
+  const double share =
+      scene.foliage.empty() ? 1 : share_through_leaves(scene, {eye, (1 / range) * arm}, range);
+  // The steps between rays are in turns around the axis, or in lengths of the strip. Elevation has its own.
+  const double around = 1 / static_cast<double>(sweep.scanlines);
+  const double along = (scanner_.highest() - scanner_.lowest()) / static_cast<double>(sweep.per_scanline);
+  if (scanner_.moves()) {
+    const double step = std::max(scanner_.strip_length() * around, range * kTwoPi * along);
+    return share * incidence / (step * step);
+  }
+  const double step = kTwoPi * std::max(around, along);
+  const double right = dot(arm, sweep.x), forward = dot(arm, sweep.y);
+  const double elevation = std::max(std::sqrt(right * right + forward * forward) / range, kLeastElevation);
+  return share * incidence / (square * step * step * elevation);
+}
+
+double Visibility::spacing(const ScenePoint& place) const {
+  double sum = 0;
+  for (const std::uint32_t sweep : sweeps_) sum += density(place, sweep);
+  return sum > 0 ? 1 / std::sqrt(sum) : 0;
 }
 
 }  // namespace lacuna::synth

@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// A virtual laser scanner: at several stations on the ground, or moving in strips over the scene or on the
-// ground.
+// scanner: a virtual laser scanner, at several stations on the ground, or moving in strips over the scene or
+// on the ground. And from which stations a place of the scene's surface is sampled, and why not from the
+// others.
+//
+// Idea: every ray and every echo is a function of the seed and the ray's index alone. Whether a place is
+// sampled is known without its rays: from the field of view, the angle of incidence, and what is in the way.
+//
+// Source: stations stand at places of the R2 sequence (Roberts 2018). Cost: a step for each shape of the
+// scene.
 #pragma once
 
-#include "bench/synth/random.hpp"
-#include "bench/synth/scan_options.hpp"
+#include "bench/synth/scan.hpp"
 
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace lacuna::synth {
@@ -93,6 +100,71 @@ class Scanner {
   std::vector<Vec3> stations_;
   std::vector<Misplacement> misplaced_;  // of each station; empty if none is misplaced
   std::vector<Sweep> sweeps_;            // station after station
+};
+
+// Why a station does not sample a place.
+struct Cause {
+  enum Kind : std::uint8_t {
+    kNone,
+    kEdge,    // the surface of the shape ends there, or turns away
+    kShadow,  // of the shape
+    kWindow,
+    kDoor,
+    kWater,
+    kBelow,  // the field of view of the station
+    kAbove,
+    kStrip,  // to a side of it, or past its ends
+    kFar
+  } kind = kNone;
+  std::uint32_t number = 0;  // of the shape, or of the station
+
+  friend bool operator==(const Cause&, const Cause&) = default;
+  friend auto operator<=>(const Cause&, const Cause&) = default;
+};
+
+// Returns the cause as a person would say it.
+std::string in_words(const Cause& cause, const Scene& scene);
+
+struct ScenePoint {
+  Vec3 position, normal;
+  std::uint32_t shape;
+  bool two_sided;
+};
+
+class Visibility {
+ public:
+  // Uses the sweeps of all stations.
+  explicit Visibility(const Scanner& scanner);
+
+  // These use the sweeps of one station, or of all other stations.
+  Visibility only(std::uint32_t station) const { return part(station, true); }
+  Visibility without(std::uint32_t station) const { return part(station, false); }
+
+  // Returns numbers in Scanner::sweeps().
+  const std::vector<std::uint32_t>& sweeps() const { return sweeps_; }
+
+  // The cause is kNone if the sweep samples the place.
+  Cause cause(const ScenePoint& place, std::uint32_t sweep) const;
+
+  // Returns the normal on the side of the first station that samples the place; empty if no station does.
+  std::optional<Vec3> facing(const ScenePoint& place) const;
+  bool any(const ScenePoint& place) const { return facing(place).has_value(); }
+
+  // Returns the points per square metre that one sweep leaves around the place; 0 if the sweep does not
+  // sample it.
+  double density(const ScenePoint& place, std::uint32_t sweep) const;
+
+  // Returns the mean distance of the points that all sweeps leave around the place; 0 if none samples it. For
+  // a scanner with rings it is the distance of the rings. Grazing rays and rays near the zenith count as less
+  // grazing ones, since their points lie close in one direction only.
+  double spacing(const ScenePoint& place) const;
+
+ private:
+  Visibility part(std::uint32_t station, bool is_of_station) const;
+
+  const Scanner& scanner_;
+  double lowest_, highest_;  // sines of the elevation
+  std::vector<std::uint32_t> sweeps_;
 };
 
 }  // namespace lacuna::synth

@@ -1,33 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/synth/surface.hpp"
 
-#include "bench/synth/hole_field.hpp"
-#include "bench/synth/positions.hpp"
-#include "bench/synth/surface_shape.hpp"
-#include "bench/synth/truth_file.hpp"
-#include "bench/synth/truth_loops.hpp"
+#include "bench/synth/surface_points.hpp"
 #include "engine/run/error.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace lacuna::synth {
+
 using namespace io;
+using evaluation::NamedLoopIds;
 
 namespace {
-
-void require(bool holds, const std::string& message) {
-  if (!holds) throw UsageError(message);
-}
-
-bool is_square(std::uint32_t value) {
-  std::uint32_t root = 0;
-  while (root * root < value) ++root;
-  return root * root == value;
-}
 
 void check(const SurfaceOptions& o) {
   require(o.spacing > 0 && o.spacing <= 1e6, "--spacing: must be above 0, at most 1e6 units of the scan");
@@ -36,7 +27,8 @@ void check(const SurfaceOptions& o) {
           "--hole-radius: needs 1.5 <= smallest <= largest <= 1e6 spacings");
   require(o.jitter >= 0 && o.jitter <= 0.5, "--jitter: must be 0 to 0.5 of the spacing");
   require(o.noise >= 0 && o.noise <= 1e3, "--noise: must be 0 to 1000 spacings");
-  require(o.density_step >= 1 && o.density_step <= 100 && is_square(o.density_step),
+  require(o.density_step >= 1 && o.density_step <= 100 &&
+              root_of(o.density_step) * root_of(o.density_step) == o.density_step,
           "--density-step " + std::to_string(o.density_step) +
               ": must be 1, 4, 9, ..., 100, the square of a stride");
   require(o.density_factor >= 1 && o.density_factor <= 100, "--density-factor: must be 1 to 100");
@@ -54,31 +46,51 @@ void check_precision(const SurfaceGrid& grid, const SurfaceOptions& options) {
               " at coordinates of " + std::to_string(reach) + "; add --double");
 }
 
-// Makes places on the surface, with noise along its normal.
-class PointMaker {
+// The true loops, whose numbers of points become ids of the points written. Holds the loops' points only,
+// whatever the size of the surface.
+class TruthLoops {
  public:
-  PointMaker(const SurfaceGrid& grid, const SurfaceOptions& options)
-      : shape_(grid, options),
-        noise_(options.noise * options.spacing),
-        translate_{options.translate[0], options.translate[1], options.translate[2]},
-        height_(options.seed, 2) {}
+  // The first `holes` loops are the edges of holes, the others outer edges.
+  TruthLoops(std::vector<NumberLoop> loops, std::size_t holes) : loops_(std::move(loops)), holes_(holes) {
+    for (const NumberLoop& loop : loops_) numbers_.insert(numbers_.end(), loop.begin(), loop.end());
+    matching::sort_once(numbers_);
+    ids_.resize(numbers_.size());
+  }
 
-  Vec3 at(GridPosition place, std::uint64_t number) const {
-    const SurfacePoint p = shape_.at(place.row, place.column);
-    if (noise_ == 0) return p.position + translate_;
-    return p.position + noise_ * height_.normal(number) * p.normal + translate_;
+  // Records that the point of this number was written as the `id`-th. Points that are on no loop are ignored.
+  void note(std::uint64_t number, std::uint64_t id) {
+    const std::size_t place = place_of(number);
+    if (place < numbers_.size() && numbers_[place] == number) ids_[place] = id;
+  }
+
+  // Call it after every point is recorded. Returns the loops as ids, in canonical form and sorted.
+  std::vector<NamedLoopIds> in_ids() const {
+    std::vector<NamedLoopIds> all;
+    for (const NumberLoop& loop : loops_) {
+      NumberLoop ids;
+      for (const std::uint64_t number : loop) ids.push_back(ids_[place_of(number)]);
+      to_canonical(ids);
+      all.push_back({std::move(ids), all.size() < holes_ ? "hole" : "outer edge"});
+    }
+    std::ranges::sort(all, {}, &NamedLoopIds::ids);
+    return all;
   }
 
  private:
-  SurfaceShape shape_;
-  double noise_;
-  Vec3 translate_;
-  Random height_;
+  std::size_t place_of(std::uint64_t number) const {
+    return static_cast<std::size_t>(std::lower_bound(numbers_.begin(), numbers_.end(), number) -
+                                    numbers_.begin());
+  }
+
+  std::vector<NumberLoop> loops_;
+  std::size_t holes_;
+  std::vector<std::uint64_t> numbers_;  // of all loops, ascending, each once
+  std::vector<std::uint64_t> ids_;      // of numbers_
 };
 
 }  // namespace
 
-SurfaceSummary write_surface(const SurfaceOptions& options) {
+Made write_surface(const SurfaceOptions& options) {
   check(options);
   const std::filesystem::path truth_path = truth_file_of(options.out, options.truth);
   NewFile truth_output(truth_path, kTruthMark, options.overwrite);
@@ -88,27 +100,31 @@ SurfaceSummary write_surface(const SurfaceOptions& options) {
 
   const SurfaceGrid grid = lay_grid(options);
   check_precision(grid, options);
-  const HoleField holes(grid, options);
-  const std::unique_ptr<Positions> positions = make_positions(grid, holes, options);
-  const PointMaker points(grid, options);
+  const std::unique_ptr<Positions> positions = make_positions(grid, options);
+  const SurfaceShape shape(grid, options);
+  const Random height(options.seed, 2);
+  const auto [x, y, z] = options.translate;
   const Permutation shuffled(positions->size(), options.seed);
-  TruthLoops truth(positions->true_loops(), holes.size());
+  TruthLoops truth(positions->true_loops(), options.holes);
 
   for (std::uint64_t turn = 0; turn < positions->size(); ++turn) {
     const std::uint64_t number = options.order == Order::kRandom ? shuffled(turn) : turn;
     const std::optional<GridPosition> place = positions->at(number);
     if (!place) continue;
     truth.note(number, ply.count());
-    ply.add(points.at(*place, number));
+    const SurfacePoint p = shape.at(place->row, place->column);
+    const Vec3 lifted = options.noise == 0
+                            ? p.position
+                            : p.position + options.noise * options.spacing * height.normal(number) * p.normal;
+    ply.add(lifted + Vec3{x, y, z});
   }
 
-  const auto in_ids = truth.in_ids();
-  write_truth_head(truth_file, options.out);
-  for (const auto& [ids, is_hole] : in_ids) write_loop(truth_file, is_hole ? "hole" : "outer edge", ids);
+  const evaluation::TrueRows rows{.loops = truth.in_ids()};
+  write_truth(truth_file, options.out, rows);
   ply.finish();
   truth_output.commit();
   scan.commit();
-  return {.points = ply.count(), .loops = in_ids.size(), .truth = truth_path};
+  return {.points = ply.count(), .loops = rows.loops.size(), .truth = truth_path};
 }
 
 }  // namespace lacuna::synth

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The grid that a synthetic surface is made of: which of its nodes exist, and where it ends.
+// surface_grid: the grid that a surface is made of, which of its nodes exist, and where it ends. Also the
+// smooth shapes that it is laid on.
+//
+// Idea: a surface is a plane of rows and columns, closed in no, one or both directions. Half of it may be
+// thinned. A map from the plane to space makes a torus or a sphere of it.
 #pragma once
 
-#include "bench/synth/surface_options.hpp"
+#include "bench/synth/surface.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -20,7 +24,6 @@ struct SurfaceGrid {
   // The columns belong to so many square panels side by side: the faces of a cube, which may be blown up to a
   // sphere. Panels are neighbours in space, not in the grid, and their nodes are the middles of the grid's
   // squares.
-  // grid's squares.
   std::uint32_t panels = 1;
 
   std::uint32_t panel_columns() const { return columns / panels; }
@@ -45,8 +48,8 @@ struct Outline {
   std::function<GridPosition(double)> at;
 };
 
-// The numbers of points, or of the nodes that they stand for, in the order of a closed loop.
-using NumberLoop = std::vector<std::uint64_t>;
+// Returns the root of a square, else the next whole number.
+std::uint32_t root_of(std::uint32_t square);
 
 // Returns a grid with about `options.points` nodes besides the nodes that the holes will take. Throws `Error`
 // if that is too few or too many.
@@ -58,5 +61,30 @@ std::vector<NumberLoop> rims(const SurfaceGrid& grid);
 
 // Returns the outer edges as curves.
 std::vector<Outline> outer_edges(const SurfaceGrid& grid);
+
+struct SurfacePoint {
+  Vec3 position;
+  Vec3 normal;  // unit
+};
+
+// Maps the plane of the grid to space. Neighbours are one spacing apart on average. A torus is denser inside,
+// a sphere cap at its corners. A sphere is denser by up to 1.4 along the edges of its six panels, because of
+// its geometry. A density factor applies to every panel.
+class SurfaceShape {
+ public:
+  SurfaceShape(const SurfaceGrid& grid, const SurfaceOptions& options);
+
+  // Returns the point at a place between the nodes, in rows and columns.
+  SurfacePoint at(double row, double column) const;
+
+ private:
+  SurfacePoint on_panel(double row, double column) const;
+
+  SurfaceGrid grid_;
+  SurfaceKind kind_;
+  double rows_, columns_;  // steps from the first to the last, or around
+  double height_, width_;  // rows_ and columns_, units of the scan
+  double stretch_;         // largest over smallest step in each direction
+};
 
 }  // namespace lacuna::synth

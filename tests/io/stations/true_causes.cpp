@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/io/stations/true_causes.hpp"
 
-#include "bench/synth/visibility.hpp"
+#include "bench/synth/scanner.hpp"
 #include "io/explain/stations/find_causes.hpp"
 
 namespace lacuna::test {
