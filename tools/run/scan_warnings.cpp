@@ -8,7 +8,6 @@
 #include "io/explain/stations/scan_axes.hpp"
 #include "io/explain/stations/station_views.hpp"
 #include "io/read/crs/crs.hpp"
-#include "io/read/crs/crs_text.hpp"
 #include "io/read/files/number.hpp"
 #include "io/read/scan/plan_system.hpp"
 #include "io/read/scan/scan_files.hpp"
@@ -163,6 +162,18 @@ void warn_of_overridden(const ScanFiles& scan, std::string ScanFile::*text, cons
       });
 }
 
+void warn_of_unknown_systems(const ScanFiles& scan, std::vector<std::string>& warnings) {
+  const auto is_unknown = [](const ScanFile& file) {
+    return !file.crs.empty() && file.unit.empty() && facts_of(file.crs).known_text.empty();
+  };
+  warn_of_files(scan, warnings, is_unknown, [](const ScanFile& first) {
+    return crs_name(first.crs) + ": its unit is not known, as " +
+           (find_gis_function(kLookUpCrs) == nullptr ? "lacuna_gis.so is missing"
+                                                     : "GDAL does not understand its system") +
+           "; --unit states it";
+  });
+}
+
 void warn_of_contradictions(const ScanFiles& scan, std::vector<std::string>& warnings) {
   warn_of_files(
       scan, warnings, [](const ScanFile& file) { return !file.contradiction.empty(); },
@@ -224,7 +235,7 @@ std::string crs_name(const std::string& crs) {
 
 void require_lengths(const ScanFiles& scan) {
   const std::string& stated = scan.stated_crs().crs;
-  if (is_geographic(stated))
+  if (facts_of(stated).is_geographic)
     throw Error("--crs: " + crs_name(stated) + kDegrees + "; allowed: a projected or geocentric system");
   if (!stated.empty()) return refuse_other_scale(scan, 0, "--crs", stated);
   const std::string* checked = nullptr;
@@ -260,6 +271,7 @@ std::vector<std::string> input_warnings(const ScanFiles& scan) {
   if (scan.stated_crs().crs.empty() && scan.stated_crs().unit.empty()) warn_of_degrees(scan, warnings);
   if (scan.stated_crs().unit.empty()) {
     warn_of_other_units(scan, warnings);
+    warn_of_unknown_systems(scan, warnings);
     warn_of_contradictions(scan, warnings);
   } else {
     warn_of_overridden(scan, &ScanFile::unit, std::not_equal_to<>(), "unit", scan.stated_crs().unit,

@@ -136,13 +136,35 @@ extern "C" bool lacuna_find_degrees_accuracy(const std::string& crs, const Eigen
   return true;
 }
 
-extern "C" void lacuna_look_up_crs(CrsLookup& lookup) {
-  const GdalFailures failures;
-  OGRSpatialReference crs;
+namespace {
+
+std::string text_of(const OGRSpatialReference& crs) {
   char* text = nullptr;
-  if (read_exact_crs(lookup.given, crs) && crs.exportToWkt(&text) == OGRERR_NONE) lookup.known_text = text;
+  std::string known;
+  if (crs.exportToWkt(&text) == OGRERR_NONE) known = text;
   CPLFree(text);
-  lookup.reason = failures.first();
+  return known;
+}
+
+}  // namespace
+
+extern "C" void lacuna_look_up_crs(const std::string& given, CrsFacts& facts) {
+  GdalFailures failures;
+  OGRSpatialReference crs;
+  facts.is_whole = read_exact_crs(given, crs);
+  facts.reason = failures.first();
+  if (!facts.is_whole && !read_crs(given, crs)) return;
+  facts.known_text = text_of(crs);
+  facts.has_positions = crs.IsVertical() == 0 || crs.IsCompound() != 0;
+  facts.is_geographic = crs.IsGeographic() != 0;
+  facts.is_geocentric = crs.IsGeocentric() != 0;
+  if (facts.has_positions && !facts.is_geographic) facts.metres = crs.GetLinearUnits();
+  if (crs.IsVertical() != 0) facts.metres_of_z = crs.GetTargetLinearUnits("VERT_CS");
+  if (crs.IsCompound() != 0) crs.StripVertical();
+  facts.horizontal = text_of(crs);
+  const char *const owner = crs.GetAuthorityName(nullptr), *const code = crs.GetAuthorityCode(nullptr);
+  if (owner != nullptr && code != nullptr && std::string_view(owner) == "EPSG")
+    facts.code = std::string("EPSG:") + code;
 }
 
 extern "C" bool lacuna_find_scale(const std::string& crs, const Eigen::Vector3d& place,

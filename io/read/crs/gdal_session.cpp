@@ -2,7 +2,6 @@
 #include "io/read/crs/gdal_session.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/read/crs/crs_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -40,8 +39,8 @@ bool read_exact_crs(const std::string& text, OGRSpatialReference& crs) {
 
 bool read_crs(const std::string& text, OGRSpatialReference& crs) {
   if (read_exact_crs(text, crs)) return true;
-  const std::string flat(without_vertical(text));
-  return !flat.empty() && flat != text && read_exact_crs(flat, crs);
+  const std::size_t plus = text.find('+');
+  return plus != text.npos && read_exact_crs(text.substr(0, plus), crs);
 }
 
 bool read_crs_of_file(const std::string& text, OGRSpatialReference& crs) {

@@ -3,7 +3,6 @@
 
 #include "engine/run/error.hpp"
 #include "io/read/crs/crs.hpp"
-#include "io/read/crs/crs_text.hpp"
 #include "io/read/rows/columns.hpp"
 
 #include <algorithm>
@@ -87,8 +86,7 @@ void require_plan(const ScanFiles& scan, const std::string& option) {
     const bool is_guess = crs.empty();
     const bool may_be_metres = scan.files()[i].unit.empty() || scan.files()[i].unit == "m";
     if (is_guess && (!may_be_metres || !scan.stated_crs().unit.empty())) continue;
-    const std::string text = is_guess ? std::string() : known_text(crs);
-    if (!is_guess && !is_geocentric(text)) continue;
+    if (!is_guess && !facts_of(crs).is_geocentric) continue;
     const auto place = find_place(scan, i);
     if (is_guess && !(place && is_on_earth(*place))) continue;
     std::optional<std::vector<Eigen::Vector3d>> degrees;
@@ -96,7 +94,8 @@ void require_plan(const ScanFiles& scan, const std::string& option) {
     const std::string zone = degrees ? utm_zone(degrees->front().x(), degrees->front().y()) : "EPSG:N";
     throw Error(
         scan.files()[i].name.string() + ": " +
-        (is_guess ? "its places are geocentric, as of EPSG:4978" : name_of_crs(text) + " is geocentric") +
+        (is_guess ? "its places are geocentric, as of EPSG:4978"
+                  : name_of_crs(facts_of(crs).known_text) + " is geocentric") +
         ", and " + option + " needs a plan; `pdal translate IN OUT reprojection " +
         (is_guess ? "--filters.reprojection.in_srs=EPSG:4978 " : "") + "--filters.reprojection.out_srs=" +
         zone + "` projects it" + (is_guess ? "; if they are not, --unit m or --crs says so" : ""));

@@ -3,7 +3,6 @@
 
 #include "engine/run/error.hpp"
 #include "io/read/crs/crs.hpp"
-#include "io/read/crs/crs_text.hpp"
 #include "io/read/rows/columns.hpp"
 #include "io/read/scan/plan_system.hpp"
 #include "io/read/scan/row_filter.hpp"
@@ -72,18 +71,11 @@ void take_unit(ScanFile& file, std::string ScanFile::*of, const std::string& oth
 }
 
 void complete_units(std::vector<ScanFile>& files) {
-  std::string known_crs, text;  // files of one scan have one system, mostly, which is looked up once
   for (ScanFile& file : files) {
     take_unit(file, &ScanFile::unit, file.other_unit);
-    const std::string& crs = file.crs;
     if (file.is_geographic) continue;
-    const bool is_flat_utm = is_code(crs) && is_utm(crs) && crs.find('+') == crs.npos;
-    if (is_code(crs) && !is_flat_utm && crs != known_crs) {
-      known_crs = crs;
-      text = known_text(crs);
-    }
-    take_unit(file, &ScanFile::unit, is_flat_utm ? "m" : length_unit(is_code(crs) ? text : crs));
-    if (is_code(crs) && !is_flat_utm) take_unit(file, &ScanFile::z_unit, vertical_unit(text));
+    take_unit(file, &ScanFile::unit, length_unit(file.crs));
+    take_unit(file, &ScanFile::z_unit, vertical_unit(file.crs));
   }
 }
 
@@ -140,7 +132,7 @@ CommonSystem choose_systems(const InputConfig& config, const StatedCrs& stated,
   CommonSystem all = common_system(stated, files);
   bool is_any = false;
   for (ScanFile& file : files) is_any = choose_z_factor(config, stated, all.unit, file) || is_any;
-  if (is_any) all.crs = std::string(without_vertical(all.crs));
+  if (is_any) all.crs = without_vertical(all.crs);
   return all;
 }
 

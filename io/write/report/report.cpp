@@ -211,13 +211,6 @@ Json report_of(const Scene& scene) {
           {"loops", loops_of(scene.loops, place_decimals(holes.at("median_distance").get<double>()))}};
 }
 
-// The text never ends the element that it is in.
-std::string without_tags(std::string text) {
-  std::string escaped;
-  for (const char c : text) escaped += c == '<' ? std::string("\\u003c") : std::string(1, c);
-  return escaped;
-}
-
 }  // namespace
 
 fs::path write_report(const fs::path& folder, Overwrite overwrite) {
@@ -236,6 +229,17 @@ void write_report(const Scene& scene, const fs::path& file, Overwrite overwrite)
   out.commit();
 }
 
+void write_data(std::string_view id, const Json& data, OutputFile& out) {
+  std::string text = "<script type=\"application/json\" id=\"" + std::string(id) + "\">";
+  for (const char c : print(data, -1)) {  // the text never ends the element that it is in
+    if (c == '<')
+      text += "\\u003c";
+    else
+      text += c;
+  }
+  out.write(text + "</script>\n");
+}
+
 void write_report(const Scene& scene, OutputFile& out) {
   const std::size_t data = kReportPage.find(kDataPlace);
   out.write(kReportPage.substr(0, data));
@@ -246,8 +250,7 @@ void write_report(const Scene& scene, OutputFile& out) {
     throw Error(out.path().string() +
                 ": holes.json and run.json are not as lacuna detect writes them: " + error.what());
   }
-  out.write("<script type=\"application/json\" id=\"report\">" + without_tags(print(report, -1)) +
-            "</script>\n");
+  write_data("report", report, out);
   const auto position = [&](const Eigen::Vector3f& p) { return packed(p, scene.edge); };
   write_bytes("positions", scene.points.positions, position, out);
   write_bytes("probabilities", scene.points.probabilities, byte_of, out);

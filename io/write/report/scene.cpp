@@ -7,7 +7,7 @@
 #include "io/read/formats.hpp"
 #include "io/read/rows/columns.hpp"
 #include "io/read/rows/scan_reader.hpp"
-#include "io/write/report/area_page.hpp"
+#include "io/write/report/report.hpp"
 
 #include <bit>
 #include <numeric>

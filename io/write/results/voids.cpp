@@ -3,7 +3,7 @@
 
 #include "io/read/files/number.hpp"
 #include "io/write/loops/json.hpp"
-#include "io/write/report/area_page.hpp"
+#include "io/write/report/report.hpp"
 #include "io/write/results/gis_results.hpp"
 #include "io/write/results/results.hpp"
 
@@ -154,11 +154,10 @@ std::vector<std::filesystem::path> write_voids(const AreaCheck& check, const Sca
   add_voids(check, scan, config.area, folder);
   if (config.output.report) {
     const auto& files = scan.files();
-    const AreaSheet sheet{.title = files.size() == 1 ? files.front().name.filename().string()
-                                                     : std::to_string(files.size()) + " files",
-                          .unit = scan.length_unit(),
-                          .crs = scan.common_crs()};
-    folder.add("report.html", [&](OutputFile& out) { write_area_sheet(check, sheet, config.area, out); });
+    const std::string title = files.size() == 1 ? files.front().name.filename().string()
+                                                : std::to_string(files.size()) + " files";
+    folder.add("report.html",
+               [&](OutputFile& out) { write_area_sheet(folder.staged(), title, out); });
   }
   scan.check_unchanged();
   return folder.commit();
