@@ -12,7 +12,7 @@ function(compile_together target)
     # Some sources stay apart: those that are compiled once for each instruction set, and a table that the compiler
     # computes. Scenes have the same names for their parts.
     file(STRINGS ${source} apart REGEX "simd/targets.hpp" LIMIT_COUNT 1)
-    if(apart OR source MATCHES "paged_file|_scene.cpp")
+    if(apart OR source MATCHES "e57_header|_scene.cpp")
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
       continue()
     endif()

@@ -5,7 +5,7 @@
 #include "engine/run/error.hpp"
 #include "engine/run/machine_memory.hpp"
 #include "engine/summarise.hpp"
-#include "io/explain/stations/scan_axes.hpp"
+#include "io/explain/stations/cause.hpp"
 #include "io/explain/stations/station_views.hpp"
 #include "io/read/crs/crs.hpp"
 #include "io/read/files/number.hpp"

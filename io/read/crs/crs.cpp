@@ -111,9 +111,9 @@ bool is_utm_code(std::string_view crs) {
   int code = 0;
   if (!crs.starts_with(kEpsg)) return false;
   const auto end = std::from_chars(crs.data() + kEpsg.size(), crs.data() + crs.size(), code).ptr;
-  return end == crs.data() + crs.size() &&
-         std::any_of(kZones.begin(), kZones.end(),
-                     [&](const auto& zones) { return code >= zones[0] && code <= zones[1]; });
+  return end == crs.data() + crs.size() && std::any_of(kZones.begin(), kZones.end(), [&](const auto& zones) {
+           return code >= zones[0] && code <= zones[1];
+         });
 }
 
 std::string name_of_crs(const std::string& crs) {
@@ -188,9 +188,9 @@ std::string look_up(const std::string& given, const std::string& text) {
   if (!is_code(text) && text.find_first_of("[(") == text.npos)
     refuse_crs(given, "is no coordinate reference system");
   if (find_gis_function(kLookUpCrs) == nullptr) {
-    spdlog::warn("--crs {}: is not checked, since lacuna_gis.so is missing; results have the {} alone, and "
-                 "no unit unless --unit states it",
-                 shown(given), is_code(text) ? "code" : "text");
+    spdlog::warn("--crs {}: is not checked, since lacuna_gis.so is missing; results have the {} alone{}",
+                 shown(given), is_code(text) ? "code" : "text",
+                 is_utm_code(text) ? "" : ", and no unit unless --unit states it");
     return text;
   }
   const CrsFacts& facts = facts_of(text);

@@ -40,11 +40,11 @@ extern "C" LACUNA_API FindDegreesAccuracy lacuna_find_degrees_accuracy;
 
 // What PROJ knows of a coordinate reference system.
 struct CrsFacts {
-  std::string known_text;  // well-known text; empty if GDAL does not understand the system
-  std::string horizontal;  // of its horizontal part
-  std::string code;        // "EPSG:N" of that part; empty if it has none
-  std::string reason;      // GDAL's, where it does not understand the system, or its vertical part
-  bool is_whole = false;   // false: without a vertical part that GDAL does not understand
+  std::string known_text;      // well-known text; empty if GDAL does not understand the system
+  std::string horizontal;      // of its horizontal part
+  std::string code;            // "EPSG:N" of that part; empty if it has none
+  std::string reason;          // GDAL's, where it does not understand the system, or its vertical part
+  bool is_whole = false;       // false: without a vertical part that GDAL does not understand
   bool has_positions = false;  // false: heights alone
   bool is_geographic = false;  // positions are longitude and latitude
   bool is_geocentric = false;  // positions are from the centre of the Earth

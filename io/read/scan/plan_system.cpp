@@ -92,13 +92,13 @@ void require_plan(const ScanFiles& scan, const std::string& option) {
     std::optional<std::vector<Eigen::Vector3d>> degrees;
     if (place) degrees = to_degrees(is_guess ? kGeocentricCode : crs, {*place}, scan.files()[i].name);
     const std::string zone = degrees ? utm_zone(degrees->front().x(), degrees->front().y()) : "EPSG:N";
-    throw Error(
-        scan.files()[i].name.string() + ": " +
-        (is_guess ? "its places are geocentric, as of EPSG:4978"
-                  : name_of_crs(facts_of(crs).known_text) + " is geocentric") +
-        ", and " + option + " needs a plan; `pdal translate IN OUT reprojection " +
-        (is_guess ? "--filters.reprojection.in_srs=EPSG:4978 " : "") + "--filters.reprojection.out_srs=" +
-        zone + "` projects it" + (is_guess ? "; if they are not, --unit m or --crs says so" : ""));
+    throw Error(scan.files()[i].name.string() + ": " +
+                (is_guess ? "its places are geocentric, as of EPSG:4978"
+                          : name_of_crs(facts_of(crs).known_text) + " is geocentric") +
+                ", and " + option + " needs a plan; `pdal translate IN OUT reprojection " +
+                (is_guess ? "--filters.reprojection.in_srs=EPSG:4978 " : "") +
+                "--filters.reprojection.out_srs=" + zone + "` projects it" +
+                (is_guess ? "; if they are not, --unit m or --crs says so" : ""));
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/write/report/canvas.hpp"
+#include "io/write/report/render.hpp"
 
 #include <algorithm>
 #include <array>

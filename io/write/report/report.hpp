@@ -4,7 +4,6 @@
 
 #include "engine/export.hpp"
 #include "io/read/files/output_file.hpp"
-#include "io/write/loops/json.hpp"
 
 #include <filesystem>
 #include <string>
@@ -12,8 +11,8 @@
 
 namespace lacuna::io {
 
-// The pages of io/write/report/page with their styles and scripts, and three.js in the first, put together by
-// the build: of a run, and of the check of an area.
+// The pages of a run and of the check of an area. The build puts them together from io/write/report/page,
+// with their styles and scripts, and three.js in the first.
 extern const std::string_view kReportPage, kSheetPage;
 inline constexpr std::string_view kDataPlace = "<!--{data}-->\n";  // where a report's data go
 
@@ -34,16 +33,9 @@ void write_report(const Scene& scene, const std::filesystem::path& file, Overwri
 // A point takes about 15 bytes, a vertex of a loop 11.
 void write_report(const Scene& scene, OutputFile& out);
 
-// Writes an element of the page that holds the data as JSON.
-void write_data(std::string_view id, const Json& data, OutputFile& out);
-
-// Returns voids.json of a folder with the largest voids and the first polygons alone, and with outlines as
-// fine as a map shows them. Returns null if the file is not there. Throws `Error` if it is not as Lacuna
-// writes it.
-Json read_area_section(const std::filesystem::path& folder);
-
-// Writes the sheet by which a survey is accepted or not, for a browser and for paper: what the folder's
-// voids.json says of the scan with this title. Memory: the map, of some thousand corners for each polygon.
+// Writes the sheet by which a survey is accepted or not, for a browser and for paper. It shows what
+// voids.json of the folder says of the scan with this title. Memory: the map, of some thousand corners for
+// each polygon.
 void write_area_sheet(const std::filesystem::path& folder, const std::string& title, OutputFile& out);
 
 }  // namespace lacuna::io

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/error.hpp"
-#include "io/read/ply/ply_writer.hpp"
+#include "io/read/ply/ply.hpp"
 #include "io/read/rows/scan_reader.hpp"
 #include "io/write/loops/loop_measures.hpp"
 #include "io/write/results/points_form.hpp"

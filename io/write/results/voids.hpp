@@ -19,7 +19,7 @@ namespace lacuna::io {
 void add_voids(const AreaCheck& check, const ScanFiles& scan, const AreaConfig& config,
                const ResultFolder& folder);
 
-// Writes these files alone to the folder, and the sheet of the check (io/write/report/area_page.hpp) where
+// Writes these files alone to the folder, and the sheet of the check (io/write/report/report.hpp) where
 // the config wants a report, which then takes its name. Returns the files. Throws `Error`.
 LACUNA_API std::vector<std::filesystem::path> write_voids(const AreaCheck& check, const ScanFiles& scan,
                                                           const FilesConfig& config, ResultFolder& folder);

@@ -19,7 +19,10 @@ std::string compound(const std::string& flat) {
 TEST_CASE("well-known text of both kinds says what positions are, and a broken one says nothing") {
   const auto kind = [](const std::string& crs) {
     const CrsFacts& facts = facts_of(crs);
-    return facts.is_geographic ? "degrees" : facts.is_geocentric ? "centre" : facts.has_positions ? "plan" : "";
+    return facts.is_geographic   ? "degrees"
+           : facts.is_geocentric ? "centre"
+           : facts.has_positions ? "plan"
+                                 : "";
   };
   const std::string datum = "\"WGS 84\",DATUM[\"WGS 84\",ELLIPSOID[\"WGS 84\",6378137,298.257223563]],";
   const std::string solid = "GEODCRS[" + datum + "CS[Cartesian,3],AXIS[\"(X)\",geocentricX],AXIS[\"(Y)\"," +
@@ -62,9 +65,12 @@ TEST_CASE("a unit has its length in metres, and the length its unit") {
 }
 
 TEST_CASE("the unit of a system is that of its lengths, by its size") {
-  const std::pair<const char*, const char*> units[] = {
-      {"metre\",1", "m"},         {"foot\",0.3048", "ft"}, {"US survey foot\",0.304800609601219", "us-ft"},
-      {"US foot\",0.3048006", "us-ft"}, {"millimetre\",0.001", "mm"}, {"fathom\",1.8288", ""}};
+  const std::pair<const char*, const char*> units[] = {{"metre\",1", "m"},
+                                                       {"foot\",0.3048", "ft"},
+                                                       {"US survey foot\",0.304800609601219", "us-ft"},
+                                                       {"US foot\",0.3048006", "us-ft"},
+                                                       {"millimetre\",0.001", "mm"},
+                                                       {"fathom\",1.8288", ""}};
   for (const auto& [unit, name] : units) {
     CHECK(length_unit(known_system("a", unit)) == name);
     CHECK(length_unit(compound(known_system("a", unit))) == name);
@@ -115,8 +121,8 @@ TEST_CASE("what is no system, and a unit that contradicts it, are errors that sa
   const ScratchFolder folder;
   const std::string empty = folder.write("empty.prj", "\n");
   const std::string large = folder.write("large.prj", std::string(std::size_t{1} << 20, ' '));
-  for (const std::string& given : {std::string("25832"), std::string("EPSG:"), std::string("EPSG:x"),
-                                   std::string("missing.prj"), empty})
+  for (const std::string& given :
+       {std::string("25832"), std::string("EPSG:"), std::string("EPSG:x"), std::string("missing.prj"), empty})
     CHECK_THAT(refusal(given), Contains("--crs " + given + ": is no coordinate reference system; allowed: "));
   CHECK_THAT(refusal(" "), Contains("--crs : is no coordinate reference system"));
   CHECK_THAT(refusal(kVertical), Contains("is no system of positions"));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/read/files/output_file.hpp"
 
-#include "io/read/ply/ply_writer.hpp"
+#include "io/read/ply/ply.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/support/system.hpp"
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/read/las/las_reader.hpp"
-
 #include "io/read/crs/crs.hpp"
 #include "io/read/formats.hpp"
 #include "io/read/las/las_header.hpp"
+#include "io/read/rows/readers.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/support/las_file.hpp"
 

@@ -2,7 +2,6 @@
 #include "io/write/report/render.hpp"
 
 #include "io/read/rows/columns.hpp"
-#include "io/write/report/canvas.hpp"
 #include "io/write/report/scene.hpp"
 #include "tests/support/test.hpp"
 

@@ -2,7 +2,6 @@
 // The annotated scan as LAZ: the same records as in LAS, in a file that other programs read.
 #include "engine/run/parallel.hpp"
 #include "io/read/las/las_points.hpp"
-#include "io/read/las/las_writer.hpp"
 #include "io/read/laz/laz.hpp"
 #include "io/write/results/points.hpp"
 #include "tests/io/results/points_las_support.hpp"

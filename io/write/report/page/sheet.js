@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sheet of `lacuna check --report`, by which a survey is accepted or not: the answer, the rule and its source, a map of
-// density and voids, the largest voids, the basis, and what the check does not show. Fields for project, client and dates are
-// filled in by the reader. Its data are those of voids.json.
+// The sheet of `lacuna check --report`, by which a survey is accepted or not. It has the answer, the rule and its source, and a
+// map of density and voids. Then come the largest voids, the basis, and what the check does not show. The reader fills in the
+// fields for project, client and dates. Its data are those of voids.json.
 
 const kRowsOfVoids = 8;
 const kSheetWidth = 600;  // of the map, in pixels; the style stretches it
