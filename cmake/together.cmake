@@ -12,7 +12,7 @@ function(compile_together target)
     # Some sources stay apart: those that are compiled once for each instruction set, and a table that the compiler
     # computes.
     file(STRINGS ${source} apart REGEX "simd/targets.hpp" LIMIT_COUNT 1)
-    if(apart OR source MATCHES "paged_file")
+    if(apart OR source MATCHES "e57_header")
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
       continue()
     endif()

@@ -5,7 +5,7 @@
 #include "engine/run/error.hpp"
 #include "io/explain/matching/nearest.hpp"
 #include "io/read/files/input_file.hpp"
-#include "io/read/ply/ply_reader.hpp"
+#include "io/read/rows/readers.hpp"
 #include "io/read/scan/scan_pass.hpp"
 #include "io/write/loops/json.hpp"
 

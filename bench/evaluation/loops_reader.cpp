@@ -5,8 +5,8 @@
 #include "io/read/files/input_file.hpp"
 #include "io/read/files/number.hpp"
 #include "io/read/ply/ply.hpp"
-#include "io/read/ply/ply_reader.hpp"
 #include "io/read/rows/columns.hpp"
+#include "io/read/rows/readers.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,12 +4,8 @@
 #include "io/read/e57/e57.hpp"
 #include "io/read/files/input_file.hpp"
 #include "io/read/files/number.hpp"
-#include "io/read/las/las_reader.hpp"
-#include "io/read/mesh/obj_reader.hpp"
-#include "io/read/pcd/pcd_reader.hpp"
-#include "io/read/ply/ply_reader.hpp"
+#include "io/read/rows/readers.hpp"
 #include "io/read/rows/scan_reader.hpp"
-#include "io/read/text/text_reader.hpp"
 
 #include <algorithm>
 #include <array>

@@ -41,9 +41,6 @@ def case_of(name):
         kept = [beyond(15, 15, 4), beyond(60, 30, 4), beyond(40, 45, 5), beyond(20, 45, 5)]
         points = jittered(draw, 0, 70, 0, 60, lambda x, y: all(keep(x, y) for keep in kept))
         return 4, points, [[square(1.3, 1.7, 60, 58)]], [[circle(40, 45, 6)], [square(10, 30, 20, 60)]]
-    if name == "crossed":  # two swaths that cross, and an area over both
-        points = jittered(draw, 0, 60, 20, 40) + jittered(draw, 20, 40, 0, 60)
-        return 4, points, [[square(5, 5, 55, 55)]], []
     if name == "islands":  # an area of two parts, one with a hole in it
         points = jittered(draw, 0, 60, 0, 40, beyond(15, 20, 5))
         return 4, points, [[square(2, 2, 28, 38), square(10, 15, 14, 25)], [circle(45, 20, 12)]], []
@@ -51,9 +48,6 @@ def case_of(name):
         return 4, jittered(draw, 0, 30, 0, 30, beyond(12, 12, 4)), [[square(-20.3, -15.1, 55, 42)]], []
     if name == "hull":  # a scan like an L, a gap along its diagonal edge
         return 4, jittered(draw, 0, 50, 0, 20) + jittered(draw, 0, 20, 20, 50), [[square(0, 0, 50, 50)]], []
-    if name == "river":  # across the area, with trees in it
-        kept = lambda x, y: abs(y - 30 - 8 * math.sin(x / 9)) >= 4 or (int(x) % 17 == 5 and int(y) % 5 == 0)
-        return 3.1, jittered(draw, 0, 80, 0, 60, kept), [[square(3, 3, 77, 57)]], [[square(0, 0, 30, 60)]]
     if name == "random":  # points by chance: many voids of nearly the least size
         points = [(round(draw.uniform(0, 50), 3), round(draw.uniform(0, 50), 3)) for _ in range(2500)]
         return 3, points, [[circle(25, 25, 23)]], []

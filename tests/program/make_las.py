@@ -10,7 +10,7 @@ import random
 import struct
 import sys
 
-CRS = b'PROJCS["made",UNIT["metre",1]]\0'
+CRS = b'LOCAL_CS["made",UNIT["metre",1]]\0'
 
 
 def descriptor(name, kind, options=0, no_data=b"", description=b""):

@@ -30,6 +30,18 @@ std::string with_extended(std::string bytes, const std::vector<std::string>& rec
   return bytes;
 }
 
+std::string known_system(const std::string& name, const std::string& unit, int code) {
+  const std::string degrees =
+      "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],"
+      "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]";
+  if (name == "GEOGCS") return degrees;
+  return "PROJCS[\"" + name + "\"," + degrees +
+         ",PROJECTION[\"Transverse_Mercator\"],PARAMETER[\"latitude_of_origin\",0],"
+         "PARAMETER[\"central_meridian\",9],PARAMETER[\"scale_factor\",0.9996],"
+         "PARAMETER[\"false_easting\",500000],PARAMETER[\"false_northing\",0],UNIT[\"" +
+         unit + "]" + (code == 0 ? "" : ",AUTHORITY[\"EPSG\",\"" + std::to_string(code) + "\"]") + "]";
+}
+
 std::string las_geo_keys(const std::vector<std::array<std::uint16_t, 4>>& keys) {
   std::string data;
   const auto add = [&](std::size_t number) { put(data, data.size(), static_cast<std::uint16_t>(number)); };

@@ -32,6 +32,10 @@ std::string las_extended_record(const std::string& user, std::uint16_t number, c
 // Appends extended records to a file of LAS 1.4 that has none.
 std::string with_extended(std::string bytes, const std::vector<std::string>& records);
 
+// Well-known text that PROJ reads: of a projected system with this unit and maybe a code of EPSG, or of the
+// system "GEOGCS" below it.
+std::string known_system(const std::string& name, const std::string& unit = "metre\",1", int code = 0);
+
 // The data of the record of GeoTIFF keys: of each its number, its place, its count and its value.
 std::string las_geo_keys(const std::vector<std::array<std::uint16_t, 4>>& keys);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/error.hpp"
 #include "engine/run/parallel.hpp"
-#include "io/explain/stations/next_stations.hpp"
+#include "io/explain/stations/find_causes.hpp"
 #include "io/explain/stations/station.hpp"
 #include "io/read/crs/crs.hpp"
 #include "io/read/files/output_file.hpp"

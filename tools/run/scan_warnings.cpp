@@ -4,10 +4,9 @@
 #include "engine/run/error.hpp"
 #include "engine/run/machine.hpp"
 #include "engine/summarise.hpp"
-#include "io/explain/stations/scan_axes.hpp"
+#include "io/explain/stations/cause.hpp"
 #include "io/explain/stations/station_views.hpp"
 #include "io/read/crs/crs.hpp"
-#include "io/read/crs/crs_text.hpp"
 #include "io/read/files/number.hpp"
 #include "io/read/scan/scan_files.hpp"
 #include "tools/console/terminal.hpp"
@@ -161,6 +160,17 @@ std::vector<FileRule> rules_of_units(const ScanFiles& scan) {
              return "its unit is " + other.unit + ", not " + first->unit + " as in " +
                     visible(first->name.string()) + "; results name none, unless --unit states it";
            }},
+      {.when =
+           [](const ScanFile& file) {
+             return !file.crs.empty() && file.unit.empty() && facts_of(file.crs).known_text.empty();
+           },
+       .words =
+           [](const ScanFile& file) {
+             return crs_name(file.crs) + ": its unit is not known, as " +
+                    (find_gis_function(kLookUpCrs) == nullptr ? "lacuna_gis.so is missing"
+                                                              : "GDAL does not understand its system") +
+                    "; --unit states it";
+           }},
       {.when = [](const ScanFile& file) { return !file.contradiction.empty(); },
        .words = [](const ScanFile& file) { return crs_name(file.crs) + ": " + file.contradiction; }}};
 }
@@ -234,7 +244,7 @@ std::string crs_name(const std::string& crs) {
 
 void require_lengths(const ScanFiles& scan) {
   const std::string& stated = scan.stated_crs().crs;
-  if (is_geographic(stated))
+  if (facts_of(stated).is_geographic)
     throw Error("--crs: " + crs_name(stated) + kDegrees + "; allowed: a projected or geocentric system");
   if (!stated.empty()) return refuse_other_scale(scan, 0, "--crs", stated);
   const std::string* checked = nullptr;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "io/explain/area/plan_raster.hpp"
-#include "io/explain/area/point_rules.hpp"
 #include "io/read/scan/scan_pass.hpp"
 
 #include <array>
@@ -77,6 +76,19 @@ struct Void {
   PlanPolygon outline;           // along cells; the outer ring first
 };
 
+// The columns of a void in voids.csv and voids.gpkg, after id, kind and counts, and before its shares.
+struct VoidColumn {
+  const char* name;
+  double (*of)(const Void& each);
+};
+inline constexpr std::array<VoidColumn, 6> kVoidColumns = {
+    {{"area", [](const Void& each) { return each.area; }},
+     {"circle", [](const Void& each) { return each.circle; }},
+     {"x", [](const Void& each) { return each.middle.x(); }},
+     {"y", [](const Void& each) { return each.middle.y(); }},
+     {"spacing", [](const Void& each) { return each.spacing; }},
+     {"excepted", [](const Void& each) { return each.excepted; }}}};
+
 // A square of the table of an area.
 struct AreaTile {
   Eigen::Vector2d corner{0, 0};  // south-west
@@ -117,6 +129,12 @@ inline constexpr std::array<std::string_view, 5> kNotShown = {
     "what lies below a roof, a bridge or trees: seen from above, any point covers its place",
     "whether a place was measured by two swaths", "how accurate points are, and of which surface they are",
     "why a void is there, unless a map of --classes has it"};
+
+// A run of heights. The next ones above and below are further away than a gap.
+struct HeightGroup {
+  double low, high;
+  std::uint64_t points;
+};
 
 struct AreaCheck {
   std::vector<AreaPolygon> polygons;  // of the project

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/explain/area/plan_shapes.hpp"
-
 #include "engine/run/error.hpp"
+#include "io/explain/area/plan_raster.hpp"
 #include "io/read/crs/gdal_session.hpp"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/explain/area/point_rules.hpp"
-
 #include "engine/model/mixed.hpp"
+#include "io/explain/area/empty_places.hpp"
 
 #include <algorithm>
 #include <bit>

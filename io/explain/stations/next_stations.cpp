@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/explain/stations/next_stations.hpp"
-
 #include "engine/run/parallel.hpp"
 #include "engine/store/openvdb.hpp"
+#include "io/explain/stations/find_causes.hpp"
 
 #include <algorithm>
 #include <cmath>

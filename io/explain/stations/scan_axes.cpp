@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/explain/stations/scan_axes.hpp"
-
-#include "io/explain/stations/directions.hpp"
+#include "io/explain/stations/cause.hpp"
+#include "io/explain/stations/station_views.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,12 +2,15 @@
 #include "io/read/crs/crs.hpp"
 
 #include "engine/run/error.hpp"
-#include "io/read/crs/crs_text.hpp"
 #include "io/read/files/input_file.hpp"
-#include "io/read/files/number.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <system_error>
 
 #include <dlfcn.h>
@@ -26,17 +29,6 @@ constexpr Unit kUnits[] = {{"m", 1},       {"km", 1000},   {"cm", 0.01},
                            {"mm", 0.001},  {"ft", 0.3048}, {"us-ft", 1200.0 / 3937},
                            {"in", 0.0254}, {"yd", 0.9144}};
 
-std::string last_unit(std::string_view system) {
-  const std::string_view unit = unit_node(system);
-  const std::size_t comma = unit.find(',', unit.find('"', unit.find('"') + 1));
-  if (unit.empty() || comma == unit.npos) return "";
-  constexpr std::string_view kBlanks = " \t\r\n";
-  std::string_view factor = unit.substr(std::min(unit.size(), unit.find_first_not_of(kBlanks, comma + 1)));
-  factor = factor.substr(0, factor.find_first_of(" \t\r\n,])"));
-  double metres = 0;
-  return parse_number(factor, metres) ? unit_of_metres(metres) : "";
-}
-
 }  // namespace
 
 std::string unit_of_metres(double metres) {
@@ -51,14 +43,6 @@ std::optional<double> metres_of_unit(std::string_view unit) {
   const auto* const known = std::find_if(std::begin(kUnits), std::end(kUnits),
                                          [&](const Unit& other) { return unit == other.name; });
   return known == std::end(kUnits) ? std::nullopt : std::optional(known->metres);
-}
-
-std::string length_unit(std::string_view crs) {
-  return is_geographic(crs) ? "" : last_unit(horizontal_system(crs));
-}
-
-std::string vertical_unit(std::string_view crs) {
-  return last_unit(vertical_system(crs));
 }
 
 namespace {
@@ -112,6 +96,56 @@ void* find_gis_function(const char* name) {
   }
 }
 
+bool is_code(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  return colon != text.npos && colon > 0 && colon + 1 < text.size() &&
+         text.find_first_not_of("0123456789+", colon + 1) == text.npos &&
+         std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(colon),
+                     [](unsigned char c) { return std::isalpha(c) != 0; });
+}
+
+bool is_utm_code(std::string_view crs) {
+  constexpr std::string_view kEpsg = "EPSG:";
+  constexpr std::array<std::array<int, 2>, 4> kZones = {
+      {{32601, 32660}, {32701, 32760}, {25828, 25838}, {26901, 26923}}};  // WGS 84, ETRS89, NAD83
+  int code = 0;
+  if (!crs.starts_with(kEpsg)) return false;
+  const auto end = std::from_chars(crs.data() + kEpsg.size(), crs.data() + crs.size(), code).ptr;
+  return end == crs.data() + crs.size() && std::any_of(kZones.begin(), kZones.end(), [&](const auto& zones) {
+           return code >= zones[0] && code <= zones[1];
+         });
+}
+
+std::string name_of_crs(const std::string& crs) {
+  const std::size_t begin = crs.find('"'), end = crs.find('"', begin + 1);
+  return end == crs.npos ? crs : crs.substr(begin + 1, end - begin - 1);
+}
+
+const CrsFacts& facts_of(const std::string& crs) {
+  static std::mutex mutex;
+  static std::map<std::string, CrsFacts> known;
+  const std::lock_guard lock(mutex);
+  const auto [place, is_new] = known.try_emplace(crs);
+  if (!is_new || crs.empty()) return place->second;
+  auto* const look_up_crs = reinterpret_cast<LookUpCrs*>(find_gis_function(kLookUpCrs));
+  if (look_up_crs != nullptr) look_up_crs(crs, place->second);
+  return place->second;
+}
+
+std::string length_unit(const std::string& crs) {
+  return is_utm_code(crs) ? "m" : unit_of_metres(facts_of(crs).metres);
+}
+
+std::string vertical_unit(const std::string& crs) {
+  return is_utm_code(crs) ? "" : unit_of_metres(facts_of(crs).metres_of_z);
+}
+
+std::string without_vertical(const std::string& crs) {
+  if (is_code(crs)) return crs.substr(0, crs.find('+'));
+  const CrsFacts& facts = facts_of(crs);
+  return facts.metres_of_z == 0 ? crs : facts.horizontal;
+}
+
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
@@ -149,30 +183,21 @@ std::string text_of(const std::string& given) {
               "that has one of them");
 }
 
-// Returns what GDAL knows of a system; nothing without lacuna_gis.so.
-std::optional<CrsLookup> ask_gdal(const std::string& crs) {
-  auto* const look_up_crs = reinterpret_cast<LookUpCrs*>(find_gis_function(kLookUpCrs));
-  if (look_up_crs == nullptr) return std::nullopt;
-  CrsLookup lookup{.given = crs, .known_text = {}, .reason = {}};
-  look_up_crs(lookup);
-  return lookup;
-}
-
 // Returns the system as well-known text.
 std::string look_up(const std::string& given, const std::string& text) {
-  if (!is_code(text) && horizontal_system(text).empty())
+  if (!is_code(text) && text.find_first_of("[(") == text.npos)
     refuse_crs(given, "is no coordinate reference system");
-  const std::optional<CrsLookup> lookup = ask_gdal(text);
-  if (!lookup) {
-    spdlog::warn("--crs {}: is not checked, since lacuna_gis.so is missing{}", shown(given),
-                 is_code(text) ? "; results have the code alone, and no unit unless --unit states it" : "");
+  if (find_gis_function(kLookUpCrs) == nullptr) {
+    spdlog::warn("--crs {}: is not checked, since lacuna_gis.so is missing; results have the {} alone{}",
+                 shown(given), is_code(text) ? "code" : "text",
+                 is_utm_code(text) ? "" : ", and no unit unless --unit states it");
     return text;
   }
-  if (lookup->known_text.empty())
-    refuse_crs(given,
-               "GDAL knows no such system" + (lookup->reason.empty() ? "" : " (" + lookup->reason + ")"));
-  if (horizontal_system(lookup->known_text).empty()) refuse_crs(given, "is no system of positions");
-  return is_code(text) ? lookup->known_text : text;
+  const CrsFacts& facts = facts_of(text);
+  if (!facts.is_whole)
+    refuse_crs(given, "GDAL knows no such system" + (facts.reason.empty() ? "" : " (" + facts.reason + ")"));
+  if (!facts.has_positions) refuse_crs(given, "is no system of positions");
+  return is_code(text) ? facts.known_text : text;
 }
 
 }  // namespace
@@ -192,17 +217,9 @@ StatedCrs read_stated_crs(const InputConfig& config) {
   return stated;
 }
 
-std::string known_text(const std::string& crs) {
-  if (!is_code(crs)) return crs;
-  const std::optional<CrsLookup> lookup = ask_gdal(crs);
-  if (!lookup) return "";
-  const std::string flat(without_vertical(crs));
-  return lookup->known_text.empty() && flat != crs ? known_text(flat) : lookup->known_text;
-}
-
 std::optional<ProjectionScale> scale_at(const std::string& crs, const Eigen::Vector3d& place) {
-  // GDAL takes 70 ms and 35 MiB, which most scans can do without: within this strip UTM is true to 1 in 300.
-  if (is_utm(crs) && place.x() > 0 && place.x() < 1e6) return std::nullopt;
+  // GDAL takes 70 ms and 35 MiB, which some scans can do without: within this strip UTM is true to 1 in 300.
+  if (is_utm_code(crs) && place.x() > 0 && place.x() < 1e6) return std::nullopt;
   auto* const find_scale = reinterpret_cast<FindScale*>(find_gis_function(kFindScale));
   ProjectionScale scale;
   if (crs.empty() || find_scale == nullptr || !find_scale(crs, place, scale)) return std::nullopt;

@@ -16,7 +16,7 @@
 
 namespace lacuna::io {
 
-// The unit of length of a scan, where its file names one.
+// Units of length.
 
 // Returns the unit that has this length in metres: "m", "km", "cm", "mm", "ft" (international foot), "us-ft"
 // (US survey foot), "in", "yd". Empty for another length.
@@ -24,11 +24,23 @@ std::string unit_of_metres(double metres);
 // Returns the length of such a unit in metres; empty for another name.
 std::optional<double> metres_of_unit(std::string_view unit);
 
-// Returns the horizontal unit of a coordinate reference system in well-known text (OGC 01-009; ISO 19162).
-// Empty if the system is geographic, if the text is a code, or if it names another unit.
-std::string length_unit(std::string_view crs);
-// Returns the unit of its vertical system likewise; empty if it has none.
-std::string vertical_unit(std::string_view crs);
+// What a coordinate reference system is, as PROJ says: of well-known text (OGC 01-009; ISO 19162) or of a
+// code. Where GDAL does not understand the text, or without lacuna_gis.so, nothing is known of it.
+
+// Whether the text is "EPSG:25832", "ESRI:102100", or a horizontal and a vertical one, "EPSG:25832+7837".
+bool is_code(std::string_view text);
+// Whether the code is that of a zone of UTM, without heights. Such zones are in metres, and need no PROJ.
+bool is_utm_code(std::string_view crs);
+// Returns the name within well-known text, such as "NAD83 / UTM zone 10N"; a code stays as it is.
+std::string name_of_crs(const std::string& crs);
+// Looks the system up, once in a run.
+const CrsFacts& facts_of(const std::string& crs);
+// Returns the unit of x and y. Empty if the system is geographic, or if it has another unit.
+std::string length_unit(const std::string& crs);
+// Returns the unit of its vertical part likewise; empty if it has none.
+std::string vertical_unit(const std::string& crs);
+// Returns the horizontal part of a code or of well-known text.
+std::string without_vertical(const std::string& crs);
 
 // The coordinate reference system and the unit that the user states, `--crs` and `--unit`.
 
@@ -38,14 +50,10 @@ struct StatedCrs {
   std::string unit_z;  // likewise of z; empty: as the files say, or as x and y
 };
 
-// Looks a code up in the database of PROJ. Without lacuna_gis.so the code stays as it is, and the log names
+// Looks the system up in the database of PROJ. Without lacuna_gis.so it stays as it is, and the log names
 // the results that this leaves out. Throws `Error` if there is no such system, or if system and unit
 // contradict.
 StatedCrs read_stated_crs(const InputConfig& config);
-
-// Returns the well-known text of a code, without its vertical part if only that is unknown. Other text stays
-// as it is. Returns an empty text if GDAL does not know the code, or without lacuna_gis.so.
-std::string known_text(const std::string& crs);
 
 // Returns the scale of a projected system at a place. Returns nothing for other systems, for places that it
 // does not have, and without lacuna_gis.so.

@@ -38,10 +38,18 @@ using FindDegreesAccuracy = bool(const std::string& crs, const Eigen::Vector3d& 
 inline constexpr const char* kFindDegreesAccuracy = "lacuna_find_degrees_accuracy";
 extern "C" LACUNA_API FindDegreesAccuracy lacuna_find_degrees_accuracy;
 
-struct CrsLookup {
-  std::string given;       // a code or well-known text
-  std::string known_text;  // of the system; empty if GDAL does not understand it
-  std::string reason;      // GDAL's, where it does not
+// What PROJ knows of a coordinate reference system.
+struct CrsFacts {
+  std::string known_text;      // well-known text; empty if GDAL does not understand the system
+  std::string horizontal;      // of its horizontal part
+  std::string code;            // "EPSG:N" of that part; empty if it has none
+  std::string reason;          // GDAL's, where it does not understand the system, or its vertical part
+  bool is_whole = false;       // false: without a vertical part that GDAL does not understand
+  bool has_positions = false;  // false: heights alone
+  bool is_geographic = false;  // positions are longitude and latitude
+  bool is_geocentric = false;  // positions are from the centre of the Earth
+  double metres = 0;           // of the unit of x and y; 0: they are no lengths
+  double metres_of_z = 0;      // of the unit of its vertical part; 0: it has none
 };
 
 struct ProjectionScale {
@@ -50,7 +58,7 @@ struct ProjectionScale {
   double longitude = 0, latitude = 0;  // in degrees
 };
 
-using LookUpCrs = void(CrsLookup& lookup);
+using LookUpCrs = void(const std::string& crs, CrsFacts& facts);  // a code or well-known text
 // False where the system is not projected, or does not have the place.
 using FindScale = bool(const std::string& crs, const Eigen::Vector3d& place, ProjectionScale& scale);
 using IsSameCrs = bool(const std::string& a, const std::string& b);  // false where GDAL does not understand

@@ -37,7 +37,7 @@ void set_field(OGRFeature& feature, int field, double value);
 // database of PROJ alone, no network and no file that the text names. False where GDAL does not understand
 // it.
 bool read_exact_crs(const std::string& text, OGRSpatialReference& crs);
-// Works likewise, but leaves out a vertical part that GDAL does not understand: the horizontal part holds.
+// Works likewise, but leaves out the vertical part of a code that GDAL does not understand.
 bool read_crs(const std::string& text, OGRSpatialReference& crs);
 // Reads the system of a file that is written. False, and none, where GDAL does not understand it.
 bool read_crs_of_file(const std::string& text, OGRSpatialReference& crs);

@@ -2,7 +2,6 @@
 #include "io/read/las/las_header.hpp"
 
 #include "io/read/crs/crs.hpp"
-#include "io/read/crs/crs_text.hpp"
 #include "io/read/rows/columns.hpp"
 
 #include <cmath>
@@ -88,10 +87,10 @@ bool LasCrs::is_geocentric() const {
 }
 
 void LasCrs::choose(bool has_text_bit) {
-  const std::string code = code_of_keys(), flat_code(without_vertical(code)),
-                    flat_text(horizontal_system(well_known_text_));
-  if (code.empty() || flat_text.empty() || flat_code == own_code(flat_text) ||
-      is_same_crs(flat_code, flat_text))
+  const std::string code = code_of_keys(), flat_code = without_vertical(code);
+  if (code.empty() || well_known_text_.empty()) return;
+  const CrsFacts& of_text = facts_of(well_known_text_);
+  if (!of_text.has_positions || flat_code == of_text.code || is_same_crs(flat_code, of_text.horizontal))
     return;
   // A geographic code alone is often what is left of a conversion.
   do_keys_hold_ = !has_text_bit && (is_projected() || is_geocentric());
@@ -115,7 +114,7 @@ std::string LasCrs::code_of_keys() const {
 }
 
 bool LasCrs::is_geographic() const {
-  if (has_text()) return io::is_geographic(well_known_text_);
+  if (has_text()) return facts_of(well_known_text_).is_geographic;
   return !is_projected() && (model_ == kModelGeographic || (model_ == 0 && geographic_ != 0));
 }
 
@@ -125,7 +124,8 @@ std::string LasCrs::unit_of_keys() const {
 }
 
 std::string LasCrs::length_unit() const {
-  return has_text() ? io::length_unit(well_known_text_) : unit_of_keys();
+  const std::string of_text = has_text() ? io::length_unit(well_known_text_) : "";
+  return of_text.empty() ? unit_of_keys() : of_text;
 }
 
 std::string LasCrs::other_unit() const {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/read/las/las_reader.hpp"
-
 #include "engine/run/parallel.hpp"
 #include "io/read/files/input_file.hpp"
 #include "io/read/files/number.hpp"
 #include "io/read/las/las_header.hpp"
 #include "io/read/las/las_points.hpp"
 #include "io/read/rows/columns.hpp"
+#include "io/read/rows/readers.hpp"
 #include "io/read/rows/scan_reader.hpp"
 
 #include <algorithm>

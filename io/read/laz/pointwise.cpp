@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/read/files/number.hpp"
-#include "io/read/laz/chunks.hpp"
 #include "io/read/laz/items.hpp"
 #include "io/read/laz/predicted_values.hpp"
 

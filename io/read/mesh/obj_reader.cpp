@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/read/mesh/obj_reader.hpp"
-
 #include "io/read/files/input_file.hpp"
 #include "io/read/files/number.hpp"
 #include "io/read/rows/columns.hpp"
+#include "io/read/rows/readers.hpp"
 
 #include <algorithm>
 #include <array>

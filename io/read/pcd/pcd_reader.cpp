@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/read/pcd/pcd_reader.hpp"
-
 #include "io/read/files/input_file.hpp"
 #include "io/read/files/number.hpp"
 #include "io/read/pcd/lzf.hpp"
 #include "io/read/rows/columns.hpp"
 #include "io/read/rows/pose.hpp"
+#include "io/read/rows/readers.hpp"
 #include "io/read/rows/scan_reader.hpp"
 
 #include <algorithm>

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/read/ply/ply_reader.hpp"
-
 #include "io/read/files/input_file.hpp"
 #include "io/read/ply/ply.hpp"
 #include "io/read/rows/columns.hpp"
 #include "io/read/rows/pose.hpp"
+#include "io/read/rows/readers.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -2,7 +2,6 @@
 #include "io/read/rows/scan_reader.hpp"
 
 #include "io/read/crs/crs.hpp"
-#include "io/read/crs/crs_text.hpp"
 
 namespace lacuna::io {
 
@@ -35,7 +34,7 @@ std::string bare_name(std::string_view name) {
 }
 
 bool ScanReader::is_geographic() const {
-  return io::is_geographic(crs());
+  return facts_of(crs()).is_geographic;
 }
 
 std::string ScanReader::vertical_unit() const {

@@ -3,7 +3,6 @@
 
 #include "engine/run/error.hpp"
 #include "io/read/crs/crs.hpp"
-#include "io/read/crs/crs_text.hpp"
 #include "io/read/rows/columns.hpp"
 #include "io/read/scan/row_filter.hpp"
 
@@ -74,18 +73,11 @@ void take_unit(ScanFile& file, std::string ScanFile::*of, const std::string& oth
 }
 
 void complete_units(std::vector<ScanFile>& files) {
-  std::string known_crs, text;  // files of one scan have one system, mostly, which is looked up once
   for (ScanFile& file : files) {
     take_unit(file, &ScanFile::unit, file.other_unit);
-    const std::string& crs = file.crs;
     if (file.is_geographic) continue;
-    const bool is_flat_utm = is_code(crs) && is_utm(crs) && crs.find('+') == crs.npos;
-    if (is_code(crs) && !is_flat_utm && crs != known_crs) {
-      known_crs = crs;
-      text = known_text(crs);
-    }
-    take_unit(file, &ScanFile::unit, is_flat_utm ? "m" : length_unit(is_code(crs) ? text : crs));
-    if (is_code(crs) && !is_flat_utm) take_unit(file, &ScanFile::z_unit, vertical_unit(text));
+    take_unit(file, &ScanFile::unit, length_unit(file.crs));
+    take_unit(file, &ScanFile::z_unit, vertical_unit(file.crs));
   }
 }
 
@@ -142,7 +134,7 @@ CommonSystem choose_systems(const InputConfig& config, const StatedCrs& stated,
   CommonSystem all = common_system(stated, files);
   bool is_any = false;
   for (ScanFile& file : files) is_any = choose_z_factor(config, stated, all.unit, file) || is_any;
-  if (is_any) all.crs = std::string(without_vertical(all.crs));
+  if (is_any) all.crs = without_vertical(all.crs);
   return all;
 }
 
@@ -398,19 +390,19 @@ void require_plan(const ScanFiles& scan, const std::string& option) {
     const bool is_guess = crs.empty();
     const bool may_be_metres = scan.files()[i].unit.empty() || scan.files()[i].unit == "m";
     if (is_guess && (!may_be_metres || !scan.stated_crs().unit.empty())) continue;
-    const std::string text = is_guess ? std::string() : known_text(crs);
-    if (!is_guess && !is_geocentric(text)) continue;
+    if (!is_guess && !facts_of(crs).is_geocentric) continue;
     const auto place = find_place(scan, i);
     if (is_guess && !(place && is_on_earth(*place))) continue;
     std::optional<std::vector<Eigen::Vector3d>> degrees;
     if (place) degrees = to_degrees(is_guess ? kGeocentricCode : crs, {*place}, scan.files()[i].name);
     const std::string zone = degrees ? utm_zone(degrees->front().x(), degrees->front().y()) : "EPSG:N";
-    throw Error(
-        scan.files()[i].name.string() + ": " +
-        (is_guess ? "its places are geocentric, as of EPSG:4978" : name_of_crs(text) + " is geocentric") +
-        ", and " + option + " needs a plan; `pdal translate IN OUT reprojection " +
-        (is_guess ? "--filters.reprojection.in_srs=EPSG:4978 " : "") + "--filters.reprojection.out_srs=" +
-        zone + "` projects it" + (is_guess ? "; if they are not, --unit m or --crs says so" : ""));
+    throw Error(scan.files()[i].name.string() + ": " +
+                (is_guess ? "its places are geocentric, as of EPSG:4978"
+                          : name_of_crs(facts_of(crs).known_text) + " is geocentric") +
+                ", and " + option + " needs a plan; `pdal translate IN OUT reprojection " +
+                (is_guess ? "--filters.reprojection.in_srs=EPSG:4978 " : "") +
+                "--filters.reprojection.out_srs=" + zone + "` projects it" +
+                (is_guess ? "; if they are not, --unit m or --crs says so" : ""));
   }
 }
 

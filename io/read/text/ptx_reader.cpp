@@ -4,7 +4,7 @@
 #include "io/read/files/number.hpp"
 #include "io/read/rows/columns.hpp"
 #include "io/read/rows/pose.hpp"
-#include "io/read/text/text_reader.hpp"
+#include "io/read/rows/readers.hpp"
 
 #include <algorithm>
 #include <array>

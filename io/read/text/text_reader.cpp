@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/read/text/text_reader.hpp"
-
 #include "io/read/files/input_file.hpp"
 #include "io/read/files/number.hpp"
 #include "io/read/rows/column_rules.hpp"
 #include "io/read/rows/columns.hpp"
+#include "io/read/rows/readers.hpp"
 #include "io/read/text/text_lines.hpp"
 
 #include <algorithm>
@@ -347,7 +346,7 @@ class ColumnFinder {
   bool is_unnamed_ = false;  // the columns have names by their order alone
 };
 
-// Passes the lines before the rows. open_text (io/read/text/text_reader.hpp) says how columns get their
+// Passes the lines before the rows. open_text (io/read/rows/readers.hpp) says how columns get their
 // names. `given`: the option for them. Throws `Error` where there is no row or header, and where no column is
 // x, y or z, or may not be. Cost: 4,096 lines.
 TextColumns find_text_columns(InputFile& in, std::string_view given) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture of a scan and its holes, drawn by the processor alone.
+// A picture of a scan and its holes, drawn by the processor alone: in bands, on a canvas with depth.
 #pragma once
 
 #include "io/read/files/output_file.hpp"
@@ -19,8 +19,6 @@
 #include <Eigen/Geometry>
 
 namespace lacuna::io {
-
-// A canvas with depth, for pictures that are drawn in bands, and numbers on it.
 
 struct PictureSize {
   std::size_t width = 0, height = 0;  // pixels

@@ -14,11 +14,9 @@
 
 namespace lacuna::io {
 
-// The page of io/write/report/page with its style, its scripts and three.js in it, put together by the build.
-extern const std::string_view kReportPage;
-// The rules of a sheet, page/sheet.css. The page of a run has more rules for paper than for the screen; the
-// sheet looks alike on both.
-extern const std::string_view kSheetStyle;
+// The pages of a run and of the check of an area. The build puts them together from io/write/report/page,
+// with their styles and scripts, and three.js in the first.
+extern const std::string_view kReportPage, kSheetPage;
 inline constexpr std::string_view kDataPlace = "<!--{data}-->\n";  // where a report's data go
 
 struct Scene;
@@ -38,24 +36,9 @@ void write_report(const Scene& scene, const std::filesystem::path& file, Overwri
 // A point takes about 15 bytes, a vertex of a loop 11.
 void write_report(const Scene& scene, OutputFile& out);
 
-// The check of an area on pages: a part of the report of a run, and report.html of a check. That is one sheet
-// by which a survey is accepted or not, for a browser and for paper.
-
-// Returns voids.json of a folder with the largest voids and the first polygons alone, and with outlines as
-// fine as a map shows them. Returns null if the file is not there. Throws `Error` if it is not as Lacuna
-// writes it.
-Json read_area_section(const std::filesystem::path& folder);
-
-// What a sheet says of the scan, besides its check.
-struct AreaSheet {
-  std::string title;      // the name of the scan
-  std::string unit, crs;  // of the scan; empty: not known
-};
-
-// Writes the answer, the rule and its source, the basis, and what the check does not show. A map has density
-// and voids, a table the largest voids. Fields for project, client and dates are filled in by the reader.
-// It has the style of the report of a run. Memory: the map, of some thousand corners for each polygon.
-void write_area_sheet(const AreaCheck& check, const AreaSheet& sheet, const AreaConfig& config,
-                      OutputFile& out);
+// Writes the sheet by which a survey is accepted or not, for a browser and for paper. It shows what
+// voids.json of the folder says of the scan with this title. Memory: the map, of some thousand corners for
+// each polygon.
+void write_area_sheet(const std::filesystem::path& folder, const std::string& title, OutputFile& out);
 
 }  // namespace lacuna::io

@@ -3,7 +3,7 @@
 
 #include "engine/bucket/z_curve.hpp"
 #include "engine/run/error.hpp"
-#include "io/explain/stations/next_stations.hpp"
+#include "io/explain/stations/find_causes.hpp"
 #include "io/read/formats.hpp"
 #include "io/read/rows/columns.hpp"
 #include "io/read/rows/scan_reader.hpp"

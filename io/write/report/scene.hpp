@@ -126,4 +126,9 @@ std::optional<double> roof_height(const Scene& scene);
 // vertices have none afterwards, as loops through strays. Cost: linear.
 void hide_above(Scene& scene, double height);
 
+// Returns voids.json of a folder with the largest voids and the first polygons alone, and with outlines as
+// fine as a map shows them. Returns null if the file is not there. Throws `Error` if it is not as Lacuna
+// writes it.
+Json read_area_section(const std::filesystem::path& folder);
+
 }  // namespace lacuna::io

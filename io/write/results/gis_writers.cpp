@@ -290,9 +290,8 @@ class VoidsWriter {
     if (crs_.IsEmpty()) crs_.SetLocalCS("Undefined Cartesian SRS");
     dataset_ = create_dataset("GPKG", out_.place.string());
     require(dataset_ != nullptr);
-    Fields columns = {{"id", OFTInteger64}, {"kind", OFTString},  {"counts", OFTInteger},
-                      {"area", OFTReal},    {"circle", OFTReal},  {"x", OFTReal},
-                      {"y", OFTReal},       {"spacing", OFTReal}, {"excepted", OFTReal}};
+    Fields columns = {{"id", OFTInteger64}, {"kind", OFTString}, {"counts", OFTInteger}};
+    for (const VoidColumn& column : kVoidColumns) columns.emplace_back(column.name, OFTReal);
     for (const AreaClass& each : check_.classes)
       columns.emplace_back(std::string(kShareColumn) + each.name, OFTReal);
     write_voids(create_layer(kVoidsLayer, columns));
@@ -404,9 +403,7 @@ class VoidsWriter {
       feature.SetField(1, std::string(name_of(each.kind)).c_str());
       feature.SetField(2, each.counts ? 1 : 0);
       int field = 3;
-      for (const double value :
-           {each.area, each.circle, each.middle.x(), each.middle.y(), each.spacing, each.excepted})
-        set_field(feature, field++, value);
+      for (const VoidColumn& column : kVoidColumns) set_field(feature, field++, column.of(each));
       for (const double share : each.shares) set_field(feature, field++, share);
       return std::cref(each.outline);
     });

@@ -2,7 +2,7 @@
 #include "engine/run/error.hpp"
 #include "engine/run/parallel.hpp"
 #include "io/explain/lids/make_lid.hpp"
-#include "io/read/ply/ply_writer.hpp"
+#include "io/read/ply/ply.hpp"
 #include "io/read/rows/scan_reader.hpp"
 #include "io/write/loops/loop_measures.hpp"
 #include "io/write/results/points_form.hpp"

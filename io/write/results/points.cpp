@@ -13,8 +13,8 @@
 // probability for MeshLab, unless the input has a `quality`. Each file is read once more.
 
 #include "engine/run/error.hpp"
-#include "io/read/las/las_writer.hpp"
-#include "io/read/ply/ply_writer.hpp"
+#include "io/read/las/las_points.hpp"
+#include "io/read/ply/ply.hpp"
 #include "io/write/results/points_form.hpp"
 #include "io/write/results/results.hpp"
 

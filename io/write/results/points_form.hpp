@@ -106,7 +106,7 @@ std::unique_ptr<PointsForm> ply_form(const PointsPlan& plan);
 // back as the same value of its type; a value that is not a number is `nan`.
 std::unique_ptr<PointsForm> csv_form(const PointsPlan& plan);
 
-// LAS 1.4 and LAZ (io/read/las/las_writer.hpp) of one LAS or LAZ file without a pose. Results are extra
+// LAS 1.4 and LAZ (io/read/las/las_points.hpp) of one LAS or LAZ file without a pose. Results are extra
 // bytes: probability, angle and so on. Throws `Error` where the format cannot hold the points with their
 // results. Reads the header alone.
 std::unique_ptr<PointsForm> las_form(const PointsPlan& plan);

@@ -429,15 +429,16 @@ void write_json(const AreaCheck& check, const ScanFiles& scan, const AreaConfig&
 }
 
 void write_table(const AreaCheck& check, OutputFile& out) {
-  out.write("id,kind,counts,area,circle,x,y,spacing,excepted");
+  out.write("id,kind,counts");
+  for (const VoidColumn& column : kVoidColumns) out.write("," + std::string(column.name));
   for (const AreaClass& each : check.classes) out.write("," + std::string(kShareColumn) + each.name);
   out.write("\n");
   for (std::size_t id = 0; id < check.voids.size(); ++id) {
     const Void& each = check.voids[id];
     std::string line = std::to_string(id);
     line.append(",").append(name_of(each.kind)).append(each.counts ? ",1" : ",0");
-    std::vector<double> values = {each.area,       each.circle,  each.middle.x(),
-                                  each.middle.y(), each.spacing, each.excepted};
+    std::vector<double> values;
+    for (const VoidColumn& column : kVoidColumns) values.push_back(column.of(each));
     values.insert(values.end(), each.shares.begin(), each.shares.end());
     for (const double value : values) {
       line += ',';
@@ -462,11 +463,9 @@ std::vector<std::filesystem::path> write_voids(const AreaCheck& check, const Sca
   add_voids(check, scan, config.area, folder);
   if (config.output.report) {
     const auto& files = scan.files();
-    const AreaSheet sheet{.title = files.size() == 1 ? files.front().name.filename().string()
-                                                     : std::to_string(files.size()) + " files",
-                          .unit = scan.length_unit(),
-                          .crs = scan.common_crs()};
-    folder.add("report.html", [&](OutputFile& out) { write_area_sheet(check, sheet, config.area, out); });
+    const std::string title =
+        files.size() == 1 ? files.front().name.filename().string() : std::to_string(files.size()) + " files";
+    folder.add("report.html", [&](OutputFile& out) { write_area_sheet(folder.staged(), title, out); });
   }
   scan.check_unchanged();
   return folder.commit();

@@ -2,7 +2,7 @@
 // Files that are written whole or not at all, one by one and as folders of results, and JSON that is read.
 #include "io/read/files/json_file.hpp"
 #include "io/read/files/output_file.hpp"
-#include "io/read/ply/ply_writer.hpp"
+#include "io/read/ply/ply.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/support/skip.hpp"
 #include "tests/support/system.hpp"

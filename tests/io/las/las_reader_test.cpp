@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/read/las/las_reader.hpp"
-
+#include "io/read/crs/crs.hpp"
 #include "io/read/formats.hpp"
 #include "io/read/las/las_header.hpp"
+#include "io/read/rows/readers.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/support/las_file.hpp"
 
@@ -55,8 +55,8 @@ TEST_CASE("GeoTIFF keys and well-known text say whether positions are longitude 
   CHECK_FALSE(is_geographic({{1024, 0, 1, 1}, {2048, 0, 1, 4258}, {3072, 0, 1, 32767}}));
   CHECK_FALSE(is_geographic({{2048, 0, 1, 4258}, {3072, 0, 1, 25832}}));
   CHECK_FALSE(is_geographic({{1024, 0, 1, 3}, {2048, 0, 1, 4978}}));  // geocentric
-  CHECK(is_geographic({{1024, 0, 1, 1}, {3072, 0, 1, 25832}}, "GEOGCS[\"WGS 84\"]"));
-  CHECK_FALSE(is_geographic({{1024, 0, 1, 2}, {2048, 0, 1, 4326}}, "PROJCS[\"a\",GEOGCS[\"b\"]]"));
+  CHECK(is_geographic({{1024, 0, 1, 1}, {3072, 0, 1, 25832}}, known_system("GEOGCS")));
+  CHECK_FALSE(is_geographic({{1024, 0, 1, 2}, {2048, 0, 1, 4326}}, known_system("a")));
 }
 
 TEST_CASE("a geocentric system is in metres, and is not the geographic one that names its datum") {
@@ -72,7 +72,9 @@ TEST_CASE("keys and well-known text state the unit of z") {
   take(keys, 34735, las_geo_keys({{3072, 0, 1, 26913}, {3076, 0, 1, 9001}, {4099, 0, 1, 9003}}));
   CHECK(keys.length_unit() == "m");
   CHECK(keys.vertical_unit() == "us-ft");
-  take(text, 2112, "COMPD_CS[\"a\",PROJCS[\"b\",UNIT[\"metre\",1]],VERT_CS[\"c\",UNIT[\"foot\",0.3048]]]");
+  take(text, 2112,
+       "COMPD_CS[\"a\"," + known_system("b") +
+           ",VERT_CS[\"c\",VERT_DATUM[\"d\",2005],UNIT[\"foot\",0.3048]]]");
   CHECK(text.length_unit() == "m");
   CHECK(text.vertical_unit() == "ft");
 }
@@ -97,7 +99,7 @@ TEST_CASE("a unit of the keys that well-known text contradicts is the other unit
   LasCrs crs;
   take(crs, 34735, las_geo_keys({{3072, 0, 1, 25832}, {3076, 0, 1, 9003}}));
   CHECK(crs.other_unit().empty());
-  take(crs, 2112, "PROJCS[\"b\",UNIT[\"metre\",1]]");
+  take(crs, 2112, known_system("b"));
   CHECK(crs.length_unit() == "m");
   CHECK(crs.other_unit() == "us-ft");
 }
@@ -117,8 +119,8 @@ TEST_CASE("the header's bit decides between keys and well-known text of two syst
     crs.choose(has_text_bit);
     return crs;
   };
-  for (const std::string text : {"PROJCS[\"b\",UNIT[\"metre\",1],AUTHORITY[\"EPSG\",\"25833\"]]",
-                                 "PROJCRS[\"b\",LENGTHUNIT[\"metre\",1],ID[\"EPSG\", 25833]]"}) {
+  for (const std::string& text :
+       {known_system("b", "metre\",1", 25833), io::facts_of("EPSG:25833").known_text}) {
     const LasCrs keys = crs_of(25832, text, false), of_text = crs_of(25832, text, true);
     CHECK(keys.text() == "EPSG:25832");
     CHECK(keys.other_text() == text);

@@ -3,7 +3,6 @@
 #include "engine/run/parallel.hpp"
 #include "io/read/las/las_header.hpp"
 #include "io/read/las/las_points.hpp"
-#include "io/read/las/las_writer.hpp"
 #include "io/read/laz/laz.hpp"
 #include "io/write/results/results.hpp"
 #include "tests/io/io_support.hpp"

@@ -1,14 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
-# Puts the page of a report together, with its style, its scripts and three.js, as one string of the program.
-# Sets REPORT_PAGE to the source that has it.
+# Puts the page of a report together, with its style, its scripts and three.js, as one string of the program. So is the
+# sheet of a check. Sets REPORT_PAGE to the source that has both.
 set(page_folder ${CMAKE_CURRENT_LIST_DIR})
 set(three_folder /usr/share/javascript/three CACHE PATH "three.js, as Debian's libjs-three has it")
 set(page_styles page view widths print)  # in this order: later rules win
 set(page_libraries ${three_folder}/three.min.js ${three_folder}/examples/js/controls/OrbitControls.js)
 set(page_scripts data format dom causes legend bounds shading points lines scenes navigation pointer view overlay marks filter table
     details facts controls section measure print main)  # only main does anything by itself; so their order does not matter
-list(TRANSFORM page_styles REPLACE "(.+)" "${page_folder}/\\1.css")
-list(TRANSFORM page_scripts REPLACE "(.+)" "${page_folder}/\\1.js")
+set(sheet_styles page print)  # and sheet.css; the sheet looks on a screen as it does on paper
+set(sheet_scripts dom format sheet)
+foreach(list page_styles sheet_styles)
+  list(TRANSFORM ${list} REPLACE "(.+)" "${page_folder}/\\1.css")
+endforeach()
+foreach(list page_scripts sheet_scripts)
+  list(TRANSFORM ${list} REPLACE "(.+)" "${page_folder}/\\1.js")
+endforeach()
 
 function(join_files result)
   set(joined "")
@@ -23,17 +29,8 @@ function(join_files result)
   set(${result} "${joined}" PARENT_SCOPE)
 endfunction()
 
-join_files(page ${page_folder}/page.html)
-join_files(style ${page_styles})
-join_files(sheet_style ${page_folder}/sheet.css)
-join_files(three ${page_libraries})
-join_files(script ${page_scripts})
-string(REPLACE "/*{style}*/" "${style}" page "${page}")
-string(REPLACE "/*{three}*/" "${three}" page "${page}")
-string(REPLACE "/*{script}*/" "${script}" page "${page}")
-
 # Sources of a Content-Security-Policy: the SHA-256 of each element without attributes, in base 64.
-function(hash_elements result name)
+function(hash_elements result name page)
   set(digits ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/)
   set(sources "")
   set(rest "${page}")
@@ -63,11 +60,28 @@ function(hash_elements result name)
   set(${result} "${sources}" PARENT_SCOPE)
 endfunction()
 
-string(REGEX REPLACE "\n\n$" "\n" sheet_style "${sheet_style}")
-hash_elements(script_sources script)
-hash_elements(style_sources style)
-string(REPLACE "{scripts}" "${script_sources}" page "${page}")
-string(REPLACE "{styles}" "${style_sources}" page "${page}")
+# Fills in {NAME.html} of the folder.
+function(make_page result name style three script)
+  join_files(page ${page_folder}/${name}.html)
+  string(REPLACE "/*{style}*/" "${style}" page "${page}")
+  string(REPLACE "/*{three}*/" "${three}" page "${page}")
+  string(REPLACE "/*{script}*/" "${script}" page "${page}")
+  hash_elements(script_sources script "${page}")
+  hash_elements(style_sources style "${page}")
+  string(REPLACE "{scripts}" "${script_sources}" page "${page}")
+  string(REPLACE "{styles}" "${style_sources}" page "${page}")
+  set(${result} "${page}" PARENT_SCOPE)
+endfunction()
+
+join_files(style ${page_styles})
+join_files(three ${page_libraries})
+join_files(script ${page_scripts})
+make_page(page page "${style}" "${three}" "${script}")
+join_files(style ${sheet_styles})
+string(REPLACE "@media print" "@media all" style "${style}")
+join_files(own_style ${page_folder}/sheet.css)
+join_files(script ${sheet_scripts})
+make_page(sheet sheet "${style}${own_style}" "" "${script}")
 
 set(REPORT_PAGE ${CMAKE_CURRENT_BINARY_DIR}/page.cpp)
 file(WRITE ${REPORT_PAGE}.new "#include \"io/write/report/report.hpp\"
@@ -75,8 +89,7 @@ file(WRITE ${REPORT_PAGE}.new "#include \"io/write/report/report.hpp\"
 namespace lacuna::io {
 
 const std::string_view kReportPage = R\"lacuna_page(${page})lacuna_page\";
-const std::string_view kSheetStyle = R\"lacuna_page(
-${sheet_style})lacuna_page\";
+const std::string_view kSheetPage = R\"lacuna_page(${sheet})lacuna_page\";
 
 }  // namespace lacuna::io
 ")
