@@ -2,8 +2,8 @@
 // The whole engine against the method done plainly in memory, and against itself under every tiling.
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
-#include "tests/support/draws.hpp"
 #include "tests/support/reference.hpp"
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 namespace {

@@ -4,7 +4,6 @@
 
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
-#include "tests/support/memory_scan.hpp"
 #include "tests/support/run_program.hpp"
 
 #include <system_error>

@@ -3,12 +3,13 @@
 #include "engine/steps.hpp"
 
 #include "engine/kept_state.hpp"
+#include "engine/model/task_share.hpp"
 #include "engine/parts/kept_files.hpp"
 #include "engine/parts/parts.hpp"
 #include "engine/pipeline.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
-#include "tests/support/memory_scan.hpp"
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 namespace {
@@ -95,24 +96,6 @@ TEST_CASE("units that are lost, done twice, out of order or at the same time cha
   }
 }
 
-TEST_CASE("a step does not trust damaged outputs of the step before") {
-  Random random(9);
-  for (int round = 0; round < 20; ++round) {
-    SharedRun run;
-    run.planned(2);
-    for (std::size_t task = 0; task < 2; ++task) run.work_on(run.step("evaluate-0"), task);
-    for (const fs::path& file : kept_files(run.config.run.workspace)) {
-      if (!is_of_step(file, "evaluate-0")) continue;
-      std::string content = test::read_file(file);
-      content[static_cast<std::size_t>(random.whole(0, static_cast<std::int64_t>(content.size()) - 1))] ^= 8;
-      fs::rename(run.folder.write("damaged", content), file);
-    }
-    run.work_on(run.step("level-1"), 0);
-    INFO("round " << round);
-    CHECK(run.bytes() == run.expected());
-  }
-}
-
 TEST_CASE("the tasks of a step share its tiles: none is evaluated twice") {
   SharedRun run;
   run.planned(5);
@@ -169,43 +152,6 @@ TEST_CASE("a planned folder gives a run with other parameters what a fresh run g
   }
 }
 
-// All pairs of files are exchanged in as many rounds as there are files: a tournament on a circle. The run's
-// own part and its plan stay: without them, nothing else would be of this run.
-TEST_CASE("any two exchanged parts of a planned folder are made again") {
-  SharedRun run;
-  run.cloud = plane(40).jittered(0.3, 5);
-  const std::string expected = run.expected();
-  const fs::path workspace = run.config.run.workspace, all = run.folder / "all";
-  constexpr auto kMissing = fs::copy_options::recursive | fs::copy_options::skip_existing;
-  for (const Step& step : run.planned(2)) {
-    for (std::size_t task = 0; task < step.tasks; ++task) run.work_on(step, task);
-    fs::copy(workspace, all, kMissing);  // what goes once the first level is there
-  }
-  CHECK(run.bytes() == expected);
-  fs::copy(workspace, all, kMissing);
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(all)) {
-    const fs::path name = entry.path().filename();
-    if (name != kRunPart && name != "plan.lacuna") files.push_back(name);
-  }
-  std::ranges::sort(files);
-  if (files.size() % 2 != 0) files.emplace_back();  // a round without a partner
-  for (std::size_t round = 1; round < files.size(); ++round) {
-    fs::remove_all(workspace);
-    fs::copy(all, workspace);
-    for (std::size_t i = 0; i < files.size() / 2; ++i) {
-      const fs::path &a = files[i], &b = files[files.size() - 1 - i];
-      if (a.empty() || b.empty()) continue;
-      fs::rename(workspace / a, run.folder / "other");
-      fs::rename(workspace / b, workspace / a);
-      fs::rename(run.folder / "other", workspace / b);
-    }
-    INFO("round " << round);
-    CHECK(run.bytes() == expected);
-    std::rotate(files.begin() + 1, files.end() - 1, files.end());
-  }
-}
-
 TEST_CASE("a shared scan without a finite point is refused by the first pass over it") {
   // Counts the passes over it.
   struct CountedScan final : MemoryScan {
@@ -250,6 +196,34 @@ TEST_CASE("names of steps go forth and back, and others are none") {
     CHECK_FALSE(step_of_name(name, run.config.run.workspace));
   const ScratchFolder without_plan;
   CHECK_THROWS_WITH(step_of_name("evaluate-0", without_plan.path()), Contains("has no plan"));
+}
+
+}  // namespace
+namespace {
+
+// ---- Shares of tasks
+
+TEST_CASE("tasks share things in runs of about equal weights, each thing once") {
+  Random random(1);
+  for (int round = 0; round < 200; ++round) {
+    std::vector<std::uint64_t> weights;
+    for (std::int64_t left = random.whole(1, 40); left > 0; --left)
+      weights.push_back(static_cast<std::uint64_t>(random.whole(1, 100)));
+    const auto tasks = static_cast<std::size_t>(random.whole(1, 12));
+    const std::uint64_t all = std::accumulate(weights.begin(), weights.end(), std::uint64_t{0});
+    const std::uint64_t heaviest = *std::max_element(weights.begin(), weights.end());
+    std::size_t next = 0;
+    for (std::size_t task = 0; task < tasks; ++task) {
+      const IndexRange range = share_of(weights, {task, tasks});
+      CHECK(range.first == next);
+      REQUIRE(range.last >= range.first);
+      next = range.last;
+      std::uint64_t mine = 0;
+      for (std::size_t i = range.first; i < range.last; ++i) mine += weights[i];
+      CHECK(mine <= all / tasks + heaviest + 1);
+    }
+    CHECK(next == weights.size());
+  }
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/io/broken_files.hpp"
 
-#include "tests/support/draws.hpp"
+#include "tests/support/test.hpp"
 
 #include <sys/resource.h>
 

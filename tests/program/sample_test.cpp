@@ -3,7 +3,7 @@
 #include "engine/pipeline.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/support/clouds.hpp"
-#include "tests/support/memory_scan.hpp"
+#include "tests/support/detected.hpp"
 #include "tests/support/run_program.hpp"
 
 namespace lacuna::test {

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// detect --workspace: a run that is stopped, however, goes on to the results of an undisturbed one.
-#include "tests/support/draws.hpp"
+// Runs with a workspace: stopped and shared by processes; and files that a killed run leaves.
 #include "tests/support/run_program.hpp"
-#include "tests/support/sheet.hpp"
-#include "tests/support/skip.hpp"
 #include "tests/support/system.hpp"
 
 #include <fcntl.h>
@@ -15,13 +12,12 @@ namespace {
 
 struct Run {
   ScratchFolder folder;
-  int side = static_cast<int>(std::sqrt(static_cast<double>(draws(40'000))));
-  int points = side * side;
+  int side = 200;
   std::string scan = folder.write("scan.txt", sheet(side));
   fs::path workspace = folder / "workspace";
 
   Words arguments(const fs::path& out, const Words& more) const {
-    const std::string tile_points = std::to_string(points / 150);
+    const std::string tile_points = std::to_string(side * side / 150);
     return with({"detect", scan, "--out", out.string(), "--tile-points", tile_points, "--points", "--quiet",
                  "--threads", "2"},
                 more);
@@ -34,25 +30,6 @@ struct Run {
     check_same_results(folder / "out", without);
   }
 };
-
-TEST_CASE("a run that is killed at any moment goes on to the same results") {
-  const Run run;
-  std::size_t killed = 0;
-  for (std::size_t entries = 1; entries < 40; entries += 4) {
-    const auto has_entries = [&] {
-      return fs::exists(run.workspace) && count_entries(run.workspace) >= entries;
-    };
-    const ProgramResult stopped = run_program_until(run.kept(), SIGKILL, has_entries);
-    killed += stopped.exit_code == 128 + SIGKILL;
-    if (entries % 3 != 0) continue;  // others are killed once more before they end
-    succeed(run.kept());
-    run.check_results();
-    fs::remove_all(run.workspace);
-  }
-  CHECK(killed > 5);
-  succeed(run.kept());
-  run.check_results();
-}
 
 TEST_CASE("a signal says how to go on, and what is done stays") {
   const Run run;
@@ -67,28 +44,18 @@ TEST_CASE("a signal says how to go on, and what is done stays") {
                  Contains("scan.txt, ") && Contains(" bytes, written 20") && !Contains(" ns"));
 }
 
-TEST_CASE("a workspace on a full disk is an error, and its parts are used elsewhere", "[.slow]") {
+TEST_CASE("a killed run leaves no file but marks, and no folder of results") {
   const Run run;
-  std::size_t failed = 0;
-  for (const int bytes_a_point : {1, 12, 35, 70, 105, 140, 175, 233, 291, 350}) {
-    const SmallDisk disk(run.folder / "disk", std::to_string(bytes_a_point * run.points));
-    if (!disk.mounted()) return skip("cannot mount a small disk");
-    INFO(bytes_a_point << " bytes a point");
-    const fs::path small = disk.path() / "workspace";
-    const ProgramResult result = run_program(run.arguments(
-        run.folder / "out", {"--workspace", small.string(), "--scratch", run.folder.path().string()}));
-    if (result.exit_code == 0) continue;
-    ++failed;
-    CHECK(result.exit_code == 1);
-    CHECK_THAT(result.err, Contains("lacuna: error: ") &&
-                               (Contains("No space left on device") || Contains("the run needs at least")));
-    if (!fs::exists(small)) continue;
-    fs::copy(small, run.workspace);
-    succeed(run.kept());
-    run.check_results();
-    fs::remove_all(run.workspace);
-  }
-  CHECK(failed >= 4);
+  const ProgramResult result = run_program_beside(run.arguments(run.folder / "out", {}), [](pid_t program) {
+    if (has_open(program, "points")) kill(program, SIGKILL);
+  });
+  REQUIRE(result.exit_code == 128 + SIGKILL);
+  CHECK_FALSE(fs::exists(run.folder / "out"));
+  std::size_t folders = 0, files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(temporary_of(run.folder / "out")))
+    ++(entry.is_directory() ? folders : files);
+  CHECK(folders == 2);  // for results and for temporary files
+  CHECK(files == 2);    // the marks of these
 }
 
 TEST_CASE("another run at the same time is refused, and with another input, what differs is made again") {
@@ -128,6 +95,88 @@ TEST_CASE("clean removes a workspace, but no file of others") {
   succeed(run.kept());
   CHECK(run_program({"clean", run.workspace.string()}).exit_code == 0);
   CHECK_FALSE(fs::exists(run.workspace));
+}
+
+// ---- plan, work and finish: processes that share a run
+
+struct Shared {
+  ScratchFolder folder;
+  std::string workspace = (folder / "work space").string();
+
+  Shared() {
+    folder.write("a.txt", sheet(200));
+    folder.write("b.txt", "0 0 9\n0 1 9\n1 0 9\n");
+    folder.write("c.txt", "x y z nx ny nz\n2 2 7 0 0 1\n3 3 7 0 0 1\n900 3 7 0 0 1\n");
+    folder.write("all.list", "c.txt\na.txt\nb.txt pose=1 0 0 5 0 1 0 0 0 0 1 0\n");
+  }
+  std::string list() const { return std::string("@").append((folder / "all.list").string()); }
+  ProgramResult plan(const Words& more = {}) const {
+    return run_program(with({"plan", list(), "--workspace", workspace, "--tasks", "3"}, more));
+  }
+};
+
+TEST_CASE("plan, work and finish give the files of detect") {
+  const Shared run;
+  const Words options = {"--points", "--points-normals", "--k", "14", "--bounds", "0,0,290,290"};
+  std::istringstream lines(run.plan(with({"--tsv"}, options)).out);
+  std::vector<std::string> steps;
+  std::string step;
+  for (std::size_t tasks, mib, minutes; lines >> step >> tasks >> mib >> minutes;) {
+    steps.push_back(step);
+    CHECK(mib > 0);
+    CHECK(minutes > 0);
+    if (step == "finish") continue;
+    for (std::size_t task = 0; task < tasks; ++task) {
+      const ProgramResult worked =
+          succeed({"work", run.workspace, "--step", step, "--task", std::to_string(task), "--threads", "1"});
+      CHECK_THAT(worked.out, Contains(step + ", task " + std::to_string(task) + ": done"));
+    }
+  }
+  CHECK(steps == std::vector<std::string>{"survey", "tiles", "bucket", "level-0", "evaluate-0", "finish"});
+  succeed({"finish", run.workspace, "--out", (run.folder / "out").string(), "--quiet"});
+  const fs::path alone = detect(run.list(), run.folder / "alone", options);
+  CHECK(fs::exists(alone / "points" / "a.csv"));
+  check_same_results(run.folder / "out", alone);
+}
+
+TEST_CASE("a plan says in a table what its tasks are, and wrong units are refused") {
+  const Shared run;
+  CHECK_THAT(run.plan().out, Contains("evaluate-0      3") && Contains("memory of a task"));
+  const auto work = [&](const Words& arguments) {
+    return run_program(with({"work", run.workspace}, arguments));
+  };
+  check_failure(work({"--step", "evaluate"}), 2, "--step: allowed: a step of lacuna plan");
+  check_failure(work({"--step", "evaluate-0", "--task", "3"}), 2, "--task: allowed: 0 to 2");
+  check_failure(work({}), 2, "--step is required");
+  check_failure(run_program({"work", run.folder.path().string(), "--step", "level-0"}), 1,
+                "not the workspace of a run");
+  check_failure(run_program({"finish", run.workspace}), 2, "--out is required");
+  check_failure(run_program({"plan", run.list(), "--tasks", "3"}), 2, "--workspace is required");
+  run.folder.write("b.txt", "0 0 8\n0 1 9\n1 0 9\n");
+  check_failure(work({"--step", "level-0"}), 1, "was planned for another run: \"input: ");
+  // Another part in its place names no input: a run of no files would have no holes.
+  fs::rename(fs::path(run.workspace) / "plan.lacuna", fs::path(run.workspace) / "run.lacuna");
+  check_failure(run_program({"finish", run.workspace, "--out", (run.folder / "out").string()}), 1,
+                "not the workspace of a run");
+}
+
+TEST_CASE("a task that ends after its workspace was cleaned fails, and its part stands in nobody's way") {
+  const Shared run;
+  REQUIRE(run.plan().exit_code == 0);
+  const fs::path workspace = run.workspace;
+  bool is_cleaned = false;
+  const ProgramResult late =
+      run_program_beside({"work", run.workspace, "--step", "evaluate-0", "--quiet"}, [&](pid_t task) {
+        if (is_cleaned || !fs::exists(workspace / "level-0-0.lacuna")) return;
+        ::kill(task, SIGSTOP);  // so that it does not end before
+        is_cleaned = run_program({"clean", run.workspace}).exit_code == 0;
+        ::kill(task, SIGCONT);
+      });
+  CHECK(is_cleaned);
+  check_failure(late, 1, run.workspace);
+  CHECK(run.plan().exit_code == 0);
+  CHECK(run_program({"clean", run.workspace}).exit_code == 0);
+  CHECK_FALSE(fs::exists(workspace));
 }
 
 }  // namespace

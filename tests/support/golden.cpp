@@ -2,8 +2,8 @@
 #include "tests/support/golden.hpp"
 
 #include "io/read/scan/scan_pass.hpp"
-#include "tests/support/memory_scan.hpp"
-#include "tests/support/skip.hpp"
+#include "tests/support/detected.hpp"
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 using namespace io;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/tiled_scan.hpp"
 
+#include "engine/bucket/z_curve.hpp"
 #include "engine/halo/eps_balls.hpp"
 #include "engine/halo/halo.hpp"
+#include "engine/loops/measure_loop.hpp"
 #include "engine/parts/level_form.hpp"
-#include "tests/support/memory_scan.hpp"
+#include "tests/support/point_tree.hpp"
+
+#include <cassert>
 
 namespace lacuna {
 namespace {
@@ -68,4 +72,101 @@ LocalIndex TiledScan::local(Row row) const {
   return static_cast<LocalIndex>(value(row) - value(store.tiling().tiles[tile_of(row)].first_row));
 }
 
+std::vector<PointId> distinct_ids(const Cloud& cloud) {
+  std::map<std::array<double, 3>, PointId> first_at;
+  std::vector<PointId> ids;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3d& p = cloud.positions[i];
+    if (p.allFinite() && first_at.try_emplace({p.x(), p.y(), p.z()}, PointId{i}).second)
+      ids.push_back(PointId{i});
+  }
+  return ids;
+}
+
+namespace {
+
+// As the points of a cell are.
+void sort_along_curve(const Cloud& cloud, std::vector<PointId>& ids) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : cloud.positions) box.extend(p);
+  const ZCurve curve(box);
+  std::vector<std::pair<ZPlace, PointId>> places;
+  for (const PointId id : ids) places.emplace_back(curve.place(cloud.positions[value(id)]), id);
+  std::stable_sort(places.begin(), places.end(),
+                   [](const auto& a, const auto& b) { return comes_before(a.first, b.first); });
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = places[i].second;
+}
+
+}  // namespace
+
+TilePoints whole_tile(const Cloud& cloud) {
+  return part_tile(cloud, std::vector<bool>(cloud.size(), true), 0);
+}
+
+TilePoints part_tile(const Cloud& cloud, const std::vector<bool>& owns, std::size_t k) {
+  std::vector<PointId> ids = distinct_ids(cloud);
+  sort_along_curve(cloud, ids);
+  std::stable_partition(ids.begin(), ids.end(), [&](PointId id) { return owns[value(id)]; });
+  TilePoints points;
+  for (const PointId id : ids) {
+    points.owned += owns[value(id)];
+    points.positions.push_back(cloud.positions[value(id)]);
+    points.ids.push_back(id);
+    points.rows.push_back(Row{value(id)});
+  }
+  std::vector<std::vector<LocalIndex>> linked(points.owned);
+  for (LocalIndex q = points.owned; q < points.size(); ++q) {
+    for (const Neighbour& p : nearest_plainly(points.positions, points.ids, q, k))
+      if (points.is_owned(p.index)) linked[p.index].push_back(q);
+  }
+  for (const std::vector<LocalIndex>& row : linked) {
+    points.linked.indices.insert(points.linked.indices.end(), row.begin(), row.end());
+    points.linked.offsets.push_back(static_cast<std::uint32_t>(points.linked.indices.size()));
+  }
+  return points;
+}
+
+LocalIndex row_of(const TilePoints& points, PointId id) {
+  const auto found = std::find(points.ids.begin(), points.ids.end(), id);
+  assert(found != points.ids.end());
+  return static_cast<LocalIndex>(found - points.ids.begin());
+}
+
+std::vector<Eigen::Vector3d> owned_normals(const Cloud& cloud, const TilePoints& points) {
+  std::vector<Eigen::Vector3d> normals;
+  if (cloud.normals.empty()) return normals;
+  for (LocalIndex p = 0; p < points.owned; ++p) normals.push_back(cloud.normals[value(points.ids[p])]);
+  return normals;
+}
+
 }  // namespace lacuna
+
+namespace lacuna::test {
+
+DrawnLoop square(double half, LoopKind kind, const Eigen::Vector3d& centre, int on_side) {
+  DrawnLoop loop{.points = {}, .kind = kind};
+  const std::vector<Eigen::Vector3d> corners = {
+      {-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (int k = 0; k < on_side; ++k)
+      loop.points.push_back(centre + corners[i] + (corners[(i + 1) % 4] - corners[i]) * k / on_side);
+  }
+  return loop;
+}
+
+MeasuredLoops measured(std::span<const DrawnLoop> drawn, const std::filesystem::path& folder) {
+  MeasuredLoops loops;
+  Loops& level = loops.loops.levels.emplace_back(folder / "loops");
+  std::uint64_t id = 0;
+  for (const DrawnLoop& loop : drawn) {
+    Loop points;
+    for (const Eigen::Vector3d& at : loop.points) points.push_back(loop_point(id++, at));
+    level.add(points.size(), {}, [&](std::uint64_t i) { return points[i]; });
+    loops.loops.chosen.push_back({0, static_cast<std::uint32_t>(loops.measures.size())});
+    loops.measures.push_back(measure_loop(points, 1));
+    loops.measures.back().kind = loop.kind;
+  }
+  return loops;
+}
+
+}  // namespace lacuna::test

@@ -8,7 +8,6 @@
 #include "engine/pipeline.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
-#include "tests/support/memory_scan.hpp"
 
 namespace lacuna {
 namespace {

@@ -2,8 +2,8 @@
 #include "io/read/files/result_folder.hpp"
 
 #include "tests/io/io_support.hpp"
-#include "tests/support/skip.hpp"
 #include "tests/support/system.hpp"
+#include "tests/support/test.hpp"
 
 #include <sys/mount.h>
 #include <sys/stat.h>

@@ -4,7 +4,7 @@
 #include "io/read/files/number.hpp"
 #include "tests/io/broken_files.hpp"
 #include "tests/support/las_file.hpp"
-#include "tests/support/skip.hpp"
+#include "tests/support/test.hpp"
 
 namespace lacuna::test {
 namespace {

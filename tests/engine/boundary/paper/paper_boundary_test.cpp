@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+// The paper's loops in any memory and any tiles, against the plain method.
 #include "engine/boundary/paper/paper_boundary.hpp"
 
+#include "engine/boundary/paper/loops.hpp"
 #include "tests/support/reference.hpp"
 #include "tests/support/tiled_scan.hpp"
 
@@ -127,6 +129,27 @@ TEST_CASE("random clouds have the loops of the plain method in as little memory 
 TEST_CASE("many more random clouds have the loops of the plain method in as little memory as there is",
           "[.slow]") {
   CHECK(check_drawn(11, 100) > 200);
+}
+
+TEST_CASE("a long path with a ring at its end is searched without recursion") {
+  constexpr LocalIndex n = 300'000;  // from n - 1, an edge leads 19 back
+  std::vector<PointId> ids;
+  std::vector<std::uint64_t> offsets{0};
+  std::vector<LocalIndex> indices;
+  for (LocalIndex v = 0; v < n; ++v) {
+    ids.push_back(PointId{v});
+    if (v == n - 1) indices.push_back(n - 20);
+    if (v > 0) indices.push_back(v - 1);
+    if (v + 1 < n) indices.push_back(v + 1);
+    if (v == n - 20) indices.push_back(n - 1);
+    offsets.push_back(indices.size());
+  }
+  const ScratchFolder folder;
+  Scratch scratch(folder / "", 1 << 20);
+  std::vector<std::size_t> sizes;
+  find_loops(keep_cycles({ids, offsets, indices}, scratch), scratch,
+             [&](std::span<const LocalIndex> loop) { sizes.push_back(loop.size()); });
+  CHECK(sizes == std::vector<std::size_t>{20});
 }
 
 }  // namespace

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/support/scratch_folder.hpp"
-
 #include "tests/support/test.hpp"
 
+#include "tests/support/json.hpp"
+
 #include <stdlib.h>
+
+std::string Catch::StringMaker<nlohmann::json>::convert(const nlohmann::json& value) {
+  return value.dump();
+}
 
 namespace lacuna::test {
 
@@ -52,6 +56,14 @@ fs::path temporary_of(const fs::path& results) {
 std::string read_file(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+nlohmann::json json_of(const std::string& text) {
+  return nlohmann::json::parse(text);
+}
+
+nlohmann::json read_json(const fs::path& file) {
+  return json_of(read_file(file));
 }
 
 }  // namespace lacuna::test

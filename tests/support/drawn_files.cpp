@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/support/e57_encoder.hpp"
+#include "tests/support/drawn_files.hpp"
 
 namespace lacuna::test {
 namespace {
