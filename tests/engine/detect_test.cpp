@@ -431,30 +431,4 @@ TEST_CASE("the frames of a grid that lie on each other have its hole, on any pla
   }
 }
 
-// Without ties, ids decide nothing before the search for loops, whose origins are taken in ascending id.
-TEST_CASE("the order of the points changes no probability, no coherence and no edge of the graph") {
-  for (const std::uint64_t seed : {1, 2, 3}) {
-    const Cloud cloud = holed_cloud(seed);
-    std::vector<std::size_t> order(cloud.size());
-    std::iota(order.begin(), order.end(), 0);
-    Random random(seed);
-    for (std::size_t i = order.size(); i > 1; --i)
-      std::swap(order[i - 1], order[static_cast<std::size_t>(random.whole(0, std::int64_t(i) - 1))]);
-    Cloud shuffled;
-    for (const std::size_t i : order) shuffled.positions.push_back(cloud.positions[i]);
-    const Detected here = run_engine(cloud, tiled({}, 300)), there = run_engine(shuffled, tiled({}, 300));
-    std::size_t different = 0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const PointResult &a = here.points[order[i]], &b = there.points[i];
-      different += a.probability != b.probability || a.criteria[0] != b.criteria[0] ||
-                   a.criteria[1] != b.criteria[1] || a.criteria[2] != b.criteria[2] ||
-                   a.coherent != b.coherent;
-    }
-    CHECK(different == 0);
-    CHECK(there.summary.counts.boundary_edges == here.summary.counts.boundary_edges);
-    CHECK(there.summary.counts.components == here.summary.counts.components);
-    CHECK(there.summary.mean_edge_length == here.summary.mean_edge_length);
-  }
-}
-
 }  // namespace lacuna

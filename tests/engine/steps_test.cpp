@@ -198,9 +198,6 @@ TEST_CASE("names of steps go forth and back, and others are none") {
   CHECK_THROWS_WITH(step_of_name("evaluate-0", without_plan.path()), Contains("has no plan"));
 }
 
-}  // namespace
-namespace {
-
 // ---- Shares of tasks
 
 TEST_CASE("tasks share things in runs of about equal weights, each thing once") {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From points to cells and tiles: the survey, the split, how far neighbours may be, and what a store holds.
 #include "engine/bucket/bucket_scan.hpp"
-#include "engine/bucket/cell_index.hpp"
 #include "engine/bucket/order_tile.hpp"
 #include "engine/bucket/split.hpp"
 #include "engine/bucket/tile_size.hpp"
@@ -15,41 +14,6 @@
 #include "tests/support/tiled_scan.hpp"
 
 namespace lacuna {
-namespace {
-
-// ---- From places to cells
-
-std::int32_t cell_along_axis(double x, double origin, const CellGrid& grid) {
-  const double index = std::floor(std::ldexp(x, -grid.finest)) - origin;
-  const double last = CellGrid::kLast;
-  return static_cast<std::int32_t>(std::clamp(index, -last, last)) >> grid.shift;
-}
-
-TEST_CASE("the cells of many positions are those of each, rounded down, whatever their size") {
-  Random random(1);
-  const std::vector<double> hard = {
-      0.0, -0.0, 1e-320, -1e-320, 1, -1, std::nextafter(1, 0), std::nextafter(-1, -2),
-      1e9, -1e9, 1e300,  -1e300};
-  for (const CellGrid grid : {CellGrid{}, CellGrid{-7, 0}, CellGrid{3, 2}, CellGrid{-500, 30},
-                              CellGrid{-10, 1, {5.4e9, -1e12, 3}}}) {
-    std::vector<Eigen::Vector3d> positions;
-    for (const double x : hard) positions.emplace_back(x, -x, std::ldexp(x, grid.finest));
-    for (int i = 0; i < 1000; ++i)
-      positions.emplace_back(random.uniform(-1e4, 1e4), random.uniform(-1, 1), random.uniform(-1e10, 1e10));
-    std::vector<CellCoord> cells(positions.size());
-    grid.cells_of(positions, cells);
-    std::size_t wrong = 0;
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-      for (int axis = 0; axis < 3; ++axis)
-        wrong += cells[i][axis] != cell_along_axis(positions[i][axis], grid.origin[std::size_t(axis)], grid);
-      wrong += cells[i] != grid.cell_of(positions[i]);
-    }
-    INFO("finest " << grid.finest << ", shift " << grid.shift);
-    CHECK(wrong == 0);
-  }
-}
-
-}  // namespace
 namespace {
 
 // ---- Survey, split and reach
@@ -104,31 +68,6 @@ void check_counts(const Cloud& cloud, const SurveyedScan& scan) {
       return;
     }
   }
-}
-
-TilePlan plan_of(const Cloud& cloud, std::uint64_t tile_points) {
-  SurveyedScan scan = survey(cloud);
-  return split_tiles(scan, tile_points);
-}
-
-// The index of a cloud's distinct points, and the points of each of its cells.
-struct Index {
-  Tiling tiling;
-  std::vector<std::vector<Eigen::Vector3d>> points;
-};
-
-Index index_of(const Cloud& cloud, std::int64_t tile_points) {
-  const TiledScan scan(cloud, tiled({}, tile_points));
-  Index index{scan.store.tiling(), {}};
-  for (std::uint32_t c = 0; c < index.tiling.cells.size(); ++c) {
-    auto& points = index.points.emplace_back();
-    for (const ScanPoint& p : scan.store.cell(c)) points.push_back(p.position());
-  }
-  return index;
-}
-
-Tiling tiling_of(const Cloud& cloud, std::int64_t tile_points) {
-  return index_of(cloud, tile_points).tiling;
 }
 
 TEST_CASE("a survey counts every finite point in the cell that the final grid gives it") {
@@ -210,47 +149,12 @@ TEST_CASE("where the count of a cell ended, there is space for tiles of all poin
   CHECK(plan.most_tiles() == kPoints / kTile + 1);
 }
 
-TEST_CASE("the reach of a cell is no less than the distance to the k-th neighbour of any of its points") {
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    Cloud cloud = random_cloud(6000 + seed);
-    if (seed == 1) cloud = hard_cloud(2);
-    Cloud distinct;
-    for (const PointId id : distinct_ids(cloud)) distinct.positions.push_back(cloud.positions[value(id)]);
-    if (distinct.size() == 0) continue;
-    const auto [tiling, points] = index_of(distinct, 200);
-    for (const std::size_t k : {1, 7, 40}) {
-      std::vector<double> reach(tiling.cells.size());
-      for (std::uint32_t c = 0; c < tiling.cells.size(); ++c) reach[c] = squared_distance_bound(tiling, c, k);
-      std::size_t too_short = 0;
-      for (std::size_t i = 0; i < distinct.size(); i += 1 + distinct.size() / 300) {
-        const Eigen::Vector3d& p = distinct.positions[i];
-        std::uint32_t cell = 0;
-        while (std::find(points[cell].begin(), points[cell].end(), p) == points[cell].end()) ++cell;
-        std::vector<double> others;
-        for (std::size_t j = 0; j < distinct.size(); ++j)
-          if (j != i) others.push_back(squared_distance(p, distinct.positions[j]));
-        const double bound = reach[cell];
-        if (others.size() < k) {
-          too_short += bound != std::numeric_limits<double>::infinity();
-        } else {
-          std::nth_element(others.begin(), others.begin() + std::ptrdiff_t(k) - 1, others.end());
-          too_short += bound < others[k - 1];
-        }
-      }
-      INFO("seed " << seed << ", k " << k);
-      CHECK(too_short == 0);
-    }
-  }
-}
-
 TEST_CASE("the reach is infinite where the scan has no more than k points, finite where it has one more") {
-  const Tiling tiling = tiling_of(scattered(16, 1), 1'000'000);
+  const TiledScan scan(scattered(16, 1), {});
+  const Tiling& tiling = scan.store.tiling();
   CHECK(squared_distance_bound(tiling, 0, 16) == std::numeric_limits<double>::infinity());
   CHECK(squared_distance_bound(tiling, 0, 15) < 100);
 }
-
-}  // namespace
-namespace {
 
 // ---- The points of a tile
 
@@ -289,9 +193,6 @@ TEST_CASE("the neighbours in a tile can be numbered in 32 bits, whatever is aske
   }
 }
 
-}  // namespace
-namespace {
-
 // ---- What is stored
 
 std::vector<PointId> finite_ids(const Cloud& cloud) {
@@ -307,10 +208,6 @@ Cloud cloud_of(std::uint64_t seed) {
 
 Config tiling_of(std::uint64_t seed) {
   return tiled({}, std::array<std::int64_t, 4>{1, 30, 1000, 100'000}[seed % 4], seed % 3 == 0 ? 8 : 2);
-}
-
-bool same(double a, double b) {
-  return a == b || (std::isnan(a) && std::isnan(b));
 }
 
 TEST_CASE("every finite point is stored once, in a row of its cell, or is a duplicate of one that is") {
@@ -349,25 +246,6 @@ TEST_CASE("every finite point is stored once, in a row of its cell, or is a dupl
     CHECK(wrong_owners == 0);
     std::sort(ids.begin(), ids.end());
     CHECK(ids == finite_ids(cloud));
-  }
-}
-
-TEST_CASE("given normals stay with their points, be they unit vectors or not even numbers") {
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    const Cloud cloud = cloud_of(seed).with_random_normals(seed);
-    const TiledScan scan(cloud, tiling_of(seed));
-    std::size_t wrong = 0;
-    for (TileIndex t = 0; t < scan.store.tiling().tiles.size(); ++t) {
-      const std::vector<ScanPoint> points = scan.store.points(t);
-      const std::vector<Eigen::Vector3d> normals = scan.store.normals(t);
-      REQUIRE(normals.size() == points.size());
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        for (int axis = 0; axis < 3; ++axis)
-          wrong += !same(normals[i][axis], cloud.normals[value(points[i].id)][axis]);
-      }
-    }
-    INFO("seed " << seed);
-    CHECK(wrong == 0);
   }
 }
 
@@ -448,9 +326,6 @@ TEST_CASE("an input that changes between the two readings is an error") {
   for (const Cloud& after : {fewer, before.joined(line(1)), elsewhere, crowded, finer})
     CHECK_THROWS_WITH(changed(after), Contains("the input changed while it was read"));
 }
-
-}  // namespace
-namespace {
 
 // ---- The order in a tile
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Offsets gathered side by side; the criteria of batches, with the same bits from every instruction set and every
-// place in a batch; and the evaluation of points.
+// Offsets gathered side by side; the criteria of batches, with the same bits from every instruction set and
+// every place in a batch; and the evaluation of points.
 #include "engine/criteria/criteria.hpp"
+
 #include "engine/criteria/criteria_values.hpp"
 #include "engine/criteria/exact_fallback.hpp"
 #include "engine/criteria/neighbour_batch.hpp"
@@ -166,37 +167,6 @@ TEST_CASE("every instruction set evaluates the criteria with the same bits") {
   CHECK(different == 0);
 }
 
-TEST_CASE("a point has the same values wherever it is in a batch, and whatever the other points are") {
-  Random random(12);
-  std::size_t different = 0;
-  for (int round = 0; round < 300; ++round) {
-    const Neighbourhood point = drawn_neighbourhood(random);
-    const std::vector<double> alone = of_point(evaluated(std::vector<Neighbourhood>(kBatchSize, point)), 0);
-    for (std::size_t place = 0; place < kBatchSize; ++place) {
-      std::vector<Neighbourhood> points = drawn_neighbourhoods(random);
-      points[place] = point;
-      different += !same_bits(of_point(evaluated(points), place), alone);
-    }
-  }
-  CHECK(different == 0);
-}
-
-TEST_CASE("directions sorted side by side have the gap of the exact fallback") {
-  Random random(13);
-  for (int round = 0; round < 500; ++round) {
-    const std::vector<Neighbourhood> points = drawn_neighbourhoods(random);
-    const FilledBatch filled = batch_of(points, true);
-    CriteriaValues found;
-    evaluate_criteria(filled.batch, kParameters, found);
-    const double up[3] = {0, 0, 1};
-    for (std::size_t i = 0; i < kBatchSize; ++i) {
-      const LargestGap expected = find_largest_gap_exactly(filled.batch, i, up, kParameters.cos_cone);
-      CHECK(found.gap_near.at[i] == expected.near);
-      CHECK(found.gap_far.at[i] == expected.far);
-    }
-  }
-}
-
 // What is ambiguous in single precision: gaps of nearly one size, directions side by side, neighbours at the
 // edge of the cone.
 TEST_CASE("gaps that differ by nearly nothing are those of the exact fallback") {
@@ -245,67 +215,19 @@ struct Evaluated : Evaluation {
   std::array<double, 3> criteria;
 };
 
-std::vector<Evaluated> evaluate_whole(const Cloud& cloud, const TilePoints& points, const Config& config,
-                                      double eps) {
-  const Neighbourhoods rows =
-      find_neighbourhoods(points, static_cast<std::size_t>(config.neighbourhood.k), eps);
-  std::vector<double> values(points.owned * criteria().size(), -1);
-  std::vector<Evaluated> all;
-  for (const Evaluation& e :
-       evaluate(points, rows, owned_normals(cloud, points), config.normals, config.criteria, values)) {
-    all.push_back({e, {}});
-    std::copy_n(&values[(all.size() - 1) * criteria().size()], 3, all.back().criteria.begin());
-  }
-  return all;
-}
-
+// Of the first of distinct points, in one tile.
 Evaluated evaluate_first(const Cloud& cloud, const Config& config = {}) {
-  const TilePoints points = whole_tile(cloud);
-  return evaluate_whole(cloud, points, config, config.neighbourhood.eps)[row_of(points, PointId{0})];
-}
-
-bool near(double a, double b) {
-  return std::abs(a - b) <= 1e-9;
-}
-
-TEST_CASE("probabilities are those of the plain method to 1e-9, gap neighbours and distances the same") {
-  std::size_t compared = 0, ill_conditioned = 0;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    const Cloud cloud = random_cloud(2000 + seed);
-    Config config = random_config(2000 + seed, typical_spacing(cloud));
-    config.normals.orient = false;
-    config.spanning = {.max_prob_weight = 1e-9};
-    const reference::Detection plain = reference::detect(cloud.positions, cloud.normals, config);
-    const TilePoints points = whole_tile(cloud);
-    const std::vector<Evaluated> evaluations = evaluate_whole(cloud, points, config, plain.eps);
-    std::size_t wrong_criteria = 0, wrong_distance = 0, wrong_gap = 0, wrong_rounding = 0;
-    for (LocalIndex i = 0; i < points.owned; ++i) {
-      const Evaluated& e = evaluations[i];
-      const reference::Point& p = plain.points[value(points.ids[i])];
-      ++compared;
-      wrong_distance += e.mean_distance != p.mean_distance;
-      const bool given = !cloud.normals.empty();
-      if (p.turned_by_rounding) continue;
-      if (!given && p.lambda[1] - p.lambda[2] <= 1e-9) {
-        ++ill_conditioned;
-        continue;
-      }
-      wrong_criteria +=
-          !near(e.criteria[0], p.angle) || !near(e.criteria[1], p.halfdisc) || !near(e.criteria[2], p.shape);
-      wrong_rounding += std::abs(e.probability - p.combined) > kProbabilityStep / 2 + 1e-9;
-      const bool has_gap = e.gap_near != kNoIndex;
-      wrong_gap +=
-          has_gap != p.gap.has_value() ||
-          (has_gap && (points.ids[e.gap_near] != (*p.gap)[0] || points.ids[e.gap_far] != (*p.gap)[1]));
-    }
-    INFO("seed " << seed);
-    CHECK(wrong_criteria == 0);
-    CHECK(wrong_distance == 0);
-    CHECK(wrong_gap == 0);
-    CHECK(wrong_rounding == 0);
+  TilePoints points{.owned = static_cast<LocalIndex>(cloud.size()), .positions = cloud.positions};
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    points.ids.push_back(PointId{i});
+    points.rows.push_back(Row{i});
+    points.linked.offsets.push_back(0);
   }
-  INFO(ill_conditioned << " of " << compared << " points have no well defined normal");
-  CHECK(ill_conditioned < compared / 5);
+  const auto k = static_cast<std::size_t>(config.neighbourhood.k);
+  std::vector<double> values(cloud.size() * criteria().size(), -1);
+  const std::vector<Evaluation> all = evaluate(points, find_neighbourhoods(points, k, 0), cloud.normals,
+                                               config.normals, config.criteria, values);
+  return {all[0], {values[0], values[1], values[2]}};
 }
 
 TEST_CASE("inside of a plane nothing speaks for a boundary, at its edge everything does") {

@@ -123,9 +123,6 @@ TEST_CASE("the diameter is that of all pairs") {
   }
 }
 
-}  // namespace
-namespace {
-
 // ---- Loops of a scan
 
 Cloud four_loops() {

@@ -147,15 +147,7 @@ TEST_CASE("an island in a hole of a scan: its area is not the hole's, by both me
   }
 }
 
-}  // namespace
-namespace {
-
 // ---- The area that is missing
-
-using test::DrawnLoop;
-using test::square;
-
-constexpr LoopKind kHole = LoopKind::kHole, kOuter = LoopKind::kOuter;
 
 MeasuredLoops with_areas(const std::vector<DrawnLoop>& drawn) {
   const ScratchFolder scratch;

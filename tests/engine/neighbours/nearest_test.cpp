@@ -177,9 +177,6 @@ TEST_CASE("the neighbours of single stored points are those of a plain search") 
   }
 }
 
-}  // namespace
-namespace {
-
 // ---- Sent between tiles
 
 // One link, and whose inbox it is in: tile, owned point, foreign row and id, incoming.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What comes back as it was: points in either precision, a scan, parts of a workspace; and temporary folders, which
-// go.
+// What comes back as it was: points in either precision, a scan, parts of a workspace; and temporary folders,
+// which go.
 #include "engine/store/kept_scan.hpp"
 #include "engine/store/point_column.hpp"
 #include "engine/store/sealed_part.hpp"
@@ -46,9 +46,6 @@ TEST_CASE("a scan is of single precision if all of its finite coordinates are") 
   CHECK(surveyed(batch).precision() == Precision::kDouble);
   CHECK(SurveyTotals{.ids = (std::uint64_t{1} << 32) + 1}.precision() == Precision::kDouble);
 }
-
-}  // namespace
-namespace {
 
 // ---- A scan
 
@@ -99,9 +96,6 @@ TEST_CASE("a scan that is kept is read once, and each pass has the same points")
   check_kept(plane(40).with_unusable(20, 2).with_random_normals(3));
   check_kept({});
 }
-
-}  // namespace
-namespace {
 
 // ---- Parts: what is read of one is what was written, or there is no such part
 

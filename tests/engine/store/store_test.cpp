@@ -134,9 +134,6 @@ TEST_CASE("rows are numbered in ascending order, near together or far apart") {
   }
 }
 
-}  // namespace
-namespace {
-
 // ---- Lists that are appended to
 
 using test::heap_in_use;
@@ -224,9 +221,6 @@ TEST_CASE("every record arrives at its tile in the order in which it was added, 
   for (TileIndex to = 0; to < 3; ++to) CHECK(lists.read(to) == wanted[to]);
 }
 
-}  // namespace
-namespace {
-
 // ---- The memory limit as a ledger, and the pool of the lists
 
 TEST_CASE("the ledger refuses what is not left, and has it again after a lease") {
@@ -305,13 +299,7 @@ TEST_CASE("lists of one pool may be filled from several threads") {
   CHECK(sum == expected);
 }
 
-}  // namespace
-namespace {
-
 // ---- Sorting
-
-using test::heap_in_use;
-using test::Record;
 
 constexpr std::size_t kRun = (64 << 10) / sizeof(Record);  // within the least budget
 
@@ -367,9 +355,6 @@ TEST_CASE("a sort whose file was cut short is an error, before and while the run
     CHECK((visited > 0) == is_merging);
   }
 }
-
-}  // namespace
-namespace {
 
 // ---- Arrays in memory, or mapped from files
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The representatives of the cells of a lattice, their stores and levels, and runs of the method on them.
+#include "engine/thin/thin.hpp"
+
 #include "engine/level_steps.hpp"
 #include "engine/scan_steps.hpp"
 #include "engine/thin/choose_points.hpp"
 #include "engine/thin/lattice.hpp"
 #include "engine/thin/level.hpp"
 #include "engine/thin/store_chosen.hpp"
-#include "engine/thin/thin.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/test.hpp"
@@ -27,9 +28,6 @@ TEST_CASE("cells are counted from the origin, and those at 0 reach a quarter of 
   CHECK(lattice.place_of({-0.0, 0, 0}).hash == lattice.place_of({0, 0, 0}).hash);
   CHECK_FALSE(Lattice(1e-100).place_of({1e300, 0, 0}).cell.allFinite());
 }
-
-}  // namespace
-namespace {
 
 // ---- Representatives
 
@@ -103,9 +101,6 @@ TEST_CASE("a point that is too far away for the edge is an error that names it")
                       Contains("is too far away for a resolution of 1e-300: a larger one is needed"));
   }
 }
-
-}  // namespace
-namespace {
 
 // ---- Their stores
 
@@ -187,9 +182,6 @@ TEST_CASE("tiles and cells that have become small are put together, up to the si
   CHECK(tiling.cells.size() <= 8 * points / 40);
   CHECK(tiling.cells.size() < below.cells.size() / 2);
 }
-
-}  // namespace
-namespace {
 
 // ---- Levels
 
@@ -293,9 +285,6 @@ TEST_CASE(
   config.loops.method = LoopMethod::kPaper;
   CHECK_FALSE(has_levels(config));
 }
-
-}  // namespace
-namespace {
 
 // ---- Runs at a resolution, with ids and results of the whole input
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How sure a loop is: what its evidence adds, and how far it stands out of the gaps around it. Then which loops
-// stand, of drawn ones at several levels, and of scans.
+// How sure a loop is: what its evidence adds, and how far it stands out of the gaps around it. Then which
+// loops stand, of drawn ones at several levels, and of scans.
 #include "engine/track/track_loops.hpp"
 
 #include "engine/loops/confidence.hpp"
@@ -159,9 +159,6 @@ TEST_CASE("a hole is measured for prominence if that could make it probable") {
   CHECK_FALSE(could_be_probable(evidence));
 }
 
-}  // namespace
-namespace {
-
 // ---- Which loops stand
 
 struct DrawnLoop {
@@ -206,7 +203,6 @@ class Drawn {
     levels_.push_back(std::move(level));
   }
 
-  std::vector<NearLoops> near() const { return near_loops(levels_, job_.spill, job_.workers); }
   TrackedLoops track() { return track_loops(std::move(levels_), job_); }
 
  private:
@@ -217,31 +213,6 @@ class Drawn {
   std::vector<LevelLoops> levels_;
   std::uint64_t next_id_ = 0;
 };
-
-TEST_CASE("a circle at two levels is the same hole, one beside it is another") {
-  Drawn drawn;
-  drawn.add(0, {{{0, 0, 0}, 20}, {{100, 0, 0}, 20}});
-  drawn.add(2, {{{0.5, 0, 0}, 20.5}});
-  const std::vector<NearLoops> near = drawn.near();
-  REQUIRE(near.size() == 1);
-  CHECK(near[0].a == 0);
-  CHECK(near[0].b == 2);
-  CHECK(near[0].of_a == 1);
-  CHECK(near[0].of_b == 1);
-}
-
-TEST_CASE("of two loops that share an arc, the shares say how much of each is near the other") {
-  Drawn drawn;
-  drawn.add(0, {{{0, 0, 0}, 20}, {{0, 8, 0}, 12}});  // they touch at the top
-  const std::vector<NearLoops> near = drawn.near();
-  for (const NearLoops& pair : near) CHECK(pair.of_a < 0.5f);
-  Drawn apart;
-  apart.add(1, {{{0, 0, 0}, 20}});
-  apart.add(1.4, {});
-  apart.add(2, {});
-  apart.add(2.8, {{{0, 0, 0}, 20}});  // three levels up: not compared
-  CHECK(apart.near().empty());
-}
 
 TEST_CASE(
     "a hole is reported once, by its finest sure loop, and lasts to its last level, one of which it may "

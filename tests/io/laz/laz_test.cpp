@@ -313,20 +313,6 @@ TEST_CASE("points that are all the same, and the largest steps, are decompressed
   }
 }
 
-TEST_CASE("a chunk that is cut at any byte is an error", "[laz]") {
-  Random random(4);
-  for (const Case& c : kCases) {
-    INFO(name(c));
-    const Layout layout = layout_of(c);
-    LazBytes chunk = laz_chunk(layout, plausible_records(layout, 40, random));
-    while (!chunk.empty()) {
-      chunk.pop_back();
-      INFO("cut to " << chunk.size() << " bytes");
-      CHECK_THROWS_AS(decoded(layout, chunk, 40), Corrupt);
-    }
-  }
-}
-
 TEST_CASE("a chunk has the same points, however few of its bytes and points are decoded at a time", "[laz]") {
   Random random(7);
   constexpr std::size_t kPoints = 300;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moving scanners: files of places, their path, and what they have seen along it.
-#include "io/explain/stations/find_causes.hpp"
 #include "io/explain/stations/path_view.hpp"
+
+#include "io/explain/stations/find_causes.hpp"
 #include "io/explain/stations/station.hpp"
 #include "io/explain/stations/trajectory.hpp"
 #include "tests/io/io_support.hpp"
@@ -203,9 +204,6 @@ TEST_CASE("a scanner measures in directions that have many rays, not in those of
   CHECK_FALSE(swept.contains({1, 0, 0}));
   CHECK_FALSE(swept.contains({0, -1, 0}));
 }
-
-}  // namespace
-namespace {
 
 // ---- What was seen along a path
 
