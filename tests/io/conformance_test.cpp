@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What holds for every format: how it is known, that a broken file gives one error or all its points, and
-// that a wrong row names its line. The corners of a format are in its own test.
+// What holds for every format. It is known by its first bytes, a broken file gives one error or all its
+// points, and a wrong row names its line. The corners of a format are in its own test.
 #include "tests/io/broken_files.hpp"
 #include "tests/support/las_file.hpp"
 
@@ -14,7 +14,7 @@ struct Format {
   std::uint32_t seed;  // of the changes
   std::vector<WholeFile> (*files)();
   std::vector<WholeFile> (*more_files)();  // for the slow test
-  // Of text: what is before the rows, and what follows it in files that are refused.
+  // Text that is refused: what is before the rows, and each of them.
   std::string before = "";
   std::vector<Wrong> wrong_rows = {};
 };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What single passes take: a cloud on its way through the passes, as a tile sees it, and thinned plainly; and
-// loops that are drawn by a test.
+// What tests of single passes take: a cloud on its way through them, and loops that are drawn by a test.
 #pragma once
 
 #include "engine/boundary/boundary_method.hpp"

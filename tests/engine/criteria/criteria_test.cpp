@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Offsets gathered side by side; the criteria of batches, with the same bits from every instruction set and
-// every place in a batch; and the evaluation of points.
+// Offsets gathered side by side, the criteria of batches with the same bits from every instruction set, and
+// the evaluation of points.
 #include "engine/criteria/criteria.hpp"
 
 #include "engine/criteria/criteria_values.hpp"
@@ -215,7 +215,7 @@ struct Evaluated : Evaluation {
   std::array<double, 3> criteria;
 };
 
-// Of the first of distinct points, in one tile.
+// Evaluates the first of distinct points in one tile.
 Evaluated evaluate_first(const Cloud& cloud, const Config& config = {}) {
   TilePoints points{.owned = static_cast<LocalIndex>(cloud.size()), .positions = cloud.positions};
   for (std::size_t i = 0; i < cloud.size(); ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// By each instruction set: the candidates of a query in single precision, of which none is missed, and whose order
-// is ambiguous where rounding may decide it; and which neighbours are neighbours of each other.
+// Kernels by each instruction set. No candidate of a query is missed, and an order that rounding may decide
+// is ambiguous. Neighbours of each other are found.
 #include "engine/neighbours/candidate_list.hpp"
 #include "engine/neighbours/nearest_lists.hpp"
 #include "tests/support/clouds.hpp"
