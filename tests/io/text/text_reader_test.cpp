@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points as text: of any columns, PTX and OBJ.
+// Points as text: of any columns, and PTX.
 #include "tests/io/broken_files.hpp"
 
 namespace lacuna::test {
@@ -428,14 +428,14 @@ const std::string kUnturned = "1 0 0 0\n0 1 0 0\n0 0 1 0\n";
 
 TEST_CASE("a matrix of PTX is a pose, as in a list of files", "[io]") {
   const std::string rays = "the matrix by columns, ", odd = rays + "the matrix of a pose does not turn";
-  check_refused(
-      "a.ptx", {{ptx_block("0 0 0", "1 0 0 7\n0 1 0 8\n0 0 1 9\n0 0 0 1"),
-                 "line 10: of " + rays + "the last row of a pose is not 0 0 0 1"},
-                {ptx_block("0 0 0", "0 0 0 0\n0 0 0 0\n0 0 0 0\n7 8 9 1"), odd},
-                {ptx_block("0 0 0", "1 0 0 0\n0 1 0 0\n0 0 -1 0\n7 8 9 1"), odd},
-                {ptx_block("0 0 0", "2 0 0 0\n0 1 0 0\n0 0 1 0\n7 8 9 1"), odd},
-                {ptx_block("7 8 9", kUnturned + "7 8 9 1") + ptx_block("0 0 0", "1 0 0 7\n0 1 0 8\n0 0 1 9\n0 0 0 1"),
-                 "line 23: "}});
+  check_refused("a.ptx", {{ptx_block("0 0 0", "1 0 0 7\n0 1 0 8\n0 0 1 9\n0 0 0 1"),
+                           "line 10: of " + rays + "the last row of a pose is not 0 0 0 1"},
+                          {ptx_block("0 0 0", "0 0 0 0\n0 0 0 0\n0 0 0 0\n7 8 9 1"), odd},
+                          {ptx_block("0 0 0", "1 0 0 0\n0 1 0 0\n0 0 -1 0\n7 8 9 1"), odd},
+                          {ptx_block("0 0 0", "2 0 0 0\n0 1 0 0\n0 0 1 0\n7 8 9 1"), odd},
+                          {ptx_block("7 8 9", kUnturned + "7 8 9 1") +
+                               ptx_block("0 0 0", "1 0 0 7\n0 1 0 8\n0 0 1 9\n0 0 0 1"),
+                           "line 23: "}});
   const ScratchFolder folder;
   const std::string zeros = "0 0 0 0\n0 0 0 0\n0 0 0 0\n0 0 0 0\n";
   const std::string empty = "0\n0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n" + zeros;
@@ -450,7 +450,8 @@ TEST_CASE("PTX: a scanner position that is not the place of the matrix is found"
   };
   CHECK(other_places(ptx_block("7 8 9", kUnturned + "7 8 9.5 1")) == 0);  // rounded, to half a step
   CHECK(other_places(ptx_block("7 8 9", kUnturned + "7 8 11 1")) == 1);
-  CHECK(other_places(ptx_block("7 8 9", kUnturned + "7 8 9 1") + ptx_block("0 0 0", kUnturned + "7 8 9 1")) == 1);
+  CHECK(other_places(ptx_block("7 8 9", kUnturned + "7 8 9 1") + ptx_block("0 0 0", kUnturned + "7 8 9 1")) ==
+        1);
 }
 
 }  // namespace
@@ -462,101 +463,6 @@ std::vector<WholeFile> ptx_files() {
            .complete_from = 0},
           {.name = "colours.ptx",
            .bytes = "1\n2\n" + kStill + "1 2 3 0.5 255 0 300\n4 5 6 0.5 1 2 3\n0\n5\n" + kPose,
-           .complete_from = 0}};
-}
-
-namespace {
-
-// ---- OBJ
-
-const std::string kMesh =
-    "# by hand, from C:\\scans\\\nmtllib a.mtl\no thing\nv 1 2 3\nv 4 5 \\\n6\nvt 0 1\nvn 0 0 1\nv 7 8 9\n"
-    "vn 0 1 0\nvn 1 0 0\nusemtl grey\ns off\nf 1/1/1 2/1/2 \\\n 3/1/3\n";
-
-}  // namespace
-
-TEST_CASE("OBJ: vertices are rows, other lines are skipped", "[io]") {
-  const ScratchFolder folder;
-  const auto file = folder.write("a.txt", "\n# one\nmtllib a.mtl\ng\nv 1 2 3\n\tv  -4 5e0 6 \r\nf 1 2 1\n");
-  const Table table = read_table(file, 1);
-  CHECK(table.names == Names{"x", "y", "z"});
-  CHECK(table.rows == Rows{{1, 2, 3}, {-4, 5, 6}});
-  CHECK(open_scan(file, {})->format() == "OBJ");
-  CHECK(open_scan(file, {})->expected_rows() == 2u);
-  CHECK(open_scan(file, {})->layout().find("x")->type == Scalar::kFloat64);
-}
-
-TEST_CASE("OBJ: a weight is left out, and three more values are a colour", "[io]") {
-  const ScratchFolder folder;
-  CHECK(read_table(folder.write("a.obj", "v 1 2 3 1.0\nv 4 5 6\n")).rows == Rows{{1, 2, 3}, {4, 5, 6}});
-  const Table coloured = read_table(folder.write("a.obj", "v 1 2 3 0.5 0 1\nv 4 5 6 1 1 0.25"));
-  CHECK(coloured.names == Names{"x", "y", "z", "red", "green", "blue"});
-  CHECK(coloured.rows == Rows{{1, 2, 3, 0.5, 0, 1}, {4, 5, 6, 1, 1, 0.25}});
-}
-
-TEST_CASE("OBJ: a line goes on behind a backslash, but a comment does not", "[io]") {
-  const ScratchFolder folder;
-  CHECK(read_table(folder.write("a.obj", "v 1\\\n2 \\ \r\n3 \\\n\nf 1 \\\n v 4 5 6\n")).rows ==
-        Rows{{1, 2, 3}});
-  std::string endless = "v 1 2 3\nf";
-  for (int i = 0; i < 200'000; ++i) endless += " 1 1 1\\\n";
-  check_refused("a.obj", {{endless, "bytes allowed"}});
-}
-
-TEST_CASE("OBJ: normals are read if each is of the vertex with its number", "[io]") {
-  const ScratchFolder folder;
-  const Table table = read_table(folder.write("a.obj", kMesh), 2);
-  CHECK(table.names == Names{"x", "y", "z", "nx", "ny", "nz"});
-  CHECK(table.rows == Rows{{1, 2, 3, 0, 0, 1}, {4, 5, 6, 0, 1, 0}, {7, 8, 9, 1, 0, 0}});
-  const auto names = [&](const std::string& content) {
-    return read_table(folder.write("a.obj", content)).names.size();
-  };
-  const std::string two = "v 1 2 3\nv 4 5 6\nvn 0 0 1\n";
-  CHECK(names(two) == 3);
-  CHECK(names(two + "vn 0 1 0\n") == 6);
-  CHECK(names(two + "vn 0 1 0\nvn 1 0 0\n") == 3);
-  CHECK(names(two + "vn 0 1 0\nf 1 2 1\nf 1/9 2/9 1/9\n") == 6);
-  CHECK(names(two + "vn 0 1 0\nf 1//1 2//2 1//1\n") == 6);
-  CHECK(names(two + "vn 0 1 0\nf -2//-2 -1/4/-1 -2//1\n") == 6);
-  CHECK(names(two + "vn 0 1 0\nf 1//1 2//1 1//1\n") == 3);  // the normal of the face
-  CHECK(names(two + "vn 0 1 0\nf -2/1/-1 2//2 1//1\n") == 3);
-}
-
-TEST_CASE("OBJ: points as text are not taken for it, and it is not taken for points", "[io]") {
-  const ScratchFolder folder;
-  const auto format = [&](const std::string& content) {
-    return open_scan(folder.write("a", content), {})->format();
-  };
-  CHECK(format("1 2 3\n4 5 6\n") == "text");
-  CHECK(format("x y z v\n1 2 3 4\n") == "text");
-  CHECK(format("v x y z\n0 1 2 3\n") == "text");
-  CHECK(format("# v 1 2 3\n1 2 3\n") == "text");
-  CHECK(format("v 1 2 3") == "OBJ");
-  CHECK(format("#\n\n  v 1 2 3\n") == "OBJ");
-  // The first bytes end within a line.
-  for (std::size_t length = 4080; length < 4100; ++length) {
-    CHECK(format("v 1 2 3\n#" + std::string(length, '#') + "\nusemtl " + std::string(60, 'a') + "\n") ==
-          "OBJ");
-  }
-}
-
-TEST_CASE("OBJ: rows stay whole across buffers and batches", "[io]") {
-  const ScratchFolder folder;
-  constexpr int kRows = 60'000;
-  std::string content;
-  for (int i = 0; i < kRows; ++i)
-    content += "v " + std::to_string(i) + " 0.5 -1 # a vertex\nvt 0.123456 0.654321\n";
-  content += "unheard of\n";  // far from the first bytes
-  for (int i = 0; i < kRows; ++i) content += "vn 0 0 " + std::to_string(i) + "\n";
-  check_rows(folder.write("a.obj", content), kRows,
-             [](double i) { return std::vector<double>{i, 0.5, -1, 0, 0, i}; });
-}
-
-// Any beginning may be complete: nothing says how many vertices there are.
-std::vector<WholeFile> obj_files() {
-  return {{.name = "normals.obj", .bytes = kMesh, .complete_from = 0},
-          {.name = "colours.obj",
-           .bytes = "v 1 2 3 0.5 0 1\nv 4.5 -5e-1 6 1 1 0.25 # a vertex\nv 7 8 9 0 0 0\nf 1 2 -1\n",
            .complete_from = 0}};
 }
 
