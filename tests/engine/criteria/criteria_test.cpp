@@ -150,8 +150,6 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
          });
 }
 
-}  // namespace
-
 TEST_CASE("every instruction set evaluates the criteria with the same bits") {
   Random random(11);
   std::size_t different = 0;
@@ -205,8 +203,6 @@ TEST_CASE("gaps that differ by nearly nothing are those of the exact fallback") 
   }
   CHECK(different == 0);
 }
-
-namespace {
 
 // ---- Points
 

@@ -30,8 +30,6 @@ std::vector<std::pair<std::uint32_t, float>> listed(const CandidateList& list) {
   return found;
 }
 
-}  // namespace
-
 TEST_CASE("all points within a limit are listed, by every instruction set") {
   Random random(3);
   for (int round = 0; round < 60; ++round) {
@@ -173,8 +171,6 @@ TEST_CASE("long lists are ranked, too, and lists that are too long count as empt
   });
 }
 
-namespace {
-
 // ---- Neighbours of each other, against a look into every list
 
 using Lists = std::vector<std::vector<std::uint32_t>>;
@@ -228,8 +224,6 @@ Edges found_edges(const Lists& lists, std::size_t count, std::uint32_t run) {
   return edges;
 }
 
-}  // namespace
-
 TEST_CASE("edges to points whose lists do not hold their beginning are found, by every instruction set") {
   Random random(5);
   for (const std::size_t count : {1, 7, 15, 16, 17, 40}) {
@@ -249,4 +243,5 @@ TEST_CASE("two points that are each other's only neighbours have no one-sided ed
   by_each_instruction_set([] { CHECK(found_edges({{1}, {0}}, 1, 2).empty()); });
 }
 
+}  // namespace
 }  // namespace lacuna

@@ -65,8 +65,6 @@ void check_balls(BlockSearch& search, const PointTree& tree, LocalIndex first, L
   CHECK(wrong == 0);
 }
 
-}  // namespace
-
 TEST_CASE("exact ties on a lattice are decided by id, in blocks too") {
   for (const std::size_t k : {1, 6, 7, 15, 26}) check_all(points_of(lattice(7), true), k);
 }
@@ -144,8 +142,6 @@ TEST_CASE("the search in blocks agrees with a kd-tree on many points, within a r
   search.nearest(5, 9, 15, check_nearest);  // once more, after balls
   CHECK(wrong == 0);
 }
-
-namespace {
 
 // ---- In the store
 

@@ -36,23 +36,17 @@ ChosenPoints choose_all(TiledScan& scan, double edge, std::uint64_t represented_
                        scan.job.workers);
 }
 
-// Several tasks choose together.
-std::vector<std::size_t> chosen_ids(TiledScan& scan, double edge, std::size_t tasks = 1) {
+std::vector<std::size_t> chosen_ids(TiledScan& scan, double edge) {
   const Tiling& tiling = scan.store.tiling();
+  const ChosenPoints chosen = choose_all(scan, edge);
   std::vector<std::size_t> ids;
-  for (std::size_t task = 0; task < tasks; ++task) {
-    const std::size_t before = ids.size();
-    const ChosenPoints chosen =
-        choose_points(scan.store, tiling.tiles_in({task, tasks}), edge, 0, scan.job.spill, scan.job.workers);
-    for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
-      const std::vector<ScanPoint> points = scan.store.points(t);
-      for (LocalIndex p = 0; p < points.size(); ++p)
-        if (chosen.rows.contains(tiling.tiles[t].row(p))) ids.push_back(value(points[p].id));
-    }
-    CHECK(chosen.count == ids.size() - before);
-    CHECK_FALSE(chosen.represented);
+  for (TileIndex t = 0; t < tiling.tiles.size(); ++t) {
+    const std::vector<ScanPoint> points = scan.store.points(t);
+    for (LocalIndex p = 0; p < points.size(); ++p)
+      if (chosen.rows.contains(tiling.tiles[t].row(p))) ids.push_back(value(points[p].id));
   }
-  std::sort(ids.begin(), ids.end());
+  CHECK(chosen.count == ids.size());
+  CHECK_FALSE(chosen.represented);
   return ids;
 }
 

@@ -18,8 +18,6 @@ const std::string kNormals =
     ascii_ply("1 0.1 5 6 0 0.5\n", "property float nz\n" + kXyz + "property float nx\nproperty float ny\n");
 const std::string kEmpty = ascii_ply("");
 
-}  // namespace
-
 TEST_CASE("several files are one scan, in double, with ids over all rows", "[io]") {
   const ScratchFolder folder;
   const ScanFiles scan(
@@ -167,14 +165,10 @@ TEST_CASE("passes over some files count what one over all of them counts", "[io]
   CHECK(read_points(task).size() == 5);
 }
 
-namespace {
-
 // ---- Poses
 
 // A quarter turn around z, then a move.
 constexpr const char* kMatrix = "0 -1 0 10\n1 0 0 20\n0 0 1 30\n0 0 0 1\n";
-
-}  // namespace
 
 TEST_CASE("a pose is a matrix, its first three rows, or a translation and a quaternion") {
   const Pose matrix = parse_pose(kMatrix);
@@ -233,8 +227,6 @@ TEST_CASE("a pose moves positions, turns normals without scaling them, and keeps
   CHECK(rows.bytes[reader->layout().find("red")->offset] == std::byte{200});
 }
 
-namespace {
-
 // ---- Which points take part
 
 const std::string kRows =
@@ -272,8 +264,6 @@ Filtered read_rows(const InputConfig& config) {
   const ScratchFolder folder;
   return read_filtered({folder.write("a.csv", kRows)}, config);
 }
-
-}  // namespace
 
 TEST_CASE("without a filter every finite point takes part") {
   const Filtered all = read_rows({});
@@ -409,4 +399,5 @@ TEST_CASE("rays without return are at 0 0 0 and at the scanner that a PCD or a P
   CHECK(read_filtered({ply}, {.drop_origin = true}).kept == std::vector{2});
 }
 
+}  // namespace
 }  // namespace lacuna::test

@@ -264,8 +264,6 @@ class Drive {
   PathView view;
 };
 
-}  // namespace
-
 TEST_CASE("a moving scanner says why a place has no points") {
   Drive drive;
   measure(drive.view);
@@ -336,4 +334,5 @@ TEST_CASE("a path at other times than all points is an error that names both") {
                     Contains("path.txt") && Contains("7 to 7") && Contains("100 to 102"));
 }
 
+}  // namespace
 }  // namespace lacuna::io

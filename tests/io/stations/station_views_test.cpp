@@ -30,8 +30,6 @@ std::vector<Station> read(const ScratchFolder& folder, const std::string& text) 
   return read_stations(folder.write("stations.txt", text), kFiles, layouts());
 }
 
-}  // namespace
-
 TEST_CASE("a file of stations has names, places and what each has measured") {
   const ScratchFolder folder;
   const auto stations = read(folder,
@@ -108,8 +106,6 @@ TEST_CASE("a range image keeps the nearest range of each direction, and fills ga
   CHECK(other.cells()[middle + 3 + 3 * RangeImage::kEdge] == 0);  // 4.2 cells away
 }
 
-namespace {
-
 // ---- What stations have seen
 
 std::vector<StationSummary> stations_of(std::vector<ScanInput> inputs, const OutputConfig& config = {},
@@ -122,8 +118,6 @@ std::vector<StationSummary> stations_of(std::vector<ScanInput> inputs, const Out
   if (of_none) *of_none = views->points_of_none();
   return views->summaries();
 }
-
-}  // namespace
 
 TEST_CASE("scans of an E57 file with a pose are stations, with the rows of each") {
   const ScratchFolder folder;
@@ -278,8 +272,6 @@ TEST_CASE("stations that a scan names and a file does not count no more") {
   CHECK(stations[0].name == "stated");
 }
 
-namespace {
-
 // ---- What is up
 
 constexpr double kStep = 0.2;
@@ -337,8 +329,6 @@ Drawn room() {
   return scene;
 }
 
-}  // namespace
-
 TEST_CASE("what is up is found in all three axes and both senses, and z upwards is no finding") {
   const Drawn scene = yard();
   CHECK_FALSE(scene.with_up({0, 0, 1}));
@@ -381,8 +371,6 @@ TEST_CASE("walls with more points than the ground, and a corridor of walls alone
   CHECK_FALSE(Drawn().with_up({0, 0, 1}));
 }
 
-namespace {
-
 // ---- Where to stand next
 
 // Points 0.05 apart on a rectangle from `corner` along x or y, and up.
@@ -396,8 +384,6 @@ void add_wall(const Eigen::Vector3d& corner, const Eigen::Vector3d& along, doubl
 InnerSample on_floor(double x, double y, double area) {
   return {{x, y, 0}, {0, 0, 1}, area};
 }
-
-}  // namespace
 
 TEST_CASE("a ray is blocked by points between its ends, and not by those at its ends") {
   std::vector<Eigen::Vector3d> points;
@@ -491,4 +477,5 @@ TEST_CASE("eyes stand over the floor, neither on tables nor in walls") {
   }
 }
 
+}  // namespace
 }  // namespace lacuna::io

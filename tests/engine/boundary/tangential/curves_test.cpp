@@ -74,8 +74,6 @@ std::vector<std::uint64_t> ids(const std::vector<CurveStep>& curve) {
   return ids;
 }
 
-}  // namespace
-
 TEST_CASE("curves that touch in a point stay apart") {
   std::vector<Wedge> wedges = ring({3, 9, 4, 8, 1, 7});
   const std::vector<Wedge> other = ring({9, 10, 11});
@@ -254,4 +252,5 @@ TEST_CASE("a tile keeps its open chains with the components that they are of, an
   }
 }
 
+}  // namespace
 }  // namespace lacuna::tangential

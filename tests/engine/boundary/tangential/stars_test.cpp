@@ -107,8 +107,6 @@ StarRadii radii_among(const std::vector<float>& radii) {
   return smallest_radii(link, {.hole_radius = 0.8});
 }
 
-}  // namespace
-
 TEST_CASE("stars found side by side are those of the exact fallback, bit for bit") {
   Random random(21);
   std::size_t different = 0, vertices = 0;
@@ -190,4 +188,5 @@ TEST_CASE("the sampling radius depends on the circumradii alone, not on their or
   }
 }
 
+}  // namespace
 }  // namespace lacuna::tangential
