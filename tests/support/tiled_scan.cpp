@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/tiled_scan.hpp"
 
-#include "engine/bucket/z_curve.hpp"
 #include "engine/halo/eps_balls.hpp"
 #include "engine/halo/halo.hpp"
 #include "engine/loops/measure_loop.hpp"
 #include "engine/parts/level_form.hpp"
-#include "tests/support/point_tree.hpp"
-
-#include <cassert>
+#include "tests/support/detected.hpp"
 
 namespace lacuna {
 namespace {
