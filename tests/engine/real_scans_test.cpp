@@ -4,7 +4,6 @@
 #include "io/read/scan/scan_pass.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/golden.hpp"
-#include "tests/support/test.hpp"
 
 namespace lacuna {
 using namespace io;

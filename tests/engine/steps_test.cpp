@@ -7,9 +7,7 @@
 #include "engine/parts/kept_files.hpp"
 #include "engine/parts/parts.hpp"
 #include "engine/pipeline.hpp"
-#include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
-#include "tests/support/test.hpp"
 
 namespace lacuna {
 namespace {
@@ -183,15 +181,9 @@ TEST_CASE("a level that the scan does not have is nothing to do") {
   CHECK(run.bytes() == run.expected());
 }
 
-TEST_CASE("names of steps go forth and back, and others are none") {
+TEST_CASE("other names than those of steps are none") {
   SharedRun run;
-  for (const Step& step : run.planned(4)) {
-    const std::optional<Step> read = step_of_name(step.name(), run.config.run.workspace);
-    REQUIRE(read);
-    CHECK(read->level == step.level);
-    CHECK(read->rule == step.rule);
-    CHECK(read->tasks == step.tasks);
-  }
+  run.planned(4);
   for (const char* name : {"", "level", "level-", "level--1", "evaluate-0x", "evaluate-500", "tiles-0"})
     CHECK_FALSE(step_of_name(name, run.config.run.workspace));
   const ScratchFolder without_plan;

@@ -2,7 +2,6 @@
 // Points far from all others: the rule, against itself done plainly, and that no tiling changes the answer.
 #include "engine/bucket/strays.hpp"
 
-#include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/tiled_scan.hpp"
 

@@ -8,9 +8,7 @@
 #include "engine/model/distance_bound.hpp"
 #include "engine/run/error.hpp"
 #include "engine/survey/survey.hpp"
-#include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
-#include "tests/support/test.hpp"
 #include "tests/support/tiled_scan.hpp"
 
 namespace lacuna {

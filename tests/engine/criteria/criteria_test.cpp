@@ -8,7 +8,6 @@
 #include "engine/criteria/neighbour_batch.hpp"
 #include "engine/evaluate/evaluate.hpp"
 #include "engine/neighbours/neighbourhoods.hpp"
-#include "tests/support/clouds.hpp"
 #include "tests/support/instruction_sets.hpp"
 #include "tests/support/reference.hpp"
 #include "tests/support/tiled_scan.hpp"

@@ -2,7 +2,6 @@
 #include "engine/loops/measure_loops.hpp"
 
 #include "engine/loops/measure_loop.hpp"
-#include "tests/support/clouds.hpp"
 #include "tests/support/reference.hpp"
 #include "tests/support/tiled_scan.hpp"
 

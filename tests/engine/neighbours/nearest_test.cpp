@@ -4,9 +4,7 @@
 #include "engine/model/neighbourhoods.hpp"
 #include "engine/neighbours/block_search.hpp"
 #include "engine/neighbours/store_search.hpp"
-#include "tests/support/clouds.hpp"
 #include "tests/support/point_tree.hpp"
-#include "tests/support/test.hpp"
 #include "tests/support/tiled_scan.hpp"
 
 namespace lacuna {

@@ -6,7 +6,6 @@
 #include "engine/parts/kept_files.hpp"
 #include "engine/parts/parts.hpp"
 #include "engine/pipeline.hpp"
-#include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 
 namespace lacuna {

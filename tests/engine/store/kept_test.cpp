@@ -9,7 +9,6 @@
 #include "tests/io/io_support.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/system.hpp"
-#include "tests/support/test.hpp"
 
 #include <future>
 

@@ -10,7 +10,6 @@
 #include "engine/store/sorted_runs.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/system.hpp"
-#include "tests/support/test.hpp"
 
 #include <unistd.h>
 

@@ -8,9 +8,7 @@
 #include "engine/thin/lattice.hpp"
 #include "engine/thin/level.hpp"
 #include "engine/thin/store_chosen.hpp"
-#include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
-#include "tests/support/test.hpp"
 #include "tests/support/tiled_scan.hpp"
 
 namespace lacuna {

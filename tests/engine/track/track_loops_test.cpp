@@ -5,9 +5,7 @@
 
 #include "engine/loops/confidence.hpp"
 #include "engine/loops/rate_loops.hpp"
-#include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
-#include "tests/support/test.hpp"
 #include "tests/support/tiled_scan.hpp"
 
 namespace lacuna {

@@ -3,7 +3,6 @@
 #include "io/read/files/number.hpp"
 #include "io/read/formats.hpp"
 #include "tests/io/broken_files.hpp"
-#include "tests/support/drawn_files.hpp"
 
 namespace lacuna::test {
 namespace {

@@ -3,7 +3,6 @@
 
 #include "tests/io/io_support.hpp"
 #include "tests/support/system.hpp"
-#include "tests/support/test.hpp"
 
 #include <sys/mount.h>
 #include <sys/stat.h>

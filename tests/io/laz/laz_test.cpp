@@ -4,7 +4,6 @@
 #include "io/read/files/number.hpp"
 #include "tests/io/broken_files.hpp"
 #include "tests/support/las_file.hpp"
-#include "tests/support/test.hpp"
 
 namespace lacuna::test {
 namespace {

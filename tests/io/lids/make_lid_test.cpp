@@ -2,8 +2,6 @@
 #include "io/explain/lids/make_lid.hpp"
 
 #include "engine/model/loop.hpp"
-#include "tests/support/clouds.hpp"
-#include "tests/support/test.hpp"
 #include "tests/support/tiled_scan.hpp"
 
 namespace lacuna::test {

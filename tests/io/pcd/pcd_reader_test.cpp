@@ -3,7 +3,6 @@
 #include "io/read/pcd/lzf.hpp"
 #include "tests/io/broken_files.hpp"
 #include "tests/support/golden.hpp"
-#include "tests/support/test.hpp"
 
 namespace lacuna::test {
 namespace {

@@ -2,7 +2,6 @@
 #include "io/read/scan/plan_system.hpp"
 
 #include "io/read/scan/scan_pass.hpp"
-#include "tests/support/clouds.hpp"
 #include "tests/support/drawn_files.hpp"
 #include "tests/support/golden.hpp"
 

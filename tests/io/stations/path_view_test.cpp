@@ -6,7 +6,6 @@
 #include "io/explain/stations/station.hpp"
 #include "io/explain/stations/trajectory.hpp"
 #include "tests/io/io_support.hpp"
-#include "tests/support/test.hpp"
 
 namespace lacuna::io {
 

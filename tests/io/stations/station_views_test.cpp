@@ -7,8 +7,6 @@
 #include "io/explain/stations/station_views.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/support/clouds.hpp"
-#include "tests/support/drawn_files.hpp"
-#include "tests/support/test.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

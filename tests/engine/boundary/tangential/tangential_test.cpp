@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stars of a batch are those of the exact fallback, from every instruction set and with any others in the
-// batch. Sampling radii are those of the circumradii.
+// batch. Sampling radii are those of the circumradii. Curves are split where they pass a point again.
+#include "engine/boundary/tangential/curves.hpp"
 #include "engine/boundary/tangential/stars.hpp"
-
 #include "tests/support/clouds.hpp"
 #include "tests/support/instruction_sets.hpp"
-#include "tests/support/test.hpp"
 
 namespace lacuna::tangential {
 namespace {
+
+// ---- Stars
 
 using Link = std::vector<LinkVertex<LocalIndex>>;
 
@@ -186,6 +187,93 @@ TEST_CASE("the sampling radius depends on the circumradii alone, not on their or
     CHECK(at_once > exact);
     CHECK(at_once <= exact + bound / 64 * (1 + 1e-9));
   }
+}
+
+// ---- Curves
+
+std::vector<CurveStep> curve_of(const std::vector<std::uint64_t>& ids) {
+  std::vector<CurveStep> curve;
+  for (std::size_t i = 0; i < ids.size(); ++i) curve.push_back({PointId{ids[i]}, i});
+  return curve;
+}
+
+// The results in memory, and in mapped arrays of no budget.
+std::vector<CurveStep> normalised(const std::vector<CurveStep>& curve) {
+  const ScratchFolder folder;
+  Scratch scratch(folder.path(), 1 << 20);
+  std::vector<CurveStep> turned(curve.size());
+  normalise(curve, turned, scratch);
+  return turned;
+}
+
+std::vector<std::vector<CurveStep>> split(const std::vector<CurveStep>& curve,
+                                          std::uint64_t budget = 1 << 20) {
+  const ScratchFolder folder;
+  Scratch scratch(folder.path(), budget);
+  std::vector<std::vector<CurveStep>> curves;
+  const auto by_id = [](const CurveStep& step) {
+    return std::array{static_cast<double>(value(step.id)), 0., 0.};
+  };
+  split_at_pinches(curve, by_id, scratch, [&](std::span<const CurveStep> simple) {
+    curves.emplace_back(simple.begin(), simple.end());
+  });
+  return curves;
+}
+
+std::vector<std::uint64_t> ids(const std::vector<CurveStep>& curve) {
+  std::vector<std::uint64_t> ids;
+  for (const CurveStep& p : curve) ids.push_back(value(p.id));
+  return ids;
+}
+
+TEST_CASE("a curve is split where it passes a point again, into curves that pass each point once") {
+  const auto parts = [](const std::vector<std::uint64_t>& curve) {
+    std::vector<std::vector<std::uint64_t>> curves;
+    for (const auto& simple : split(curve_of(curve))) curves.push_back(ids(simple));
+    return curves;
+  };
+  using Curves = std::vector<std::vector<std::uint64_t>>;
+  CHECK(parts({1, 2, 3, 4}) == Curves{{1, 2, 3, 4}});
+  CHECK(parts({1, 2, 9, 8, 7, 2, 3}) == Curves{{2, 7, 8, 9}, {1, 2, 3}});
+  CHECK(parts({1, 5, 4, 1, 2, 3}) == Curves{{1, 2, 3}, {1, 4, 5}});
+  CHECK(parts({1, 6, 7, 8, 7, 6, 3}) == Curves{{7, 8}, {6, 7}, {1, 3, 6}});  // a spike, there and back
+  CHECK(parts({1, 5, 2, 1, 5, 3}) == Curves{{1, 2, 5}, {1, 3, 5}});
+  const auto both = split(curve_of({1, 2, 3, 2, 4}));
+  REQUIRE(both.size() == 2);
+  CHECK(both[1][1].wedge == 3);  // of the pass that stays on the curve
+}
+
+// Whatever the curve, its parts pass each point once and have all its points, the same in mapped arrays.
+void check_random_curves(std::uint64_t seed, int rounds, int longest) {
+  Random random(seed);
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<std::uint64_t> passed(std::size_t(random.whole(3, longest)));
+    const auto points = static_cast<std::int64_t>(passed.size()) / random.whole(1, 8) + 3;
+    for (auto& p : passed) p = static_cast<std::uint64_t>(random.whole(0, points));
+    const std::vector<CurveStep> curve = curve_of(passed);
+    const std::vector<std::vector<CurveStep>> parts = split(curve);
+    std::vector<std::uint64_t> all;
+    std::size_t wrong = 0;
+    for (const auto& part : parts) {
+      const std::vector<std::uint64_t> of_part = ids(part);
+      wrong += std::set(of_part.begin(), of_part.end()).size() != of_part.size();
+      wrong += of_part != ids(normalised(part));
+      all.insert(all.end(), of_part.begin(), of_part.end());
+    }
+    std::sort(all.begin(), all.end());
+    std::sort(passed.begin(), passed.end());
+    CHECK(wrong == 0);
+    CHECK(all == passed);
+    const std::vector<std::vector<CurveStep>> mapped = split(curve, 1);
+    const bool same = std::equal(parts.begin(), parts.end(), mapped.begin(), mapped.end(),
+                                 [](const auto& a, const auto& b) { return ids(a) == ids(b); });
+    CHECK(same);
+  }
+}
+
+TEST_CASE("random curves are split into simple ones, in memory and in mapped files") {
+  check_random_curves(11, 56, 200);
+  check_random_curves(12, 1, 30'000);
 }
 
 }  // namespace
