@@ -67,22 +67,6 @@ TEST_CASE("exact ties on a lattice are decided by id, in blocks too") {
   for (const std::size_t k : {1, 6, 7, 15, 26}) check_all(points_of(lattice(7), true), k);
 }
 
-// Runs of queries that extend far beyond what they search for: single precision is no use for them.
-TEST_CASE("blocks whose points lie in two places") {
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    Random random(seed);
-    const double apart = std::exp2(random.uniform(0, 8));
-    Points points;
-    for (int i = 0; i < 1900; ++i) {
-      const double x = random.uniform(0, 30), y = random.uniform(0, 30);
-      points.positions.push_back({i % 2 == 0 ? x : x + 30 * apart, y, 0.01 * random.uniform(0, 1)});
-      points.ids.push_back(PointId{static_cast<std::uint64_t>(i)});
-    }
-    INFO("seed " << seed);
-    check_all(points, 3 + seed);
-  }
-}
-
 // The first query looks no farther than its last neighbour, and as many points are as far in true distances
 // or rounded ones.
 TEST_CASE("neighbours that end where the search does") {
