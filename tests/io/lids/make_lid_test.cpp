@@ -4,14 +4,18 @@
 #include "engine/model/loop.hpp"
 #include "tests/support/tiled_scan.hpp"
 
-namespace lacuna::test {
+namespace lacuna {
+using namespace io;
+using namespace test;
+
+namespace {
 
 // ---- Loops drawn by hand, with the direction in which the surface around them lies
 
 using Line = std::vector<Eigen::Vector3d>;
 
 // A hole in the plane z = 0 around the polygon: the surface lies outside.
-inline Loop hole_in_plane(const Line& polygon) {
+Loop hole_in_plane(const Line& polygon) {
   const std::size_t n = polygon.size();
   double area = 0;
   for (std::size_t i = 0; i < n; ++i)
@@ -26,7 +30,7 @@ inline Loop hole_in_plane(const Line& polygon) {
 }
 
 // The corners, with so many points on each side.
-inline Line with_points(const Line& corners, int points) {
+Line with_points(const Line& corners, int points) {
   Line line;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Eigen::Vector3d along = corners[(i + 1) % corners.size()] - corners[i];
@@ -36,7 +40,7 @@ inline Line with_points(const Line& corners, int points) {
 }
 
 // The hole of a sphere of radius 1 without its cap of this half angle, seen from its middle.
-inline Loop hole_in_sphere(double half_angle, int points) {
+Loop hole_in_sphere(double half_angle, int points) {
   Loop loop;
   for (int i = 0; i < points; ++i) {
     const double turn = 2 * std::numbers::pi * i / points;
@@ -49,7 +53,7 @@ inline Loop hole_in_sphere(double half_angle, int points) {
 }
 
 // Moved by a rigid motion.
-inline Loop moved(Loop loop, const Eigen::Isometry3d& motion) {
+Loop moved(Loop loop, const Eigen::Isometry3d& motion) {
   for (LoopPoint& point : loop) {
     move_to(point, motion * point.position());
     surface_of(point) = motion.linear().cast<float>() * surface_of(point).eval();
@@ -58,15 +62,15 @@ inline Loop moved(Loop loop, const Eigen::Isometry3d& motion) {
 }
 
 // An L and a comb with three teeth: simple polygons that are not convex.
-inline Line shape_of_l() {
+Line shape_of_l() {
   return {{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};  // 6
 }
-inline Line comb() {
+Line comb() {
   return {{0, 0, 0}, {5, 0, 0}, {5, 4, 0}, {4, 4, 0}, {4, 1, 0}, {3, 1, 0},
           {3, 4, 0}, {2, 4, 0}, {2, 1, 0}, {1, 1, 0}, {1, 4, 0}, {0, 4, 0}};  // 14
 }
 // By the formula of Gauss.
-inline double plane_area(const Line& polygon) {
+double plane_area(const Line& polygon) {
   double twice = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Eigen::Vector3d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
@@ -79,10 +83,10 @@ inline double plane_area(const Line& polygon) {
 
 // A lid is a sphere without so many discs, one for the loop and each island. Each of its edges on one
 // triangle is between points of loops, and each such point has one that leaves it. All vertices are used.
-inline bool is_surface_on_loops(const io::LidMesh& mesh, std::size_t loops) {
+bool is_surface_on_loops(const LidMesh& mesh, std::size_t loops) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> directed;
   std::set<std::uint32_t> used;
-  for (const io::LidTriangle& triangle : mesh.triangles) {
+  for (const LidTriangle& triangle : mesh.triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
       used.insert(triangle[i]);
       if (!directed.insert({triangle[i], triangle[(i + 1) % 3]}).second) return false;
@@ -102,21 +106,11 @@ inline bool is_surface_on_loops(const io::LidMesh& mesh, std::size_t loops) {
          vertices + faces + loops == edges + 2;
 }
 
-inline bool is_disc_on_loop(const io::LidMesh& mesh) {
+bool is_disc_on_loop(const LidMesh& mesh) {
   return is_surface_on_loops(mesh, 1);
 }
 
-}  // namespace lacuna::test
-
-namespace lacuna {
-using namespace io;
-using test::hole_in_plane;
-using test::hole_in_sphere;
-using test::is_disc_on_loop;
-using test::Line;
-using test::with_points;
-
-namespace {
+// ---- Lids
 
 constexpr double kPi = std::numbers::pi;
 
@@ -129,9 +123,9 @@ Loop wavy_hole(int points) {
     turn += 2 * kPi / points * random.uniform(0.7, 1.3);
     const double r = 1 + 0.3 * std::sin(3 * turn + 1) + 0.02 * random.uniform();
     const Eigen::Vector3d surface(std::cos(turn), std::sin(turn), 0.4 * std::sin(turn));
-    loop.push_back(test::loop_point(static_cast<std::uint64_t>(i),
-                                    {r * std::cos(turn), r * std::sin(turn), 0.3 * std::sin(2 * turn)},
-                                    surface.cast<float>()));
+    loop.push_back(loop_point(static_cast<std::uint64_t>(i),
+                              {r * std::cos(turn), r * std::sin(turn), 0.3 * std::sin(2 * turn)},
+                              surface.cast<float>()));
   }
   return loop;
 }
@@ -145,8 +139,6 @@ Lid made(const Loop& loop) {
   return lid;
 }
 
-}  // namespace
-
 TEST_CASE("the lid of a plane polygon lies in its plane and has exactly its area, convex or not") {
   Line star;
   for (int i = 0; i < 120; ++i) {
@@ -154,10 +146,10 @@ TEST_CASE("the lid of a plane polygon lies in its plane and has exactly its area
     star.emplace_back(r * std::cos(turn), r * std::sin(turn), 0);
   }
   for (const Line& polygon :
-       {with_points({{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {0, 1, 0}}, 11), with_points(test::shape_of_l(), 9),
-        with_points(test::comb(), 7), with_points(test::comb(), 60), star}) {
+       {with_points({{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {0, 1, 0}}, 11), with_points(shape_of_l(), 9),
+        with_points(comb(), 7), with_points(comb(), 60), star}) {
     const Lid lid = made(hole_in_plane(polygon));
-    CHECK(lid.area == Approx(test::plane_area(polygon)).epsilon(1e-11));
+    CHECK(lid.area == Approx(plane_area(polygon)).epsilon(1e-11));
     double off = 0, turned = 0;
     for (const Eigen::Vector3d& vertex : lid.mesh.vertices) off = std::max(off, std::abs(vertex.z()));
     for (const LidTriangle& triangle : lid.mesh.triangles)
@@ -182,10 +174,10 @@ TEST_CASE("a turn, a place as of UTM and another first point do not change the a
   const Loop loop = wavy_hole(158);
   const double area = made(loop).area;
   const Eigen::AngleAxisd turn(1.1, Eigen::Vector3d(1, 2, 3).normalized());
-  CHECK(made(test::moved(loop, Eigen::Isometry3d(turn))).area == Approx(area).epsilon(1e-8));
+  CHECK(made(moved(loop, Eigen::Isometry3d(turn))).area == Approx(area).epsilon(1e-8));
   // There, coordinates are rounded to 1e-9.
   const Eigen::Isometry3d to_utm(Eigen::Translation3d(500'000.3, 5'400'000.7, 312.9));
-  CHECK(made(test::moved(loop, to_utm)).area == Approx(area).epsilon(1e-7));
+  CHECK(made(moved(loop, to_utm)).area == Approx(area).epsilon(1e-7));
   Loop rotated = loop;
   std::rotate(rotated.begin(), rotated.begin() + 41, rotated.end());
   CHECK(made(rotated).area == Approx(area).epsilon(1e-11));
@@ -208,7 +200,7 @@ TEST_CASE(
       INFO(on_side << " points on a side");
       REQUIRE(lid.left_out == "");
       CHECK(lid.area == Approx(400 - 16 - 36 - 4).epsilon(1e-9));
-      CHECK(test::is_surface_on_loops(lid.mesh, 4));
+      CHECK(is_surface_on_loops(lid.mesh, 4));
       std::size_t at = hole.size();
       for (const Loop& island : islands)
         for (const LoopPoint& point : island) CHECK(lid.mesh.vertices[at++] == point.position());
@@ -247,7 +239,7 @@ TEST_CASE("islands that touch each other and their hole have a lid that is a sur
     const Lid lid = make_lid(square_at(0, 0, 1), islands);
     INFO("seed " << seed);
     CHECK(lid.mesh.triangles.empty() == !lid.left_out.empty());
-    if (lid.left_out.empty()) CHECK(test::is_surface_on_loops(lid.mesh, 5));
+    if (lid.left_out.empty()) CHECK(is_surface_on_loops(lid.mesh, 5));
   }
 }
 
@@ -270,18 +262,13 @@ TEST_CASE("any loop has a lid that is a disc") {
       const double turn = 2 * kPi * static_cast<double>(i) / static_cast<double>(n);
       Eigen::Vector3d at(std::cos(turn), std::sin(turn), 0);
       at += flatness * Eigen::Vector3d(random.normal(), random.normal(), random.normal()) / 2;
-      loop.push_back(test::loop_point(static_cast<std::uint64_t>(i), (at * steps).array().round() / steps,
-                                      random.direction().cast<float>()));
+      loop.push_back(loop_point(static_cast<std::uint64_t>(i), (at * steps).array().round() / steps,
+                                random.direction().cast<float>()));
     }
     INFO("seed " << seed << ", " << n << " points");
     CHECK(std::isfinite(made(loop).area));
   }
 }
-
-using namespace io;
-using test::Line;
-
-namespace {
 
 Line random_polygon(int points, std::uint64_t seed) {
   Random random(seed);
@@ -304,24 +291,23 @@ double least_area(const Line& polygon) {
   return least;
 }
 
-}  // namespace
-
 TEST_CASE("of all triangulations of a polygon in space, that of least area is found") {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const Line polygon = random_polygon(3 + static_cast<int>(seed % 7), seed);
     const LidMesh mesh = triangulate_polygon(polygon);
     CHECK(area(mesh) == Approx(least_area(polygon)).epsilon(1e-13));
-    CHECK(test::is_disc_on_loop(mesh));
+    CHECK(is_disc_on_loop(mesh));
   }
 }
 
 TEST_CASE("a long polygon is triangulated in parts, without a new vertex and near the least area") {
-  const Line polygon = test::with_points(test::comb(), 100);
+  const Line polygon = with_points(comb(), 100);
   REQUIRE(polygon.size() == 1200);
   const LidMesh mesh = triangulate_polygon(polygon);
   CHECK(mesh.triangles.size() == 1198);
-  CHECK(test::is_disc_on_loop(mesh));
+  CHECK(is_disc_on_loop(mesh));
   CHECK(area(mesh) == Approx(14).epsilon(1e-12));
 }
 
+}  // namespace
 }  // namespace lacuna

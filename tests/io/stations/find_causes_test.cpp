@@ -12,16 +12,6 @@
 
 namespace lacuna::test {
 
-// Shares of the area, as in LoopCause; all 0 where a station samples all places. A place takes part where a
-// shape has a surface within 5 cm.
-std::array<double, io::kCauses> true_shares(std::span<const io::InnerSample> places,
-                                            const synth::Scanner& scanner);
-
-// The area of places on surfaces that the last station of the scanner samples.
-double area_seen_by_last(std::span<const io::InnerSample> places, const synth::Scanner& scanner);
-
-bool is_on_surface(const io::InnerSample& place, const synth::Scanner& scanner);
-
 namespace {
 
 using namespace synth;
@@ -74,12 +64,11 @@ int rank_of(io::Cause cause) {
   return cause == io::Cause::kOpening ? 0 : cause == io::Cause::kNoReturn ? 1 : 2;
 }
 
-}  // namespace
-
 bool is_on_surface(const io::InnerSample& place, const Scanner& scanner) {
   return on_surface(scanner.scene(), place).has_value();
 }
 
+// The area of places on surfaces that the last station of the scanner samples.
 double area_seen_by_last(std::span<const io::InnerSample> places, const Scanner& scanner) {
   const Visibility last = Visibility(scanner).only(static_cast<std::uint32_t>(scanner.stations().size() - 1));
   double area = 0;
@@ -90,6 +79,8 @@ double area_seen_by_last(std::span<const io::InnerSample> places, const Scanner&
   return area;
 }
 
+// Shares of the area, as in LoopCause; all 0 where a station samples all places. A place takes part where a
+// shape has a surface within 5 cm.
 std::array<double, io::kCauses> true_shares(std::span<const io::InnerSample> places, const Scanner& scanner) {
   std::array<double, io::kCauses> shares{};
   double all = 0;
@@ -124,6 +115,7 @@ std::array<double, io::kCauses> true_shares(std::span<const io::InnerSample> pla
   return shares;
 }
 
+}  // namespace
 }  // namespace lacuna::test
 
 namespace lacuna::io {
