@@ -210,11 +210,6 @@ void check_links(const Cloud& cloud, const Config& config, const std::set<PointI
   CHECK(expected.empty() == (scan.store.tiling().tiles.size() < 2));
 }
 
-void check_links(const Cloud& cloud, const Config& config) {
-  const std::vector<PointId> ids = distinct_ids(cloud);
-  check_links(cloud, config, {ids.begin(), ids.end()});
-}
-
 // From so far above, all of the plane is within the bound of the outlier's cell. Its neighbours are searched
 // one cell after the other. Those next to the centre come four at a distance.
 TEST_CASE("an outlier that has tens of thousands of points within its reach finds its nearest ones") {
