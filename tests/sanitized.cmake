@@ -7,7 +7,7 @@ set(kept)
 foreach(source ${TEST_SOURCES})
   cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE name)
   # Tests that run the program, or make scans with the benchmark. The tree of the plain methods is a header alone.
-  file(STRINGS ${source} others REGEX "#include \"(tests/support/run_program|tests/io/stations/true_causes|bench/|tools/)" LIMIT_COUNT 1)
+  file(STRINGS ${source} others REGEX "#include \"(tests/support/run_program|bench/|tools/)" LIMIT_COUNT 1)
   if((NOT others OR name STREQUAL "support/point_tree.cpp") AND name MATCHES "^(main|support/|(${LACUNA_TESTED})/|io/[a-z_]+[.]cpp)")
     list(APPEND kept ${source})
   endif()

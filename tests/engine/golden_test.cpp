@@ -5,7 +5,7 @@
 
 #include "io/read/scan/scan_pass.hpp"
 #include "tests/support/detected.hpp"
-#include "tests/support/skip.hpp"
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 namespace {

@@ -2,9 +2,7 @@
 // The library's few functions against each other, and against the program.
 #include "engine/lacuna.hpp"
 
-#include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
-#include "tests/support/memory_scan.hpp"
 #include "tests/support/run_program.hpp"
 
 #include <system_error>

@@ -3,7 +3,7 @@
 // limit. Slow: minutes.
 #include "io/read/scan/scan_pass.hpp"
 #include "tests/support/detected.hpp"
-#include "tests/support/skip.hpp"
+#include "tests/support/test.hpp"
 
 namespace lacuna {
 using namespace io;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/io/broken_files.hpp"
 
-#include "tests/support/draws.hpp"
-
 #include <sys/resource.h>
 
 namespace lacuna::test {

@@ -2,7 +2,7 @@
 // Every reader on broken files: cut at every length, and changed at random.
 //
 // A broken file gives one clear `Error`, or a right answer. A reader of any format is covered by one list of
-// small files, and two test cases that hand it to the functions below.
+// small files, which conformance_test.cpp hands to the functions below.
 #pragma once
 
 #include "tests/io/io_support.hpp"
@@ -34,6 +34,16 @@ struct WholeFile {
   std::uint64_t megabytes = 64;  // of memory for reading it, however broken it is
   Reading read = read_scan;
 };
+
+// Small files of each format: in its own test. `some_las_files` are a few of `all_las_files`, LAZ among them.
+std::vector<WholeFile> ply_files();
+std::vector<WholeFile> pcd_files();
+std::vector<WholeFile> obj_files();
+std::vector<WholeFile> ptx_files();
+std::vector<WholeFile> text_files();
+std::vector<WholeFile> some_las_files();
+std::vector<WholeFile> all_las_files();
+std::vector<WholeFile> e57_files();
 
 // Every length of each file, and 300 changed files in all. A failure names the seed and the number of the
 // change, and mutated() gives that file again. After a crash it is left in the folder for temporary files.

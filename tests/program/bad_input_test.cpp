@@ -5,8 +5,8 @@
 #include "tests/support/drawn_files.hpp"
 #include "tests/support/json.hpp"
 #include "tests/support/run_program.hpp"
-#include "tests/support/skip.hpp"
 #include "tests/support/system.hpp"
+#include "tests/support/test.hpp"
 
 #include <sys/stat.h>
 #include <unistd.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Memory is bounded by the setting, as the operating system measures it.
 #include "engine/config/config.hpp"
+#include "tests/support/clouds.hpp"
 #include "tests/support/drawn_files.hpp"
-#include "tests/support/hostile.hpp"
 #include "tests/support/json.hpp"
 #include "tests/support/las_file.hpp"
 #include "tests/support/run_program.hpp"

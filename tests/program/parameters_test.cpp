@@ -5,11 +5,11 @@
 #include "io/read/rows/columns.hpp"
 #include "io/read/scan/scan_pass.hpp"
 #include "tests/support/clouds.hpp"
-#include "tests/support/draws.hpp"
+#include "tests/support/detected.hpp"
 #include "tests/support/json.hpp"
 #include "tests/support/las_file.hpp"
-#include "tests/support/memory_scan.hpp"
 #include "tests/support/run_program.hpp"
+#include "tests/support/test.hpp"
 
 #include <regex>
 

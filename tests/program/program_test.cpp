@@ -4,7 +4,6 @@
 #include "tests/support/json.hpp"
 #include "tests/support/las_file.hpp"
 #include "tests/support/run_program.hpp"
-#include "tests/support/sheet.hpp"
 
 namespace lacuna::test {
 namespace {

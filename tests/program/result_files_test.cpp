@@ -5,7 +5,7 @@
 #include "tests/io/io_support.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/json.hpp"
-#include "tests/support/memory_scan.hpp"
+#include "tests/support/detected.hpp"
 #include "tests/support/run_program.hpp"
 
 namespace lacuna::test {

@@ -4,8 +4,7 @@
 #include "tests/support/drawn_files.hpp"
 #include "tests/support/json.hpp"
 #include "tests/support/run_program.hpp"
-#include "tests/support/sheet.hpp"
-#include "tests/support/skip.hpp"
+#include "tests/support/test.hpp"
 
 #include <fcntl.h>
 #include <sys/mount.h>

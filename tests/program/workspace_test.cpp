@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs that go on from a workspace: after a signal, with other inputs, and shared by plan, work and finish.
 // The folders that commands make and lock.
-#include "tests/support/draws.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/run_program.hpp"
-#include "tests/support/sheet.hpp"
 #include "tests/support/system.hpp"
 #include "tools/run/run_program.hpp"
 
@@ -47,6 +46,20 @@ TEST_CASE("a signal says how to go on, and what is done stays") {
   CHECK_THAT(run_program({"status", run.workspace.string()}).out,
              Contains("level 0: ") && Contains(" tiles evaluated, ") && Contains(" left") &&
                  Contains("scan.txt, ") && Contains(" bytes, written 20") && !Contains(" ns"));
+}
+
+TEST_CASE("a killed run leaves no file but marks, and no folder of results") {
+  const Run run;
+  const ProgramResult result = run_program_beside(run.arguments(run.folder / "out", {}), [](pid_t program) {
+    if (has_open(program, "points")) kill(program, SIGKILL);
+  });
+  REQUIRE(result.exit_code == 128 + SIGKILL);
+  CHECK_FALSE(fs::exists(run.folder / "out"));
+  std::size_t folders = 0, files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(temporary_of(run.folder / "out")))
+    ++(entry.is_directory() ? folders : files);
+  CHECK(folders == 2);  // for results and for temporary files
+  CHECK(files == 2);    // the marks of these
 }
 
 TEST_CASE("another run at the same time is refused, and with another input, what differs is made again") {

@@ -58,4 +58,19 @@ void check_same_results(const fs::path& folder, const fs::path& expected);
 // The text of an element of a report's page that is a script.
 std::string element(const std::string& page, const std::string& id);
 
+// A flat, uneven sheet of n by n points with a square hole in its middle.
+inline std::string sheet(int n) {
+  std::ostringstream out;
+  out << "x y z\n";
+  const int from = n / 2 - n / 8;
+  const int to = n / 2 + n / 8;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const bool in_hole = from <= i && i < to && from <= j && j < to;
+      if (!in_hole) out << i + 0.1 * ((i * 7 + j * 3) % 5) << ' ' << j + 0.1 * ((i + j * 5) % 7) << " 0\n";
+    }
+  }
+  return out.str();
+}
+
 }  // namespace lacuna::test

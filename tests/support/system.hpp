@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The system around a test: processes, the files that they have open, limits, and a disk that is soon full.
+// The system around a test: processes, the files that they have open, the heap, limits, and a disk that is
+// soon full.
 #pragma once
 
 #include "tests/support/test.hpp"
 
+#include <compare>
 #include <functional>
 #include <string>
 
+#include <malloc.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/types.h>
@@ -78,5 +81,15 @@ class SmallDisk {
   fs::path at_;
   bool mounted_;
 };
+
+struct Record {
+  std::uint64_t key, payload;
+  friend auto operator<=>(const Record&, const Record&) = default;
+};
+
+// Bytes of the heap in use.
+inline std::size_t heap_in_use() {
+  return ::mallinfo2().uordblks + ::mallinfo2().hblkhd;
+}
 
 }  // namespace lacuna::test

@@ -2,8 +2,9 @@
 #include "tests/support/tiled_scan.hpp"
 
 #include "engine/halo/halo.hpp"
+#include "engine/loops/measure_loops.hpp"
 #include "engine/parts/level_form.hpp"
-#include "tests/support/memory_scan.hpp"
+#include "tests/support/detected.hpp"
 
 namespace lacuna {
 namespace {
@@ -67,4 +68,45 @@ LocalIndex TiledScan::local(Row row) const {
   return static_cast<LocalIndex>(value(row) - value(store.tiling().tiles[tile_of(row)].first_row));
 }
 
+std::vector<PointId> distinct_ids(const Cloud& cloud) {
+  std::map<std::array<double, 3>, PointId> first_at;
+  std::vector<PointId> ids;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3d& p = cloud.positions[i];
+    if (p.allFinite() && first_at.try_emplace({p.x(), p.y(), p.z()}, PointId{i}).second)
+      ids.push_back(PointId{i});
+  }
+  return ids;
+}
+
 }  // namespace lacuna
+
+namespace lacuna::test {
+
+DrawnLoop square(double half, LoopKind kind, const Eigen::Vector3d& centre, int on_side) {
+  DrawnLoop loop{.points = {}, .kind = kind};
+  const std::vector<Eigen::Vector3d> corners = {
+      {-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (int k = 0; k < on_side; ++k)
+      loop.points.push_back(centre + corners[i] + (corners[(i + 1) % 4] - corners[i]) * k / on_side);
+  }
+  return loop;
+}
+
+MeasuredLoops measured(std::span<const DrawnLoop> drawn, const std::filesystem::path& folder) {
+  MeasuredLoops loops;
+  Loops& level = loops.loops.levels.emplace_back(folder / "loops");
+  std::uint64_t id = 0;
+  for (const DrawnLoop& loop : drawn) {
+    Loop points;
+    for (const Eigen::Vector3d& at : loop.points) points.push_back(loop_point(id++, at));
+    level.add(points.size(), {}, [&](std::uint64_t i) { return points[i]; });
+    loops.loops.chosen.push_back({0, static_cast<std::uint32_t>(loops.measures.size())});
+    loops.measures.push_back(measure_loop(points, 1));
+    loops.measures.back().kind = loop.kind;
+  }
+  return loops;
+}
+
+}  // namespace lacuna::test

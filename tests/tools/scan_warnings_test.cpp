@@ -4,10 +4,9 @@
 #include "io/explain/stations/cause.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/io/results/fake_detection.hpp"
+#include "tests/support/detected.hpp"
 #include "tests/support/drawn_files.hpp"
-#include "tests/support/e57_encoder.hpp"
 #include "tests/support/las_file.hpp"
-#include "tests/support/memory_scan.hpp"
 
 namespace lacuna::test {
 using namespace tools;

@@ -2,7 +2,6 @@
 // Points far from all others: the rule, against itself done plainly, and that no tiling changes the answer.
 #include "engine/bucket/strays.hpp"
 
-#include "tests/support/clouds.hpp"
 #include "tests/support/detected.hpp"
 #include "tests/support/tiled_scan.hpp"
 
@@ -55,8 +54,6 @@ Strays found_plainly(const Cloud& cloud) {
   return strays;
 }
 
-}  // namespace
-
 TEST_CASE("returns at 0 0 0 in a scan of map coordinates are one stray, and the rest has its own bounds") {
   const Cloud scan = plane(40).translated(kUtm);
   const Cloud returns = cloud_of(std::vector<Eigen::Vector3d>(500, Eigen::Vector3d::Zero()));
@@ -100,4 +97,5 @@ TEST_CASE("a stray changes the mean distance of neighbours, and hardly the media
   CHECK(with_stray.mean_edge_length > 10 * clean.mean_edge_length);
 }
 
+}  // namespace
 }  // namespace lacuna

@@ -3,7 +3,7 @@
 #include "io/explain/area/plan_raster.hpp"
 
 #include "io/explain/area/empty_places.hpp"
-#include "tests/support/draws.hpp"
+#include "tests/support/test.hpp"
 
 namespace lacuna::io {
 namespace {

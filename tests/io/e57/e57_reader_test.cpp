@@ -3,7 +3,6 @@
 #include "io/read/files/number.hpp"
 #include "io/read/formats.hpp"
 #include "tests/io/broken_files.hpp"
-#include "tests/support/e57_encoder.hpp"
 
 namespace lacuna::test {
 namespace {
@@ -480,7 +479,9 @@ void read_mended(const fs::path& file, std::size_t max_rows, std::uint64_t most_
   read_scan(file, max_rows, most_points, visit);
 }
 
-std::vector<WholeFile> whole_files() {
+}  // namespace
+
+std::vector<WholeFile> e57_files() {
   WholeFile stated{.name = "E57", .bytes = small_file(), .points_in_a_byte = 1};
   WholeFile mended = stated;
   mended.name = "E57 with checksums that hold";
@@ -488,13 +489,4 @@ std::vector<WholeFile> whole_files() {
   return {stated, mended};
 }
 
-TEST_CASE("E57: a broken file gives one error or whole points", "[e57]") {
-  check_broken_files(whole_files(), 10);
-}
-
-TEST_CASE("E57: many broken files give one error or whole points", "[e57][.slow]") {
-  check_many_broken_files(whole_files(), 10);
-}
-
-}  // namespace
 }  // namespace lacuna::test

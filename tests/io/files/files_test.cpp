@@ -4,7 +4,6 @@
 #include "io/read/files/output_file.hpp"
 #include "io/read/ply/ply.hpp"
 #include "tests/io/io_support.hpp"
-#include "tests/support/skip.hpp"
 #include "tests/support/system.hpp"
 
 #include <sys/mount.h>

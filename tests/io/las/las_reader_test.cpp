@@ -403,5 +403,4 @@ TEST_CASE("what is wrong with a LAS file is said with its place", "[io]") {
 }
 
 }  // namespace
-
 }  // namespace lacuna::test

@@ -4,7 +4,6 @@
 #include "io/read/files/number.hpp"
 #include "tests/io/broken_files.hpp"
 #include "tests/support/las_file.hpp"
-#include "tests/support/skip.hpp"
 
 namespace lacuna::test {
 namespace {
@@ -310,20 +309,6 @@ TEST_CASE("points that are all the same, and the largest steps, are decompressed
       }
     }
     CHECK((decoded(layout, laz_chunk(layout, records), 300) == records));
-  }
-}
-
-TEST_CASE("a chunk that is cut at any byte is an error", "[laz]") {
-  Random random(4);
-  for (const Case& c : kCases) {
-    INFO(name(c));
-    const Layout layout = layout_of(c);
-    LazBytes chunk = laz_chunk(layout, plausible_records(layout, 40, random));
-    while (!chunk.empty()) {
-      chunk.pop_back();
-      INFO("cut to " << chunk.size() << " bytes");
-      CHECK_THROWS_AS(decoded(layout, chunk, 40), Corrupt);
-    }
   }
 }
 

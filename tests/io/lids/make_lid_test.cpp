@@ -1,21 +1,116 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/explain/lids/make_lid.hpp"
 
-#include "tests/io/lids/drawn_loops.hpp"
-#include "tests/io/lids/watertight.hpp"
-#include "tests/support/clouds.hpp"
-#include "tests/support/draws.hpp"
-#include "tests/support/loop_points.hpp"
+#include "engine/model/loop.hpp"
+#include "tests/support/tiled_scan.hpp"
 
 namespace lacuna {
 using namespace io;
-using test::hole_in_plane;
-using test::hole_in_sphere;
-using test::is_disc_on_loop;
-using test::Line;
-using test::with_points;
+using namespace test;
 
 namespace {
+
+// ---- Loops drawn by hand, with the direction in which the surface around them lies
+
+using Line = std::vector<Eigen::Vector3d>;
+
+// A hole in the plane z = 0 around the polygon: the surface lies outside.
+Loop hole_in_plane(const Line& polygon) {
+  const std::size_t n = polygon.size();
+  double area = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    area += polygon[i].x() * polygon[(i + 1) % n].y() - polygon[i].y() * polygon[(i + 1) % n].x();
+  Loop loop;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector3d along = polygon[(i + 1) % n] - polygon[(i + n - 1) % n];
+    const Eigen::Vector3d out(along.y(), -along.x(), 0);
+    loop.push_back(loop_point(i, polygon[i], ((area > 0 ? 1.0 : -1.0) * out).cast<float>()));
+  }
+  return loop;
+}
+
+// The corners, with so many points on each side.
+Line with_points(const Line& corners, int points) {
+  Line line;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector3d along = corners[(i + 1) % corners.size()] - corners[i];
+    for (int k = 0; k < points; ++k) line.push_back(corners[i] + along * k / points);
+  }
+  return line;
+}
+
+// The hole of a sphere of radius 1 without its cap of this half angle, seen from its middle.
+Loop hole_in_sphere(double half_angle, int points) {
+  Loop loop;
+  for (int i = 0; i < points; ++i) {
+    const double turn = 2 * std::numbers::pi * i / points;
+    const Eigen::Vector3d out(std::cos(turn), std::sin(turn), 0), up(0, 0, 1);
+    loop.push_back(loop_point(static_cast<std::uint64_t>(i),
+                              std::sin(half_angle) * out + std::cos(half_angle) * up,
+                              (std::cos(half_angle) * out - std::sin(half_angle) * up).cast<float>()));
+  }
+  return loop;
+}
+
+// Moved by a rigid motion.
+Loop moved(Loop loop, const Eigen::Isometry3d& motion) {
+  for (LoopPoint& point : loop) {
+    move_to(point, motion * point.position());
+    surface_of(point) = motion.linear().cast<float>() * surface_of(point).eval();
+  }
+  return loop;
+}
+
+// An L and a comb with three teeth: simple polygons that are not convex.
+Line shape_of_l() {
+  return {{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};  // 6
+}
+Line comb() {
+  return {{0, 0, 0}, {5, 0, 0}, {5, 4, 0}, {4, 4, 0}, {4, 1, 0}, {3, 1, 0},
+          {3, 4, 0}, {2, 4, 0}, {2, 1, 0}, {1, 1, 0}, {1, 4, 0}, {0, 4, 0}};  // 14
+}
+// By the formula of Gauss.
+double plane_area(const Line& polygon) {
+  double twice = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector3d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    twice += a.x() * b.y() - b.x() * a.y();
+  }
+  return std::abs(twice) / 2;
+}
+
+// ---- Whether the triangles of a lid are a surface on its loops
+
+// A lid is a sphere without so many discs, one for the loop and each island. Each of its edges on one
+// triangle is between points of loops, and each such point has one that leaves it. All vertices are used.
+bool is_surface_on_loops(const LidMesh& mesh, std::size_t loops) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> directed;
+  std::set<std::uint32_t> used;
+  for (const LidTriangle& triangle : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      used.insert(triangle[i]);
+      if (!directed.insert({triangle[i], triangle[(i + 1) % 3]}).second) return false;
+    }
+  }
+  std::set<std::uint32_t> left;
+  std::size_t edges = 0;
+  for (const auto& [a, b] : directed) {
+    const bool is_of_loop = directed.count({b, a}) == 0;
+    if (is_of_loop && !left.insert(a).second) return false;
+    // Points of one loop are in its order.
+    if (is_of_loop && loops == 1 && b != (a + 1) % mesh.vertices.size()) return false;
+    if (is_of_loop || a < b) ++edges;
+  }
+  const std::size_t vertices = mesh.vertices.size(), faces = mesh.triangles.size();
+  return left.size() == mesh.vertices.size() && used.size() == vertices && *used.rbegin() + 1 == vertices &&
+         vertices + faces + loops == edges + 2;
+}
+
+bool is_disc_on_loop(const LidMesh& mesh) {
+  return is_surface_on_loops(mesh, 1);
+}
+
+// ---- Lids
 
 constexpr double kPi = std::numbers::pi;
 
@@ -28,9 +123,9 @@ Loop wavy_hole(int points) {
     turn += 2 * kPi / points * random.uniform(0.7, 1.3);
     const double r = 1 + 0.3 * std::sin(3 * turn + 1) + 0.02 * random.uniform();
     const Eigen::Vector3d surface(std::cos(turn), std::sin(turn), 0.4 * std::sin(turn));
-    loop.push_back(test::loop_point(static_cast<std::uint64_t>(i),
-                                    {r * std::cos(turn), r * std::sin(turn), 0.3 * std::sin(2 * turn)},
-                                    surface.cast<float>()));
+    loop.push_back(loop_point(static_cast<std::uint64_t>(i),
+                              {r * std::cos(turn), r * std::sin(turn), 0.3 * std::sin(2 * turn)},
+                              surface.cast<float>()));
   }
   return loop;
 }
@@ -44,8 +139,6 @@ Lid made(const Loop& loop) {
   return lid;
 }
 
-}  // namespace
-
 TEST_CASE("the lid of a plane polygon lies in its plane and has exactly its area, convex or not") {
   Line star;
   for (int i = 0; i < 120; ++i) {
@@ -53,10 +146,10 @@ TEST_CASE("the lid of a plane polygon lies in its plane and has exactly its area
     star.emplace_back(r * std::cos(turn), r * std::sin(turn), 0);
   }
   for (const Line& polygon :
-       {with_points({{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {0, 1, 0}}, 11), with_points(test::shape_of_l(), 9),
-        with_points(test::comb(), 7), with_points(test::comb(), 60), star}) {
+       {with_points({{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {0, 1, 0}}, 11), with_points(shape_of_l(), 9),
+        with_points(comb(), 7), with_points(comb(), 60), star}) {
     const Lid lid = made(hole_in_plane(polygon));
-    CHECK(lid.area == Approx(test::plane_area(polygon)).epsilon(1e-11));
+    CHECK(lid.area == Approx(plane_area(polygon)).epsilon(1e-11));
     double off = 0, turned = 0;
     for (const Eigen::Vector3d& vertex : lid.mesh.vertices) off = std::max(off, std::abs(vertex.z()));
     for (const LidTriangle& triangle : lid.mesh.triangles)
@@ -81,10 +174,10 @@ TEST_CASE("a turn, a place as of UTM and another first point do not change the a
   const Loop loop = wavy_hole(158);
   const double area = made(loop).area;
   const Eigen::AngleAxisd turn(1.1, Eigen::Vector3d(1, 2, 3).normalized());
-  CHECK(made(test::moved(loop, Eigen::Isometry3d(turn))).area == Approx(area).epsilon(1e-8));
+  CHECK(made(moved(loop, Eigen::Isometry3d(turn))).area == Approx(area).epsilon(1e-8));
   // There, coordinates are rounded to 1e-9.
   const Eigen::Isometry3d to_utm(Eigen::Translation3d(500'000.3, 5'400'000.7, 312.9));
-  CHECK(made(test::moved(loop, to_utm)).area == Approx(area).epsilon(1e-7));
+  CHECK(made(moved(loop, to_utm)).area == Approx(area).epsilon(1e-7));
   Loop rotated = loop;
   std::rotate(rotated.begin(), rotated.begin() + 41, rotated.end());
   CHECK(made(rotated).area == Approx(area).epsilon(1e-11));
@@ -107,7 +200,7 @@ TEST_CASE(
       INFO(on_side << " points on a side");
       REQUIRE(lid.left_out == "");
       CHECK(lid.area == Approx(400 - 16 - 36 - 4).epsilon(1e-9));
-      CHECK(test::is_surface_on_loops(lid.mesh, 4));
+      CHECK(is_surface_on_loops(lid.mesh, 4));
       std::size_t at = hole.size();
       for (const Loop& island : islands)
         for (const LoopPoint& point : island) CHECK(lid.mesh.vertices[at++] == point.position());
@@ -146,7 +239,7 @@ TEST_CASE("islands that touch each other and their hole have a lid that is a sur
     const Lid lid = make_lid(square_at(0, 0, 1), islands);
     INFO("seed " << seed);
     CHECK(lid.mesh.triangles.empty() == !lid.left_out.empty());
-    if (lid.left_out.empty()) CHECK(test::is_surface_on_loops(lid.mesh, 5));
+    if (lid.left_out.empty()) CHECK(is_surface_on_loops(lid.mesh, 5));
   }
 }
 
@@ -169,12 +262,52 @@ TEST_CASE("any loop has a lid that is a disc") {
       const double turn = 2 * kPi * static_cast<double>(i) / static_cast<double>(n);
       Eigen::Vector3d at(std::cos(turn), std::sin(turn), 0);
       at += flatness * Eigen::Vector3d(random.normal(), random.normal(), random.normal()) / 2;
-      loop.push_back(test::loop_point(static_cast<std::uint64_t>(i), (at * steps).array().round() / steps,
-                                      random.direction().cast<float>()));
+      loop.push_back(loop_point(static_cast<std::uint64_t>(i), (at * steps).array().round() / steps,
+                                random.direction().cast<float>()));
     }
     INFO("seed " << seed << ", " << n << " points");
     CHECK(std::isfinite(made(loop).area));
   }
 }
 
+Line random_polygon(int points, std::uint64_t seed) {
+  Random random(seed);
+  Line polygon;
+  for (int i = 0; i < points; ++i) polygon.emplace_back(random.uniform(), random.uniform(), random.uniform());
+  return polygon;
+}
+
+// Tries all triangulations: every apex on the first edge, and what it leaves on both sides.
+double least_area(const Line& polygon) {
+  if (polygon.size() < 3) return 0;
+  double least = std::numeric_limits<double>::infinity();
+  const Eigen::Vector3d &first = polygon.front(), &last = polygon.back();
+  for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+    const double at_edge = (polygon[k] - first).cross(last - first).norm() / 2;
+    const auto apex = polygon.begin() + static_cast<std::ptrdiff_t>(k);
+    least = std::min(least,
+                     at_edge + least_area({polygon.begin(), apex + 1}) + least_area({apex, polygon.end()}));
+  }
+  return least;
+}
+
+TEST_CASE("of all triangulations of a polygon in space, that of least area is found") {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const Line polygon = random_polygon(3 + static_cast<int>(seed % 7), seed);
+    const LidMesh mesh = triangulate_polygon(polygon);
+    CHECK(area(mesh) == Approx(least_area(polygon)).epsilon(1e-13));
+    CHECK(is_disc_on_loop(mesh));
+  }
+}
+
+TEST_CASE("a long polygon is triangulated in parts, without a new vertex and near the least area") {
+  const Line polygon = with_points(comb(), 100);
+  REQUIRE(polygon.size() == 1200);
+  const LidMesh mesh = triangulate_polygon(polygon);
+  CHECK(mesh.triangles.size() == 1198);
+  CHECK(is_disc_on_loop(mesh));
+  CHECK(area(mesh) == Approx(14).epsilon(1e-12));
+}
+
+}  // namespace
 }  // namespace lacuna

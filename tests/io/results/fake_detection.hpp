@@ -4,7 +4,7 @@
 
 #include "io/explain/stations/cause.hpp"
 #include "io/write/results/results.hpp"
-#include "tests/support/loop_points.hpp"
+#include "tests/support/tiled_scan.hpp"
 
 namespace lacuna::test {
 

@@ -3,7 +3,6 @@
 
 #include "io/explain/stations/find_causes.hpp"
 #include "tests/support/drawn_files.hpp"
-#include "tests/support/e57_encoder.hpp"
 #include "tests/support/test.hpp"
 
 #include <spdlog/fmt/fmt.h>
