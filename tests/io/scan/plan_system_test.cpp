@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/read/scan/scan_files.hpp"
 #include "io/read/scan/scan_pass.hpp"
+#include "tests/support/clouds.hpp"
 #include "tests/support/drawn_files.hpp"
-#include "tests/support/test.hpp"
 
 namespace lacuna::test {
 namespace {
