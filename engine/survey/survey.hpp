@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // survey: counts points per cell while the scan streams by, and so finds where they are.
+//
+// Idea: the first points say how fine cells may be. A hash table counts the points of each cell; where it is
+// full, cells double their edge and merge. So it is as fine as memory allows, whatever the density. Cost: a
+// look-up for each point. Source: Lacuna's own.
 #pragma once
 
 #include "engine/config/job.hpp"

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which loops of two results of one place are of the same hole, such as before and after a scan was
 // completed. It says, too, why one result alone has the others.
+//
+// Idea: curves that run along each other are of one hole. Over a loop without such a curve, the sample of the
+// other scan says whether surface has come or gone. Source: Lacuna's own. Cost: a search of the nearest for
+// each vertex, and for 64 places of each loop.
 #pragma once
 
 #include "engine/model/loop.hpp"
