@@ -65,7 +65,7 @@ std::string print_tally(const Tally& tally) {
 constexpr std::size_t kMostRows = 40;
 constexpr const char* kUnit = "";  // files of true loops have none
 
-// True loops that are counted together: those of a kind, or all where kinds are not known.
+// True loops that are counted together: each kind by itself, or all where kinds are not known.
 struct Group {
   std::optional<LoopKind> kind;
   const char *one, *several;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commands that compare loops with the truth: `evaluate` those of one scan, `score` those of a folder.
+// The commands that compare loops with the truth: `evaluate` for one scan, `score` for a folder.
 #include "bench/evaluation/evaluation.hpp"
 #include "bench/program/commands.hpp"
 #include "engine/run/error.hpp"

@@ -37,8 +37,8 @@ struct Totals {
   double median_distance() const { return distances.median(); }
   // Returns the area of the surface: the sum of the areas that its points stand for. A disc of 3/2 the mean
   // distance holds the neighbours of a point, and the point. As measured for k from 8 to 50, it holds 1.5
-  // more. Neighbours of a point at a boundary fill half of it. Points whose neighbours are `far` count for nothing.
-  // The area is within 3 % on even samplings.
+  // more. Neighbours of a point at a boundary fill half of it. Points whose neighbours are `far` count for
+  // nothing. The area is within 3 % on even samplings.
   double surface_area(double far) const;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// orient: orients the normals over all tiles consistently, by a minimum spanning tree of G. The result is exact.
-// Source: Hoppe et al. 1992.
+// orient: orients the normals over all tiles consistently, by a minimum spanning tree of G. The result is
+// exact. Source: Hoppe et al. 1992.
 #pragma once
 
 #include "engine/evaluate/evaluated_tile.hpp"

@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // survey: counts points per cell while the scan streams by, and so finds where they are.
-//
-// Idea: the first points say how fine cells may be. A hash table counts the points of each cell; where it is
-// full, cells double their edge and merge. So it is as fine as memory allows, whatever the density. Cost: a
-// look-up for each point. Source: Lacuna's own.
 #pragma once
 
 #include "engine/config/job.hpp"
@@ -60,7 +56,7 @@ struct CellCounts {
 // overflow.
 CellCounts count_cells(const PointBatch& batch, const CellGrid& grid);
 
-// Counts in a hash table. The first batch sets a fine cell size. Where the table is full, the size grows if
+// Idea: counts in a hash table. The first batch sets a fine cell size. Where the table is full, the size grows if
 // that merges many cells. Else the cells go to the disk, and the table begins anew: cells of outliers merge
 // at no size that suits the other points. At the end all cells are sorted along a Z curve, so that those of
 // any larger size follow each other. Then the size doubles until a cell holds about `kPointsPerCell` points

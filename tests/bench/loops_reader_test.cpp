@@ -262,7 +262,7 @@ Ids add_disc(Drawing& drawing, std::vector<Triangle>& triangles, std::uint64_t n
   return rim;
 }
 
-// 5 x 5 squares of points a unit apart, without some of them. Ids are those of plane(6), though the mesh has
+// 5 x 5 squares of points a unit apart, without some of them. Ids count as in plane(6), though the mesh has
 // the points in the order of `ids`.
 std::vector<TrueLoop> sheet_without(const std::vector<std::array<std::uint64_t, 2>>& missing,
                                     const Ids& ids) {

@@ -29,7 +29,7 @@ std::optional<double> metres_of_unit(std::string_view unit);
 
 // Whether the text is "EPSG:25832", "ESRI:102100", or a horizontal and a vertical one, "EPSG:25832+7837".
 bool is_code(std::string_view text);
-// Whether the code is that of a zone of UTM, without heights. Such zones are in metres, and need no PROJ.
+// Whether the code names a zone of UTM, without heights. Such zones are in metres, and need no PROJ.
 bool is_utm_code(std::string_view crs);
 // Returns the name within well-known text, such as "NAD83 / UTM zone 10N"; a code stays as it is.
 std::string name_of_crs(const std::string& crs);
