@@ -186,22 +186,14 @@ const kVoidRows = 10;
 
 // The map has the area as a sheet, the squares of the table as lines, and voids by whether they count.
 function area_map({polygons, voids, tiles, tile_edge}) {
-  const places = polygons.flatMap(({outline}) => outline.flat());
-  const low = [0, 1].map((k) => Math.min(...places.map((place) => place[k])));
-  const high = [0, 1].map((k) => Math.max(...places.map((place) => place[k])));
-  const scale = kMapWidth / Math.max(high[0] - low[0], high[1] - low[1]);
-  const size = [0, 1].map((k) => (high[k] - low[k]) * scale);
-  const digits = (value) => String(Math.round(10 * value) / 10);
-  const path = (rings) => rings.map((ring) => ring.map(
-      ([x, y], i) => `${i === 0 ? "M" : "L"}${digits((x - low[0]) * scale)} ${digits((high[1] - y) * scale)}`).join("") + "Z").join("");
-  const shape = (rings, style, title) => drawing("path", {d: path(rings), class: style, "fill-rule": "evenodd"},
+  const to = map_scale(polygons, kMapWidth);
+  const shape = (rings, style, title) => drawing("path", {d: to.path(rings), class: style, "fill-rule": "evenodd"},
                                                  ...(title ? [drawing("title", {}, title)] : []));
-  const square = ([x, y]) => [[[x, y], [x + tile_edge, y], [x + tile_edge, y + tile_edge], [x, y + tile_edge]]];
-  return drawing("svg", {class: "area-map", viewBox: `-2 -2 ${digits(size[0] + 4)} ${digits(size[1] + 4)}`, role: "img",
+  return drawing("svg", {class: "area-map", viewBox: `-2 -2 ${(to.size[0] + 4).toFixed(1)} ${(to.size[1] + 4).toFixed(1)}`, role: "img",
                          "aria-label": "Map of the area and its voids"},
                  ...polygons.map(({outline, answer}) => shape(outline, "sheet", answer)),
                  ...voids.map((each) => shape(each.outline, each.counts ? "counts" : "excepted", `void ${each.id}, ${each.kind}`)),
-                 ...tiles.map(({corner}) => shape(square(corner), "tile")));
+                 ...tiles.map(({corner}) => shape(map_square(corner, tile_edge), "tile")));
 }
 
 function area_basis({basis, not_shown}) {

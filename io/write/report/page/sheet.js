@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sheet of `lacuna check --report`, by which a survey is accepted or not. It has the answer, the rule and its source, and a
 // map of density and voids. Then come the largest voids, the basis, and what the check does not show. The reader fills in the
-// fields for project, client and dates. Its data are those of voids.json.
+// fields for project, client and dates. It shows what voids.json has.
 
 const kRowsOfVoids = 8;
 const kSheetWidth = 600;  // of the map, in pixels; the style stretches it
@@ -30,30 +30,6 @@ function sheet_units(unit) {
   return {length: (value) => of(value, ""), area: (value) => of(value, "²")};
 }
 
-// Draws in pixels, y up. Corners nearer than a third of a pixel to the one before are left out.
-function sheet_scale(polygons) {
-  const low = [Infinity, Infinity], high = [-Infinity, -Infinity];
-  for (const corner of polygons.flatMap(({outline}) => outline.flat())) {
-    for (const k of [0, 1]) {
-      low[k] = Math.min(low[k], corner[k]);
-      high[k] = Math.max(high[k], corner[k]);
-    }
-  }
-  const extent = Math.max(high[0] - low[0], high[1] - low[1]);
-  const scale = extent > 0 ? kSheetWidth / extent : 1;
-  const place = ([x, y]) => [(x - low[0]) * scale, (high[1] - y) * scale];
-  const ring_text = (ring) => {
-    let last = null, text = "";
-    for (const at of ring.map(place)) {
-      if (last && Math.hypot(at[0] - last[0], at[1] - last[1]) < 1 / 3) continue;
-      text += `${last ? "L" : "M"}${at[0].toFixed(1)} ${at[1].toFixed(1)}`;
-      last = at;
-    }
-    return `${text}Z`;
-  };
-  return {extent, scale, place, size: [0, 1].map((k) => (high[k] - low[k]) * scale), path: (rings) => rings.map(ring_text).join("")};
-}
-
 // Points over the part of a square that lies in the area, voids and all: a sliver with points is not the densest place.
 function tile_density({points, area}) {
   return area > 0 ? points / area : 0;
@@ -73,15 +49,14 @@ function scale_bar({extent, scale, size}, units) {
 
 function sheet_map({polygons, voids, tiles, tile_edge, unit}, units) {
   if (polygons.length === 0) return [];
-  const to = sheet_scale(polygons), most = darkest_density(tiles);
+  const to = map_scale(polygons, kSheetWidth), most = darkest_density(tiles);
   const shape = (rings, style, more = {}) => drawing("path", {class: style, "fill-rule": "evenodd", d: to.path(rings), ...more});
-  const square = ([x, y]) => [[[x, y], [x + tile_edge, y], [x + tile_edge, y + tile_edge], [x, y + tile_edge]]];
   const drawn = tiles.filter((tile) => tile_density(tile) > 0);
   const map = drawing("svg", {class: "area-map", role: "img", "aria-label": "Map of the density and of the voids",
                               viewBox: `-4 -4 ${(to.size[0] + 8).toFixed(1)} ${(to.size[1] + 26).toFixed(1)}`},
     drawing("clipPath", {id: "within"}, ...polygons.map(({outline}) => shape(outline, "within", {"clip-rule": "evenodd"}))),
     ...polygons.map(({outline}) => shape(outline, "sheet")),
-    drawing("g", {"clip-path": "url(#within)"}, ...drawn.map((tile) => shape(square(tile.corner), "tile", {
+    drawing("g", {"clip-path": "url(#within)"}, ...drawn.map((tile) => shape(map_square(tile.corner, tile_edge), "tile", {
       "fill-opacity": (Math.min(1, tile_density(tile) / most) * 0.75).toFixed(2)}))),
     ...voids.map(({outline, counts}) => shape(outline, counts ? "counts" : "excepted")),
     ...voids.slice(0, kRowsOfVoids).map(({id, middle}) => {
