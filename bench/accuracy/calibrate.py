@@ -171,26 +171,30 @@ def octaves_within(ratio, least, most):
     return octaves(min(max(ratio, least), most))
 
 
+def evidence(name, change=lambda value: value):
+    return lambda loop: change(loop["evidence"][name])
+
+
+def within(name, least, most):
+    return evidence(name, lambda value: octaves_within(value, least, most))
+
+
 # As `log_odds` in engine/loops/confidence.cpp has them.
-TERMS = {"surface": lambda loop: loop["evidence"]["surface"],
-         "width": lambda loop: octaves_within(loop["evidence"]["width"], 0.5, 5),
-         "compactness": lambda loop: octaves_within(loop["evidence"]["compactness"], 1 / 16, 1),
-         "persistence": lambda loop: min(loop["evidence"]["persistence"], 2.0),
-         "sampling_gap": lambda loop: octaves_within(loop["evidence"]["sampling_gap"], 0.25, 1),
-         "1": lambda loop: 1.0,
-         "prominence": lambda loop: octaves_within(loop["prominence"], 1, 32)}
-
-
-def names_of(kind):
-    return [name for name in TERMS if kind == "hole" or name != "prominence"]
+OF_BOTH = {"surface": evidence("surface"), "width": within("width", 0.5, 5),
+           "persistence": evidence("persistence", lambda value: min(value, 2.0)),
+           "sampling_gap": within("sampling_gap", 0.25, 1), "1": lambda loop: 1.0}
+TERMS = {"hole": {**OF_BOTH, "compactness": within("compactness", 1 / 16, 1),
+                  "prominence": lambda loop: octaves_within(loop["prominence"], 1, 32)},
+         "outer": {**OF_BOTH, "goes_on": evidence("goes_on"), "layers": evidence("layers"), "volume": evidence("volume"),
+                   "alike": evidence("alike", lambda count: octaves_within(1 + count, 1, 256))}}
 
 
 def formula(kind, coefficients):
-    return " ".join(f"{coefficient:+.2f} {name}" for coefficient, name in zip(coefficients, names_of(kind)))
+    return " ".join(f"{coefficient:+.2f} {name}" for coefficient, name in zip(coefficients, TERMS[kind]))
 
 
 def rated(group, loop, verdict):
-    return Loop(group, verdict, loop["kind"], loop["confidence"], tuple(TERMS[name](loop) for name in names_of(loop["kind"])))
+    return Loop(group, verdict, loop["kind"], loop["confidence"], tuple(term(loop) for term in TERMS[loop["kind"]].values()))
 
 
 def standing_loops(arguments, case):
@@ -204,7 +208,7 @@ def rated_loops(arguments, name):
     """The loops that stand on a real scan and were rated by eye."""
     arguments.results = None  # Lacuna runs
     reported, marked = eye.reported_loops(arguments, name, ["--min-confidence", 0])
-    return [rated(RATED, loop, marked[place][0]) for loop, place in reported if place is not None]
+    return [rated(RATED, loop, marked[place][0][0]) for loop, place in reported if place is not None]
 
 
 def of_all(arguments, cases, loops_of):

@@ -30,40 +30,61 @@ def present_scans(folder):
     return [name for name in names if (folder / f"{name}.ply").exists()], len(names)
 
 
+def written(file, loops):
+    file.write_text("".join(" ".join(map(str, ids)) + "\n" for ids in loops), encoding="utf-8")
+    return file
+
+
+def matched(arguments, result, scan, truth):
+    """For each loop of the result the place of the true loop that it runs along, or None."""
+    return [match["true_loop"] if match["verdict"] in ("found", "repeated") else None
+            for match in evaluated(arguments, result, scan, truth, 1)["loop_matches"]]
+
+
 def reported_loops(arguments, name, options):
     """The loops of `lacuna detect`, each with the place of the rated loop that it matches, or None; and the rated
-    loops."""
+    loops, each with whether a reported one runs along it."""
     rated = rated_loops(RATED / f"{name}.eye.txt")
     folder = arguments.work / "out" / "real" / name
     folder.parent.mkdir(parents=True, exist_ok=True)
-    truth = folder.with_suffix(".loops.txt")
-    truth.write_text("".join(" ".join(ids) + "\n" for _, _, ids in rated), encoding="utf-8")
     scan = arguments.scans / f"{name}.ply"
-    result = arguments.results / f"{name}.txt" if arguments.results else folder
-    if not arguments.results:
-        loops = detected(arguments, scan, folder, ["--threads", 1, "--sample-points", 0, "--unit", "m", *options])
-    places = [match["true_loop"] if match["verdict"] in ("found", "repeated") else None
-              for match in evaluated(arguments, result, scan, truth, 1)["loop_matches"]]
+    truth = written(folder.with_suffix(".loops.txt"), (ids for *_, ids in rated))
     if arguments.results:  # a list has neither kinds nor confidences: a loop is of the kind that it matches
+        result = arguments.results / f"{name}.txt"
+        places = matched(arguments, result, scan, truth)
         loops = [{"kind": "hole" if place is None else rated[place][1], "confidence": 0} for place in places]
-    return list(zip(loops, places, strict=True)), rated
+    else:
+        loops = detected(arguments, scan, folder, ["--threads", 1, "--sample-points", 0, "--unit", "m", *options])
+        result = written(folder.with_suffix(".reported.txt"), (loop["ids"] for loop in loops))
+        places = matched(arguments, result, scan, truth)
+    is_found = [place is not None for place in matched(arguments, truth, scan, result)]
+    return list(zip(loops, places, strict=True)), list(zip(rated, is_found, strict=True))
+
+
+def right_and_wrong(kind, counts, *sure):
+    return (sum(counts[kind, mark, *sure] for mark in marks) for marks in (RIGHT, WRONG))
 
 
 def count(arguments, name):
     """Counts of one scan. (kind, mark): reported loops, None where none was rated, and with "sure" those of 0.9 and more.
-    (kind, "rated") and (kind, "found"): right ones."""
+    (kind, "rated") and (kind, "found"): right ones. (kind, "scans"), (kind, "shares"): 1 and the share of right ones, where
+    loops are right or wrong."""
     reported, rated = reported_loops(arguments, name, arguments.detect_options)
     counts = collections.Counter()
     for loop, place in reported:
-        mark = None if place is None else rated[place][0]
+        mark = None if place is None else rated[place][0][0]
         counts[loop["kind"], mark] += 1
         if loop["confidence"] >= SURE:
             counts[loop["kind"], mark, "sure"] += 1
-    found = {place for _, place in reported}
-    for place, (mark, kind, _) in enumerate(rated):
+    for (mark, kind, _), is_found in rated:
         if mark == RIGHT:
             counts[kind, "rated"] += 1
-            counts[kind, "found"] += place in found
+            counts[kind, "found"] += is_found
+    for kind in KINDS:
+        right, wrong = right_and_wrong(kind, counts)
+        if right + wrong:
+            counts[kind, "scans"] = 1
+            counts[kind, "shares"] = right / (right + wrong)
     return counts
 
 
@@ -72,9 +93,10 @@ def share(part, whole):
 
 
 def row(title, kind, counts):
-    right, partly, wrong = (sum(counts[kind, mark] for mark in marks) for marks in (RIGHT, PARTLY, WRONG))
-    sure, sure_wrong = (sum(counts[kind, mark, "sure"] for mark in marks) for marks in (RIGHT, WRONG))
-    return (f"| {title} | {kind} | {right} | {partly} | {wrong} | {share(right, right + wrong)} "
+    right, wrong = right_and_wrong(kind, counts)
+    sure, sure_wrong = right_and_wrong(kind, counts, "sure")
+    return (f"| {title} | {kind} | {right} | {counts[kind, PARTLY]} | {wrong} | {share(right, right + wrong)} "
+            f"| {share(counts[kind, 'shares'], counts[kind, 'scans'])} of {counts[kind, 'scans']} "
             f"| {share(sure, sure + sure_wrong)} | {counts[kind, None]} "
             f"| {share(counts[kind, 'found'], counts[kind, 'rated'])} of {counts[kind, 'rated']} |")
 
@@ -104,8 +126,8 @@ def main():
         for name, counts in zip(present, pool.map(lambda name: count(arguments, name), present)):
             for title in (name.split("-")[0], "all"):
                 groups[title].update(counts)
-    print("| scans | loops | right | partly | wrong | right of right and wrong | the same at 0.9 and more | not rated "
-          "| reported of the rated right |\n|---" + "|---" * 8 + "|")
+    print("| scans | loops | right | partly | wrong | right of right and wrong | its mean over scans "
+          "| at 0.9 and more | not rated | reported of the rated right |\n|---" + "|---" * 9 + "|")
     for title in sorted(groups, key=lambda title: (title == "all", title)):
         for kind in KINDS:
             print(row(title, kind, groups[title]))

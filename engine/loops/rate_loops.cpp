@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -119,15 +120,18 @@ std::span<std::uint32_t> nearest_marked(const Raster& raster, std::span<const st
   return nearest;
 }
 
-// Calls visit(point) for each point in the box, and for some around it. Cells are read many at a time: a
+// Calls visit(point) for each point in the boxes, and for some around them. Cells are read many at a time: a
 // call of the system costs more than the points of a cell.
 template <class Visit>
-void for_each_point_near(const TileStore& store, const Eigen::AlignedBox3d& box, Visit&& visit) {
+void for_each_point_near(const TileStore& store, std::span<const Eigen::AlignedBox3d> boxes, Visit&& visit) {
   constexpr std::size_t kCells = 512;
   const Tiling& tiling = store.tiling();
   std::vector<std::uint32_t> nodes(tiling.nodes.empty() ? 0 : 1), cells;
   std::vector<ScanPoint> points;
   std::vector<Row> rows;
+  const auto is_near = [&](const Eigen::AlignedBox3d& of_cells) {
+    return std::any_of(boxes.begin(), boxes.end(), [&](const auto& box) { return of_cells.intersects(box); });
+  };
   const auto read = [&] {
     store.read_cells(cells, points, rows);
     for (const ScanPoint& point : points) visit(point.position());
@@ -136,13 +140,13 @@ void for_each_point_near(const TileStore& store, const Eigen::AlignedBox3d& box,
   while (!nodes.empty()) {
     const CellNode& node = tiling.nodes[nodes.back()];
     nodes.pop_back();
-    if (!node.box.intersects(box)) continue;
+    if (!is_near(node.box)) continue;
     if (node.left != 0) {
       nodes.insert(nodes.end(), {node.right, node.left});
       continue;
     }
     for (std::uint32_t cell = node.first; cell < node.last; ++cell) {
-      if (Eigen::AlignedBox3d(tiling.cells[cell].box).intersects(box)) cells.push_back(cell);
+      if (is_near(Eigen::AlignedBox3d(tiling.cells[cell].box))) cells.push_back(cell);
     }
     if (cells.size() >= kCells) read();
   }
@@ -157,28 +161,32 @@ Eigen::Vector3d across(const Eigen::Vector3d& normal) {
   return normal.cross(Eigen::Vector3d::Unit(least)).normalized();
 }
 
-// A loop in its plane, with its surroundings: as wide as the loop.
+// A loop in its plane, and its box there.
 struct FlatLoop {
   LoopPlane plane;
-  double width;  // of the surroundings, and the largest height of their points over the loop
   Eigen::AlignedBox3d box = {};
 
   FlatLoop(std::span<const LoopPoint> loop, const LoopShape& shape, Scratch& scratch)
-      : plane(shape.centroid, shape.normal, across(shape.normal)), width(2 * shape.area / shape.perimeter) {
+      : plane(shape.centroid, shape.normal, across(shape.normal)) {
     scratch.for_each(loop, [&](const LoopPoint& p) { box.extend(plane(p.position())); });
-    box.min().array() -= width;
-    box.max().array() += width;
-  }
-  Eigen::AlignedBox2d flat_box() const { return {box.min().head<2>().eval(), box.max().head<2>().eval()}; }
-  // Returns a box around the loop, its surroundings and a margin.
-  Eigen::AlignedBox3d box_in_space(double margin) const {
-    const Eigen::AlignedBox3d wider(box.min().array() - margin, box.max().array() + margin);
-    Eigen::AlignedBox3d space;
-    for (int i = 0; i < 8; ++i)
-      space.extend(plane.point_at(wider.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i))));
-    return space;
   }
 };
+
+Eigen::AlignedBox2d seen_from_above(const Eigen::AlignedBox3d& box) {
+  return {box.min().head<2>().eval(), box.max().head<2>().eval()};
+}
+
+Eigen::AlignedBox3d widened(const Eigen::AlignedBox3d& box, double margin) {
+  return {(box.min().array() - margin).matrix(), (box.max().array() + margin).matrix()};
+}
+
+// Returns the box in space around a box in a plane.
+Eigen::AlignedBox3d in_space(const LoopPlane& plane, const Eigen::AlignedBox3d& box) {
+  Eigen::AlignedBox3d space;
+  for (int i = 0; i < 8; ++i)
+    space.extend(plane.point_at(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i))));
+  return space;
+}
 
 // Marks the pixels that lie within the loop: those with an odd number of edges to their right.
 void mark_within(std::span<const LoopPoint> loop, const LoopPlane& plane, const Raster& raster,
@@ -206,7 +214,10 @@ double prominence(const TileStore& points, std::span<const LoopPoint> loop, cons
   constexpr double kSheet = 0.2;
   if (!(shape.area > 0) || !std::isfinite(shape.area)) return 0;
   const FlatLoop flat(loop, shape, scratch);
-  const Raster raster(flat.flat_box(), spacing);
+  // The surroundings are as wide as the loop, and as high.
+  const double width = 2 * shape.area / shape.perimeter;
+  const Eigen::AlignedBox3d box = widened(flat.box, width);
+  const Raster raster(seen_from_above(box), spacing);
   const auto marks = [&] { return scratch.array<std::uint8_t>(raster.size()); };
 
   const std::span<std::uint8_t> is_within = marks(), is_on_loop = marks(), is_sampled = marks();
@@ -220,16 +231,17 @@ double prominence(const TileStore& points, std::span<const LoopPoint> loop, cons
   });
   const std::span<const std::uint32_t> to_loop = nearest_marked(raster, is_on_loop, scratch);
   // The raster is up to half a pixel wider than the box on each side. Its points count, whatever their cells.
-  for_each_point_near(points, flat.box_in_space(raster.edge), [&](const Eigen::Vector3d& point) {
+  const Eigen::AlignedBox3d wanted = in_space(flat.plane, widened(box, raster.edge));
+  for_each_point_near(points, {&wanted, 1}, [&](const Eigen::Vector3d& point) {
     const Eigen::Vector3d at = flat.plane(point);
     const std::uint32_t pixel = raster.pixel_at(at);
     if (pixel == kNowhere) return;
-    const double most = is_within[pixel] != 0 ? kSheet * flat.width : flat.width;
+    const double most = is_within[pixel] != 0 ? kSheet * width : width;
     if (std::abs(at.z() - height[to_loop[pixel]]) <= most) is_sampled[pixel] = 1;
   });
 
   const std::span<const std::uint32_t> to_sample = nearest_marked(raster, is_sampled, scratch);
-  const double most_around = flat.width * flat.width / (raster.edge * raster.edge);
+  const double most_around = width * width / (raster.edge * raster.edge);
   std::uint32_t deepest = 0;
   std::vector<std::uint32_t> around;
   for (std::uint32_t pixel = 0; pixel < raster.size(); ++pixel) {
@@ -248,6 +260,121 @@ double prominence(const TileStore& points, std::span<const LoopPoint> loop, cons
   return (std::sqrt(deepest) + 0.5) / (of_gap + 0.5);
 }
 
+namespace {
+
+// Returns the share of the points over the curve that lie far from its plane, of those within its radius.
+double volume_over(const TileStore& points, std::span<const LoopPoint> loop, const FlatLoop& flat,
+                   double radius, double spacing, Scratch& scratch) {
+  const double far = std::max(0.12 * radius, 2 * spacing);
+  const Raster raster(seen_from_above(flat.box), spacing);
+  const std::span<std::uint8_t> is_within = scratch.array<std::uint8_t>(raster.size());
+  mark_within(loop, flat.plane, raster, is_within, scratch);
+  Eigen::AlignedBox3d box = flat.box;
+  box.min().z() = -radius;
+  box.max().z() = radius;
+  const Eigen::AlignedBox3d wanted = in_space(flat.plane, widened(box, raster.edge));
+  std::uint64_t all = 0, are_far = 0;
+  for_each_point_near(points, {&wanted, 1}, [&](const Eigen::Vector3d& point) {
+    const Eigen::Vector3d at = flat.plane(point);
+    const std::uint32_t pixel = raster.pixel_at(at);
+    if (pixel == kNowhere || is_within[pixel] == 0 || std::abs(at.z()) > radius) return;
+    ++all;
+    if (std::abs(at.z()) > far) ++are_far;
+  });
+  return all == 0 ? 0 : static_cast<double>(are_far) / static_cast<double>(all);
+}
+
+// Calls visit(height) for each point of the curve: the least difference in height, in spacings, to a point
+// that lies beyond it. Points lie beyond it in a strip outward, across the curve. Without one, it is
+// infinite.
+template <class Visit>
+void for_each_height_beyond(const TileStore& points, std::span<const LoopPoint> loop, const LoopPlane& plane,
+                            double spacing, Scratch& scratch, Visit&& visit) {
+  constexpr double kNear = 0.7, kFar = 4, kAside = 1.2, kHigh = 2.5;  // of the strip, in spacings
+  constexpr double kReach = 5;                                        // from a point to the strip's corners
+  constexpr std::size_t kRun = 256, kPiece = 16;                      // points of the curve
+  struct Vertex {
+    Eigen::Vector3d at;
+    Eigen::Vector2d outward;
+    double height = std::numeric_limits<double>::infinity();
+  };
+  const std::size_t n = loop.size();
+  std::vector<Vertex> run;
+  std::vector<Eigen::AlignedBox3d> pieces;
+  for (std::size_t first = 0; first < n; first += kRun) {
+    run.clear();
+    pieces.clear();
+    for (std::size_t i = first; i < std::min(first + kRun, n); ++i) {
+      scratch.trim(sizeof(LoopPoint));
+      if (i % kPiece == 0) pieces.emplace_back();
+      pieces.back().extend(loop[i].position());
+      const Eigen::Vector3d before = plane(loop[(i + n - 1) % n].position()),
+                            after = plane(loop[(i + 1) % n].position());
+      const Eigen::Vector2d along = (after - before).head<2>();
+      const Eigen::Vector3d here = plane(loop[i].position());
+      const Eigen::Vector3d to_surface(loop[i].surface[0], loop[i].surface[1], loop[i].surface[2]);
+      const Eigen::Vector2d inward = (plane(loop[i].position() + to_surface) - here).head<2>();
+      Eigen::Vector2d outward = Eigen::Vector2d(along.y(), -along.x()).stableNormalized();
+      if (outward.dot(inward) > 0) outward = -outward;
+      run.push_back({here, outward});
+    }
+    for (Eigen::AlignedBox3d& piece : pieces) piece = widened(piece, kReach * spacing);
+    for_each_point_near(points, pieces, [&](const Eigen::Vector3d& point) {
+      const Eigen::Vector3d at = plane(point);
+      for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
+        if (!pieces[piece].contains(point)) continue;
+        for (std::size_t i = piece * kPiece; i < std::min((piece + 1) * kPiece, run.size()); ++i) {
+          Vertex& v = run[i];
+          const Eigen::Vector3d d = (at - v.at) / spacing;
+          const double out = d.head<2>().dot(v.outward),
+                       aside = d.x() * v.outward.y() - d.y() * v.outward.x(), height = std::abs(d.z());
+          if (out >= kNear && out <= kFar && std::abs(aside) <= kAside && height <= kHigh)
+            v.height = std::min(v.height, height);
+        }
+      }
+    });
+    for (const Vertex& v : run) visit(v.height);
+  }
+}
+
+// Whether the points of the curve are at one height, but for rounding: depth that is measured in steps.
+bool is_slice(std::span<const LoopPoint> loop, const LoopPlane& plane, double radius, Scratch& scratch) {
+  constexpr double kFlat = 0.004;  // standard deviation, of the radius
+  double squares = 0;              // the mean is 0: the plane is through the centroid
+  scratch.for_each(loop, [&](const LoopPoint& p) {
+    const double height = plane(p.position()).z();
+    squares += height * height;
+  });
+  return std::sqrt(squares / static_cast<double>(loop.size())) < kFlat * radius;
+}
+
+double radius_of(std::span<const LoopPoint> loop, const Eigen::Vector3d& middle, Scratch& scratch) {
+  double squared = 0;
+  scratch.for_each(
+      loop, [&](const LoopPoint& p) { squared = std::max(squared, (p.position() - middle).squaredNorm()); });
+  return std::sqrt(squared);
+}
+
+}  // namespace
+
+BeyondRim beyond_rim(const TileStore& points, std::span<const LoopPoint> loop, const LoopShape& shape,
+                     double radius, double spacing, Scratch& scratch) {
+  constexpr double kSame = 0.5;  // spacings between heights of one surface
+  if (!(shape.area > 0) || !std::isfinite(shape.area)) return {};
+  const FlatLoop flat(loop, shape, scratch);
+  std::uint64_t beyond = 0, level = 0;
+  for_each_height_beyond(points, loop, flat.plane, spacing, scratch, [&](double height) {
+    beyond += std::isfinite(height);
+    level += height <= kSame;
+  });
+  const auto share = [&](std::uint64_t part) {
+    return static_cast<double>(part) / static_cast<double>(loop.size());
+  };
+  return {.goes_on = share(level),
+          .layers = is_slice(loop, flat.plane, radius, scratch) ? share(beyond) : 0,
+          .volume = volume_over(points, loop, flat, radius, spacing, scratch)};
+}
+
 void rate_loops(const TileStore& points, Loops& loops, const Spill& spill, const Workers& workers) {
   for_each_loop(loops, spill, workers, [&](std::size_t i, std::span<const LoopPoint> loop, Scratch& scratch) {
     const LoopShape shape = shape_of(loop, scratch);
@@ -255,8 +382,14 @@ void rate_loops(const TileStore& points, Loops& loops, const Spill& spill, const
     evidence.width = 2 * shape.area / shape.perimeter / evidence.spacing;
     evidence.compactness = evidence.width / static_cast<double>(loop.size());
     evidence.kind = shape.kind;
-    if (evidence.kind == LoopKind::kHole && could_be_probable(evidence))
-      evidence.prominence = prominence(points, loop, shape, evidence.spacing, scratch);
+    evidence.middle = {shape.centroid.x(), shape.centroid.y(), shape.centroid.z()};
+    evidence.radius = radius_of(loop, shape.centroid, scratch);
+    if (could_be_probable(evidence)) {
+      if (evidence.kind == LoopKind::kHole)
+        evidence.prominence = prominence(points, loop, shape, evidence.spacing, scratch);
+      else
+        evidence.beyond = beyond_rim(points, loop, shape, evidence.radius, evidence.spacing, scratch);
+    }
     loops.set_evidence(i, evidence);
   });
 }

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // rate_loops: collects the evidence of each loop that its level has (method.md, D.3). Of holes, that is also
-// how far they stand out of the gaps of the sampling around them.
+// how far they stand out of the gaps of the sampling around them. Of outer curves, it is what lies over them
+// and beyond.
 //
 // Idea: the plane of the loop is a raster. A pixel is sampled where a point lies over it, near the height of
 // the loop. The distances from all pixels to sampled ones say how empty the hole is, and how empty its
-// surroundings are. All decisions are made on whole numbers of pixels, so the order in which points arrive
-// changes nothing.
+// surroundings are. Where points lie beyond an outer curve, at its height, the surface does not end. All
+// decisions are counts of pixels and points, so the order in which points arrive changes nothing.
 //
 // Source: method.md, D.3; distances: Felzenszwalb, Huttenlocher, Distance Transforms of Sampled Functions,
-// 2012. Cost: linear in the points of loops, and `prominence` of the holes that it could make probable.
+// 2012. Cost: linear in the points of loops, and `prominence` or `beyond_rim` of the loops that may be
+// probable.
 #pragma once
 
 #include "engine/loops/loops.hpp"
@@ -29,7 +31,12 @@ namespace lacuna {
 double prominence(const TileStore& points, std::span<const LoopPoint> loop, const LoopShape& shape,
                   double spacing, Scratch& scratch);
 
-// Adds the evidence that the curves do not have, but not the persistence, which tracking finds. `points`: of
+// Returns what lies over an outer curve and beyond it. `radius`: of its farthest point from the centroid.
+// Cost: the points in the box of the curve, as high as the radius, and twice those near the curve.
+BeyondRim beyond_rim(const TileStore& points, std::span<const LoopPoint> loop, const LoopShape& shape,
+                     double radius, double spacing, Scratch& scratch);
+
+// Adds the evidence that the curves do not have, but not the track, which tracking finds. `points`: of
 // the level.
 void rate_loops(const TileStore& points, Loops& loops, const Spill& spill, const Workers& workers);
 

@@ -30,6 +30,13 @@ constexpr const char* name_of(LoopKind kind) {
   return kind == LoopKind::kHole ? "hole" : "outer";
 }
 
+// What lies over an outer curve and beyond it, as shares in [0, 1] (method.md, D.3). 0: not measured.
+struct BeyondRim {
+  double goes_on = 0;  // of its points: the surface goes on beyond, at their height
+  double layers = 0;   // of its points, if the curve is a slice of quantised depth: beyond is the next slice
+  double volume = 0;   // of the points over it: far from its plane, as in crowns of trees
+};
+
 // What confidence is computed from (method.md, D.3). The method "paper" measures none of it.
 struct LoopEvidence {
   // The curve (method.md, C.6).
@@ -43,9 +50,13 @@ struct LoopEvidence {
   double width = 0;  // 2 area / perimeter, in spacings
   double compactness =
       0;  // width over the number of points: about 1/6 for a circle, 0 for a line there and back
-  double prominence = 0;  // of a hole over the gaps around it; 0: not measured
+  std::array<double, 3> middle{};  // the centroid of its points
+  double radius = 0;               // of the farthest point from the middle
+  double prominence = 0;           // of a hole over the gaps around it; 0: not measured
+  BeyondRim beyond = {};
   // The track.
-  double persistence = 0;  // octaves from the spacing to the last scale, 0 or more
+  double persistence = 0;   // octaves from the spacing to the last scale, 0 or more
+  std::uint64_t alike = 0;  // of an outer curve: others of its size around it that stand; 0: not counted
 
   // Returns whether the loop may be reported. Other loops are gaps of the sampling.
   bool may_be_hole() const {

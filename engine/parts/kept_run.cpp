@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The number changes with the records in the parts.
-constexpr const char* kProgram = "lacuna " LACUNA_VERSION ", parts of form 10";
+constexpr const char* kProgram = "lacuna " LACUNA_VERSION ", parts of form 11";
 constexpr const char* kPlanPart = "plan.lacuna";
 
 // The numbers of a plan, as the part has them.

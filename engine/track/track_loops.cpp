@@ -2,6 +2,7 @@
 #include "engine/track/track_loops.hpp"
 
 #include "engine/loops/confidence.hpp"
+#include "engine/model/nanoflann_tree.hpp"
 #include "engine/store/column.hpp"
 #include "engine/store/sorted_runs.hpp"
 
@@ -11,6 +12,7 @@
 #include <compare>
 #include <filesystem>
 #include <iterator>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -325,6 +327,45 @@ std::vector<std::uint32_t> choose(std::span<const NearLoops> pairs, std::span<co
   return chosen;
 }
 
+// Counts for each probable outer curve the others that stand and are alike: half to twice as large, and near.
+// One among its like is a pattern of the sampling. Curves are in trees by the octave of their size.
+void count_alike(std::span<const std::uint32_t> chosen, double min_confidence,
+                 std::vector<TrackedLoop>& loops) {
+  constexpr double kNear = 12;  // distance of the middles, in radii
+  struct OfSize {
+    std::vector<std::uint32_t> loops;
+    std::vector<Eigen::Vector3d> middles;
+  };
+  std::map<int, OfSize> by_size;
+  for (const std::uint32_t loop : chosen) {
+    const LoopEvidence& e = loops[loop].evidence;
+    if (e.kind != LoopKind::kOuter || !(e.radius > 0) || !std::isfinite(e.radius)) continue;
+    OfSize& of_size = by_size[std::ilogb(e.radius)];
+    of_size.loops.push_back(loop);
+    of_size.middles.emplace_back(e.middle[0], e.middle[1], e.middle[2]);
+  }
+  std::vector<std::pair<std::uint32_t, double>> near;  // with squared distances
+  for (const auto& [size, others] : by_size) {
+    const NanoflannTree<std::uint32_t> tree(others.middles);
+    for (int octave = size - 1; octave <= size + 1; ++octave) {
+      const auto counted = by_size.find(octave);
+      if (counted == by_size.end()) continue;
+      for (std::size_t i = 0; i < counted->second.loops.size(); ++i) {
+        TrackedLoop& loop = loops[counted->second.loops[i]];
+        if (probability_of(loop.log_odds) < min_confidence) continue;
+        const double radius = loop.evidence.radius, reach = kNear * radius;
+        tree.index.radiusSearch(counted->second.middles[i].data(), reach * reach, near,
+                                nanoflann::SearchParams(0, 0, false));
+        for (const auto& [place, squared_distance] : near) {
+          const TrackedLoop& other = loops[others.loops[place]];
+          const double ratio = other.evidence.radius / radius;
+          if (&other != &loop && ratio >= 0.5 && ratio <= 2) ++loop.evidence.alike;
+        }
+      }
+    }
+  }
+}
+
 // All of them are chosen.
 TrackedLoops all_loops(std::vector<LevelLoops> levels) {
   TrackedLoops tracked;
@@ -346,6 +387,8 @@ TrackedLoops track_loops(std::vector<LevelLoops> levels, Job& job) {
   rate(levels, loops);
   std::vector<std::uint32_t> chosen = choose(pairs, loops);
   const double min_confidence = job.config.selection.min_confidence;
+  count_alike(chosen, min_confidence, loops);
+  for (const std::uint32_t i : chosen) loops[i].log_odds = log_odds(loops[i].evidence);
   std::erase_if(chosen, [&](std::uint32_t i) { return probability_of(loops[i].log_odds) < min_confidence; });
   // At most one of several loops with the same points is chosen.
   std::sort(chosen.begin(), chosen.end(), [&](std::uint32_t x, std::uint32_t y) {

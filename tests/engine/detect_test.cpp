@@ -453,7 +453,11 @@ std::vector<double> numbers_of(const LoopMeasures& m, const std::vector<Reported
                                  e.width,
                                  e.compactness,
                                  e.prominence,
-                                 e.persistence};
+                                 e.persistence,
+                                 e.beyond.goes_on,
+                                 e.beyond.layers,
+                                 e.beyond.volume,
+                                 double(e.alike)};
   const Eigen::Vector3d parent =
       m.parent < 0 ? Eigen::Vector3d::Zero() : loops[static_cast<std::size_t>(m.parent)].measures.centroid;
   for (const Eigen::Vector3d& v : {m.centroid, m.normal, parent})

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/point_tree.hpp"
 
-#include "io/explain/matching/nanoflann_tree.hpp"
+#include "engine/model/nanoflann_tree.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1049,33 +1049,67 @@ bool is_within(const std::vector<Eigen::Vector2d>& polygon, double x, double y) 
   return is_odd;
 }
 
+// A loop in the plane of its centroid and normal, and the raster over it (method.md, D.3).
+using Pixel = std::pair<int, int>;  // row, column
+
+class FlatLoop {
+ public:
+  FlatLoop(const FoundLoop& loop, const Shape& shape) : centroid_(shape.centroid) {
+    axes_.col(2) = shape.area.normalized();
+    Eigen::Index least = 0;
+    axes_.col(2).cwiseAbs().minCoeff(&least);
+    axes_.col(0) = Vector3d(axes_.col(2)).cross(Vector3d::Unit(least)).normalized();
+    axes_.col(1) = axes_.col(2).cross(axes_.col(0));
+    for (const Vector3d& p : loop.places) {
+      at.push_back((*this)(p));
+      rim.emplace_back(at.back().head<2>());
+    }
+  }
+  Vector3d operator()(const Vector3d& p) const { return axes_.transpose() * (p - centroid_); }
+
+  std::vector<Vector3d> at;
+  std::vector<Eigen::Vector2d> rim;
+
+ private:
+  Vector3d centroid_;
+  Eigen::Matrix3d axes_;
+};
+
+struct Raster {
+  Eigen::Vector2d corner;
+  double edge;
+  Eigen::Vector2i count;
+
+  Raster(const FlatLoop& loop, double margin, double spacing) {
+    Eigen::AlignedBox2d box;
+    for (const Eigen::Vector2d& p : loop.rim) box.extend(p);
+    box.min().array() -= margin;
+    box.max().array() += margin;
+    const double side = box.sizes().maxCoeff();
+    edge = std::clamp(spacing / 2, side / 255, side / 24);
+    count = {int(box.sizes().x() / edge) + 1, int(box.sizes().y() / edge) + 1};
+    corner = box.center() - edge / 2 * count.cast<double>();
+  }
+  std::optional<Pixel> pixel_of(const Vector3d& p) const {
+    const Pixel pixel(int(std::floor((p.y() - corner.y()) / edge)),
+                      int(std::floor((p.x() - corner.x()) / edge)));
+    const bool is_over =
+        pixel.first >= 0 && pixel.second >= 0 && pixel.first < count.y() && pixel.second < count.x();
+    return is_over ? std::optional(pixel) : std::nullopt;
+  }
+  bool is_within(const FlatLoop& loop, const Pixel& pixel) const {
+    return reference::is_within(loop.rim, corner.x() + edge * (pixel.second + 0.5),
+                                corner.y() + edge * (pixel.first + 0.5));
+  }
+};
+
 // How far the hole stands out of the gaps around it: method.md, D.3.
 double prominence(const FoundLoop& loop, const Shape& shape, const Positions& points) {
   const double size = shape.area.stableNorm();
   if (!(size > 0) || !std::isfinite(size)) return 0;
   const double width = 2 * size / shape.length;
-  Eigen::Matrix3d axes;
-  axes.col(2) = shape.area / size;
-  Eigen::Index least = 0;
-  axes.col(2).cwiseAbs().minCoeff(&least);
-  axes.col(0) = Vector3d(axes.col(2)).cross(Vector3d::Unit(least)).normalized();
-  axes.col(1) = axes.col(2).cross(axes.col(0));
-  const auto flat = [&](const Vector3d& p) -> Vector3d { return axes.transpose() * (p - shape.centroid); };
-  std::vector<Eigen::Vector2d> rim;
-  Eigen::AlignedBox2d box;
-  for (const Vector3d& p : loop.places) {
-    rim.emplace_back(flat(p).head<2>());
-    box.extend(rim.back());
-  }
-  box.min().array() -= width;
-  box.max().array() += width;
-  const double side = box.sizes().maxCoeff(), edge = std::clamp(loop.spacing / 2, side / 255, side / 24);
-  const Eigen::Vector2i count(int(box.sizes().x() / edge) + 1, int(box.sizes().y() / edge) + 1);
-  const Eigen::Vector2d corner = box.center() - edge / 2 * count.cast<double>();
-  using Pixel = std::pair<int, int>;  // row, column
-  const auto pixel_of = [&](const Vector3d& p) {
-    return Pixel(int(std::floor((p.y() - corner.y()) / edge)), int(std::floor((p.x() - corner.x()) / edge)));
-  };
+  const FlatLoop flat(loop, shape);
+  const Raster raster(flat, width, loop.spacing);
   const auto distance = [](const Pixel& a, const Pixel& b) {
     return (a.first - b.first) * (a.first - b.first) + (a.second - b.second) * (a.second - b.second);
   };
@@ -1097,28 +1131,24 @@ double prominence(const FoundLoop& loop, const Shape& shape, const Positions& po
     return *best;
   };
   std::map<Pixel, float> heights;
-  for (const Vector3d& p : loop.places) heights[pixel_of(flat(p))] = float(flat(p).z());
+  for (const Vector3d& p : flat.at) heights[*raster.pixel_of(p)] = float(p.z());
   std::set<Pixel> sampled;
   for (const Vector3d& p : points) {
     if (!p.allFinite()) continue;
     const Vector3d at = flat(p);
-    if (((at.head<2>() - corner).array() < 0).any() ||
-        ((at.head<2>() - corner).array() / edge >= count.cast<double>().array()).any())
-      continue;
-    const Pixel pixel = pixel_of(at);
-    const Eigen::Vector2d middle = corner + edge * Eigen::Vector2d(pixel.second + 0.5, pixel.first + 0.5);
-    const double most = is_within(rim, middle.x(), middle.y()) ? 0.2 * width : width;
-    if (std::abs(at.z() - heights.at(nearest(pixel, heights))) <= most) sampled.insert(pixel);
+    const std::optional<Pixel> pixel = raster.pixel_of(at);
+    if (!pixel) continue;
+    const double most = raster.is_within(flat, *pixel) ? 0.2 * width : width;
+    if (std::abs(at.z() - heights.at(nearest(*pixel, heights))) <= most) sampled.insert(*pixel);
   }
   int deepest = 0;
   std::vector<int> around;
-  for (int row = 0; row < count.y(); ++row) {
-    for (int column = 0; column < count.x(); ++column) {
+  for (int row = 0; row < raster.count.y(); ++row) {
+    for (int column = 0; column < raster.count.x(); ++column) {
       const Pixel pixel(row, column);
-      const Eigen::Vector2d middle = corner + edge * Eigen::Vector2d(column + 0.5, row + 0.5);
-      if (is_within(rim, middle.x(), middle.y())) {
+      if (raster.is_within(flat, pixel)) {
         deepest = std::max(deepest, distance(pixel, nearest(pixel, sampled)));
-      } else if (distance(pixel, nearest(pixel, heights)) <= width * width / (edge * edge)) {
+      } else if (distance(pixel, nearest(pixel, heights)) <= width * width / (raster.edge * raster.edge)) {
         around.push_back(distance(pixel, nearest(pixel, sampled)));
       }
     }
@@ -1128,18 +1158,91 @@ double prominence(const FoundLoop& loop, const Shape& shape, const Positions& po
   return (std::sqrt(deepest) + 0.5) / (std::sqrt(around[std::size_t(0.9 * double(around.size()))]) + 0.5);
 }
 
-// The logarithm of the odds that the loop is true, without its persistence. `points`: of its level.
+// What lies over an outer curve and beyond it: method.md, D.3.
+struct Beyond {
+  double goes_on = 0, layers = 0, volume = 0;
+};
+
+Beyond beyond_rim(const FoundLoop& loop, const Shape& shape, const Positions& points) {
+  const double size = shape.area.stableNorm(), s = loop.spacing;
+  if (!(size > 0) || !std::isfinite(size)) return {};
+  const FlatLoop flat(loop, shape);
+  const std::size_t n = flat.at.size();
+  double radius = 0, squares = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    radius = std::max(radius, (loop.places[i] - shape.centroid).norm());
+    squares += flat.at[i].z() * flat.at[i].z();
+  }
+  int beyond = 0, level = 0, over = 0, far = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector3d along = flat.at[(i + 1) % n] - flat.at[(i + n - 1) % n];
+    Eigen::Vector2d outward(along.y(), -along.x());
+    if (outward.norm() > 0) outward.normalize();
+    const Vector3d inward = flat(loop.places[i] + loop.offsets[i]) - flat.at[i];
+    if (outward.dot(inward.head<2>()) > 0) outward = -outward;
+    double height = INFINITY;
+    for (const Vector3d& p : points) {
+      if (!p.allFinite()) continue;
+      const Vector3d d = (flat(p) - flat.at[i]) / s;
+      const double out = d.head<2>().dot(outward),
+                   aside = std::abs(d.x() * outward.y() - d.y() * outward.x());
+      if (out >= 0.7 && out <= 4 && aside <= 1.2 && std::abs(d.z()) <= 2.5)
+        height = std::min(height, std::abs(d.z()));
+    }
+    beyond += height <= 2.5;
+    level += height <= 0.5;
+  }
+  const Raster raster(flat, 0, s);
+  for (const Vector3d& p : points) {
+    if (!p.allFinite()) continue;
+    const Vector3d at = flat(p);
+    const std::optional<Pixel> pixel = raster.pixel_of(at);
+    if (!pixel || !raster.is_within(flat, *pixel) || std::abs(at.z()) > radius) continue;
+    ++over;
+    far += std::abs(at.z()) > std::max(0.12 * radius, 2 * s);
+  }
+  const auto count = static_cast<double>(n);
+  return {.goes_on = level / count,
+          .layers = std::sqrt(squares / count) < 0.004 * radius ? beyond / count : 0,
+          .volume = over == 0 ? 0 : double(far) / over};
+}
+
+// The logarithm of the odds that the loop is true, without what its track adds. `points`: of its level.
 double own_log_odds(const FoundLoop& loop, const Positions& points) {
   const Shape shape = shape_of(loop);
   const double width = 2 * shape.area.stableNorm() / shape.length / loop.spacing;
   const double wide = octaves(std::clamp(width, 0.5, 5.)),
                compact = octaves(std::clamp(width / double(loop.places.size()), 1 / 16., 1.)),
                gap = octaves(std::clamp(loop.sampling_gap, 0.25, 1.));
-  if (!shape.is_hole) return 3.6 * loop.surface + 1.9 * wide + 0.7 * compact - 3.2 * gap - 6.4;
+  if (!shape.is_hole) {
+    const double rest = 1.5 * loop.surface + 2.3 * wide - 3.1 * gap - 6;
+    // What lies beyond could only make it less probable.
+    if (rest + 2 <= 0) return rest;
+    const Beyond beyond = beyond_rim(loop, shape, points);
+    return rest - 3.5 * beyond.goes_on - 2.4 * beyond.layers - 2.6 * beyond.volume;
+  }
   const double rest = 9.3 * loop.surface + 3.1 * wide + 1.4 * compact - 7.4 * gap - 16.4;
   // Another one could not make the loop probable.
   if (rest + 1.4 * octaves(32) + 0.7 * 2 <= 0) return rest;
   return rest + 1.4 * octaves(std::clamp(prominence(loop, shape, points), 1., 32.));
+}
+
+// How many of these outer curves are near another one, and half to twice as large.
+int count_alike(const FoundLoop& loop, const std::vector<const FoundLoop*>& others) {
+  const auto size_of = [](const FoundLoop& of) {
+    const Vector3d middle = shape_of(of).centroid;
+    double radius = 0;
+    for (const Vector3d& p : of.places) radius = std::max(radius, (p - middle).norm());
+    return std::pair(middle, radius);
+  };
+  const auto [middle, radius] = size_of(loop);
+  int count = 0;
+  for (const FoundLoop* other : others) {
+    const auto [its_middle, its_radius] = size_of(*other);
+    count += other != &loop && (its_middle - middle).norm() < 12 * radius && its_radius >= radius / 2 &&
+             its_radius <= 2 * radius;
+  }
+  return count;
 }
 
 struct Tracked {
@@ -1157,7 +1260,7 @@ Tracked track(const Loops& loops, const std::vector<double>& edges, const std::v
   std::vector<bool> has_chance, is_hole;
   for (const FoundLoop& loop : loops) {
     is_hole.push_back(shape_of(loop).is_hole);
-    has_chance.push_back(loop.log_odds + 2 * (is_hole.back() ? 0.7 : 1.1) > -4);
+    has_chance.push_back(loop.log_odds + 2 * (is_hole.back() ? 0.7 : 1) > -4);
   }
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = a + 1; b < count; ++b) {
@@ -1178,7 +1281,7 @@ Tracked track(const Loops& loops, const std::vector<double>& edges, const std::v
     for (std::size_t b = a + 1; b < count; ++b)
       if (loops[a].level != loops[b].level && is_same(a, b)) last[a] = std::max(last[a], last[b]);
     const double ratio = edges[last[a]] / loops[a].spacing;
-    odds[a] = loops[a].log_odds + (is_hole[a] ? 0.7 : 1.1) * (ratio > 1 ? std::min(octaves(ratio), 2.) : 0);
+    odds[a] = loops[a].log_odds + (is_hole[a] ? 0.7 : 1) * (ratio > 1 ? std::min(octaves(ratio), 2.) : 0);
     ranks[a] = std::min(odds[a], 4.) -
                0.8 * (static_cast<double>(loops[a].level) + 0.5 * double(loops[a].scale == 1));
   }
@@ -1220,9 +1323,13 @@ Tracked track(const Loops& loops, const std::vector<double>& edges, const std::v
   std::vector<std::size_t> sorted(chosen.begin(), chosen.end());
   std::sort(sorted.begin(), sorted.end(),
             [&](std::size_t a, std::size_t b) { return order_of(loops[a]) < order_of(loops[b]); });
+  std::vector<const FoundLoop*> outer;
+  for (const std::size_t i : sorted)
+    if (!is_hole[i]) outer.push_back(&loops[i]);
   for (const std::size_t i : sorted) {
+    const double alike = is_hole[i] ? 0 : octaves(std::min(1 + count_alike(loops[i], outer), 256));
     tracked.loops.push_back(loops[i]);
-    tracked.confidences.push_back(1 / (1 + std::exp(-odds[i])));
+    tracked.confidences.push_back(1 / (1 + std::exp(-(odds[i] - 0.25 * alike))));
   }
   return tracked;
 }

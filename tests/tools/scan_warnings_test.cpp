@@ -91,6 +91,23 @@ TEST_CASE("given normals that are off at one point in a hundred are a warning") 
   CHECK_THAT(warning(23, NormalsUse::kGiven), Contains("--normals estimated leaves them out"));
 }
 
+TEST_CASE("many loops as narrow as the gaps between points are a warning that names a --min-hole") {
+  const auto of = [](std::size_t narrow, std::size_t wide) {
+    std::vector<LoopMeasures> loops(narrow + wide);
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      loops[i].track.evidence.width = i < narrow ? 2.9 : 3;
+      loops[i].track.evidence.spacing = i < narrow ? 0.03 : 7;
+    }
+    return small_loops_warning(loops);
+  };
+  CHECK(of(20, 19) ==
+        "20 of 39 loops are less than 3 spacings wide, hardly more than the gaps between points; --min-hole "
+        "0.3 "
+        "leaves most of them out");
+  CHECK(of(20, 20).empty());
+  CHECK(of(19, 0).empty());
+}
+
 TEST_CASE("z in another unit is brought into the unit of x and y, but for the annotated scan") {
   const ScratchFolder folder;
   LasFile las{.records = {las_record("LASF_Projection", 2112,

@@ -358,6 +358,25 @@ void warn_of_own_frames(const ScanFiles& scan, const ExplainedDetection& detecti
 
 }  // namespace
 
+std::string small_loops_warning(const std::vector<LoopMeasures>& loops) {
+  constexpr double kSmall = 3;      // width, in spacings
+  constexpr double kWanted = 10;    // diameter of a hole that stands out, in spacings
+  constexpr std::size_t kFew = 20;  // loops
+  std::vector<double> spacings;     // of small loops
+  for (const LoopMeasures& loop : loops) {
+    const LoopEvidence& evidence = loop.track.evidence;
+    if (evidence.width > 0 && evidence.width < kSmall) spacings.push_back(evidence.spacing);
+  }
+  if (spacings.size() < kFew || 2 * spacings.size() <= loops.size()) return "";
+  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+  std::nth_element(spacings.begin(), middle, spacings.end());
+  const double rounded = std::stod(fmt::format("{:.0e}", kWanted * *middle));
+  return fmt::format(
+      "{} of {} loops are less than {:g} spacings wide, hardly more than the gaps between points; --min-hole "
+      "{:g} leaves most of them out",
+      spacings.size(), loops.size(), kSmall, rounded);
+}
+
 std::string nothing_warning(const Detection& detection, const SelectionConfig& selection) {
   constexpr std::uint64_t kMany = 1000;
   const Summary& summary = detection.summary;
@@ -394,6 +413,7 @@ std::vector<std::string> scan_warnings(const ScanFiles& scan, const ExplainedDet
     if (!line.empty()) warnings.push_back(std::move(line));
   };
   add(nothing_warning(detection, with_min_hole(config).selection));
+  add(small_loops_warning(detection.loops));
   add(stray_warning(summary.strays, summary.resolution));
   add(normals_warning(summary.counts, config.normals.use));
   const Counts& counts = summary.counts;

@@ -37,6 +37,10 @@ std::string print_bounds(const Eigen::AlignedBox3d& box, double margin);
 // such points.
 std::string stray_warning(const Strays& strays, double resolution);
 
+// Returns how many loops are about as small as the gaps between points, and the --min-hole that leaves them
+// out. It is empty where they are few, or less than half.
+std::string small_loops_warning(const std::vector<LoopMeasures>& loops);
+
 // Returns how many given normals do not fit, and what the run has done. It is empty for fewer than one in a
 // hundred points, as at creases.
 std::string normals_warning(const Counts& counts, NormalsUse use);

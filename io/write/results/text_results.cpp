@@ -142,7 +142,11 @@ Json evidence_json(const LoopEvidence& evidence) {
           {"sampling_gap", evidence.sampling_gap},
           {"width", evidence.width},
           {"compactness", evidence.compactness},
-          {"persistence", evidence.persistence}};
+          {"persistence", evidence.persistence},
+          {"goes_on", evidence.beyond.goes_on},
+          {"layers", evidence.beyond.layers},
+          {"volume", evidence.beyond.volume},
+          {"alike", evidence.alike}};
 }
 
 // Writes point by point, since a loop may be larger than memory.

@@ -114,9 +114,82 @@ TEST_CASE("all points over the raster count for a prominence, whatever cells the
   CHECK(prominence_in(framed) > 1.1 * prominence_in(ring));
 }
 
-TEST_CASE("outer curves have no prominence") {
-  for (const ReportedLoop& loop : run_engine(punched_plane(), {}).loops)
-    if (loop.measures.kind == LoopKind::kOuter) CHECK(loop.measures.track.evidence.prominence == 0);
+// What lies over a flat round curve about 0 0 0 and beyond it, where its surface is within.
+BeyondRim beyond(const Cloud& cloud, double radius = 10) {
+  std::vector<LoopPoint> loop;
+  const int count = static_cast<int>(2 * std::numbers::pi * radius);
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    const Eigen::Vector3d p(radius * std::cos(angle), radius * std::sin(angle), 0);
+    const Eigen::Vector3f inward = -p.normalized().cast<float>();
+    loop.push_back({{p.x(), p.y(), p.z()}, {inward.x(), inward.y(), inward.z()}, 0.5f});
+  }
+  const TiledScan scan(cloud, tiled({}, 4));
+  Scratch scratch(scan.job.spill.folder, 1 << 20);
+  return beyond_rim(scan.store, loop, shape_of(loop, scratch), radius, 1, scratch);
+}
+
+Cloud disc(double radius, double height = 0, double least = 0) {
+  Cloud cloud;
+  for (double y = -radius; y <= radius; y += 0.5) {
+    for (double x = -radius; x <= radius; x += 0.5)
+      if (std::hypot(x, y) <= radius && std::hypot(x, y) >= least) cloud.positions.emplace_back(x, y, height);
+  }
+  return cloud;
+}
+
+Cloud both(Cloud a, const Cloud& b) {
+  a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
+  return a;
+}
+
+TEST_CASE("the surface goes on beyond a curve where points lie outward of it, at its height") {
+  const BeyondRim edge = beyond(disc(10));
+  CHECK(edge.goes_on == 0);
+  CHECK(edge.layers == 0);
+  CHECK(edge.volume == 0);
+  CHECK(beyond(disc(16)).goes_on == 1);
+  const BeyondRim half = beyond(both(disc(10), plane(12).translated({0, -6, 0}).translated({5, 0, 0})));
+  CHECK(half.goes_on > 0.1);
+  CHECK(half.goes_on < 0.5);
+  CHECK(beyond(both(disc(10), disc(20, 0, 15))).goes_on == 0);  // a ring too far away
+}
+
+TEST_CASE("beyond a slice of quantised depth is the next slice, a step higher") {
+  const BeyondRim slice = beyond(both(disc(10), disc(16, 1.5, 10)));
+  CHECK(slice.goes_on == 0);
+  CHECK(slice.layers == 1);
+  CHECK(beyond(both(disc(10), disc(16, 4, 10))).layers == 0);
+}
+
+TEST_CASE("points over a curve that are far from its plane are a volume, as a crown is") {
+  const BeyondRim crown = beyond(both(disc(10), disc(9, 6)));
+  CHECK(crown.volume == Approx(0.45).margin(0.05));
+  CHECK(beyond(both(disc(10), disc(9, 1.5))).volume == 0);  // as thick as the points are apart
+  CHECK(beyond(both(disc(10), disc(9, 12))).volume == 0);   // another surface
+}
+
+TEST_CASE("what lies beyond an outer curve is the same wherever the scan lies, and in any direction") {
+  // A disc under a smaller one, beside a plane that goes on along a quarter of its rim.
+  const Cloud cloud = both(both(disc(12), disc(8, 5)), plane(12).translated({9, -6, 0})).noisy(0.05, 3);
+  const auto widest = [](const Cloud& of) {
+    Config config;
+    config.selection.min_confidence = 0;
+    LoopEvidence evidence;
+    double most = 0;
+    for (const ReportedLoop& loop : run_engine(of, config).loops) {
+      if (loop.measures.kind != LoopKind::kOuter || loop.measures.area < most) continue;
+      most = loop.measures.area;
+      evidence = loop.measures.track.evidence;
+    }
+    CHECK(evidence.prominence == 0);
+    return evidence.beyond;
+  };
+  const BeyondRim before = widest(cloud),
+                  after = widest(cloud.rotated({1, 2, 3}, 40).translated({456'000, 5'432'000, 100}));
+  CHECK(before.volume > 0.1);
+  CHECK(after.volume == Approx(before.volume).margin(0.02));
+  CHECK(after.goes_on == Approx(before.goes_on).margin(0.05));
 }
 
 TEST_CASE("log-odds rise with each evidence of a loop, and fall with gaps of the sampling") {
@@ -136,8 +209,14 @@ TEST_CASE("log-odds rise with each evidence of a loop, and fall with gaps of the
   CHECK(with([](LoopEvidence& e) { e.width = 5; }) == with([](LoopEvidence& e) { e.width = 800; }));
   CHECK(with([](LoopEvidence& e) { e.width = 0.5; }) == with([](LoopEvidence& e) { e.width = 0; }));
   CHECK(with([](LoopEvidence& e) { e.persistence = 2; }) == with([](LoopEvidence& e) { e.persistence = 9; }));
-  if (kind == LoopKind::kHole) {
-    CHECK(with([](LoopEvidence& e) { e.surface = 0.9; }) > before);
+  CHECK(with([](LoopEvidence& e) { e.surface = 0.9; }) > before);
+  if (kind == LoopKind::kOuter) {
+    CHECK(with([](LoopEvidence& e) { e.beyond.goes_on = 0.5; }) < before);
+    CHECK(with([](LoopEvidence& e) { e.beyond.layers = 0.5; }) < before);
+    CHECK(with([](LoopEvidence& e) { e.beyond.volume = 0.5; }) < before);
+    CHECK(with([](LoopEvidence& e) { e.alike = 1; }) < before);
+    CHECK(with([](LoopEvidence& e) { e.alike = 255; }) == with([](LoopEvidence& e) { e.alike = 999; }));
+  } else {
     CHECK(with([](LoopEvidence& e) { e.compactness = 0.15; }) > before);
     CHECK(with([](LoopEvidence& e) { e.prominence = 3; }) > before);
     CHECK(with([](LoopEvidence& e) { e.prominence = 32; }) ==
@@ -166,7 +245,7 @@ struct DrawnLoop {
   bool is_coarse = false;
   LoopKind kind = LoopKind::kHole;
 
-  static constexpr double kSure = 0.95, kUnsure = 0.35;  // surface shares
+  static constexpr double kSure = 0.95, kUnsure = 0.2;  // surface shares
 };
 
 class Drawn {
@@ -189,6 +268,8 @@ class Drawn {
                                   .kind = loop.kind,
                                   .width = 8,
                                   .compactness = 1 / (2 * std::numbers::pi),
+                                  .middle = {loop.middle.x(), loop.middle.y(), loop.middle.z()},
+                                  .radius = loop.radius,
                                   .prominence = 8};
       level.loops.add(static_cast<std::uint64_t>(count), evidence, [&](std::uint64_t i) {
         const double angle = 2 * std::numbers::pi * static_cast<double>(i) / count;
@@ -257,6 +338,20 @@ TEST_CASE("an opening and the outer curve around it stay two, though a coarse ce
   for (const double edge : {0., 2.}) coarse.add(edge, {around});
   coarse.add(4, {around, opening});
   CHECK(coarse.track().loops.size() == 1);
+}
+
+TEST_CASE("outer curves of half to twice the size are alike where they are near, and holes are not") {
+  Drawn drawn;
+  const auto outer = [](double x, double radius) {
+    return DrawnLoop{.middle = {x, 0, 0}, .radius = radius, .kind = LoopKind::kOuter};
+  };
+  drawn.add(0, {outer(0, 10), outer(50, 18), outer(119, 6), outer(-121, 10), outer(-45, 22), outer(0, 4.5),
+                DrawnLoop{.middle = {25, 0, 0}, .radius = 10}});
+  std::map<double, std::uint64_t> alike;  // by x
+  for (const LoopTrack& track : drawn.track().tracks)
+    if (track.evidence.kind == LoopKind::kOuter) alike[track.evidence.middle[0]] += track.evidence.alike;
+  // 10 at 0: 18 and 6, not the ones too far, too large and too small. 4.5 at 0: none.
+  CHECK(alike == std::map<double, std::uint64_t>{{0, 2}, {50, 3}, {119, 0}, {-121, 0}, {-45, 1}});
 }
 
 TEST_CASE("a higher --min-confidence leaves loops out, and changes none") {

@@ -91,7 +91,7 @@ TEST_CASE("the report has every parameter, every count and one line per loop", "
   const nlohmann::json hole = json_of(R"({
       "id": 0, "kind": "hole", "parent": null, "confidence": 1.0, "prominence": 0.0,
       "evidence": {"clearness": 1.0, "surface": 1.0, "spacing": 0.0, "sampling_gap": 0.0, "width": 0.0, "compactness": 0.0,
-                   "persistence": 0.0},
+                   "persistence": 0.0, "goes_on": 0.0, "layers": 0.0, "volume": 0.0, "alike": 0},
       "first_scale": 0.0, "last_scale": 0.0, "perimeter": 0.1, "area": 0.0, "diameter": 0.0,
       "planarity": 0.0, "mean_probability": 0.0, "centroid": [1, 2, 3], "normal": [0, 0, 1], "cause": null,
       "tiles": 0, "points": 3, "ids": [1, 5, 3],
