@@ -136,7 +136,7 @@ std::pair<std::string, std::vector<std::string>> compare(const fs::path& before,
 PYBIND11_MODULE(_core, module) {
   module.attr("version") = LACUNA_VERSION;
   collect_warnings();
-  static const auto* const raise = new py::exception<Error>(module, "Error", PyExc_RuntimeError);
+  static auto* const raise = new py::exception<Error>(module, "Error", PyExc_RuntimeError);
   raise->attr("__module__") = "lacuna";
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
