@@ -8,8 +8,7 @@
 // - Parameters: `io::FilesConfig` (io/read/options/options.hpp) has the parameters of the engine and of
 // files.
 // - Results: `io::write_results` (io/write/results/results.hpp) writes what `lacuna detect` writes.
-// - Areas: `io::read_area` and `io::check_area` (io/explain/area/check_area.hpp) find what a scan does not
-// cover, and
+// - Areas: `io::check_scan` (io/explain/area/check_area.hpp) finds what a scan does not cover, and
 //   `io::write_voids` (io/write/results/results.hpp) writes it, as `lacuna check` does.
 // - The report: `io::write_report` (io/write/report/report.hpp) makes it from results in a folder.
 #pragma once

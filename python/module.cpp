@@ -13,6 +13,7 @@
 #include "tools/commands/compare_command.hpp"
 #include "tools/run/input_files.hpp"
 
+#include <exception>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -40,17 +41,17 @@ std::unique_ptr<Found> find_in_arrays(const py::dict& columns, const py::dict& p
 }
 
 std::unique_ptr<Found> find_in_files(const std::vector<fs::path>& files, const py::dict& parameters,
-                                     const py::object& progress) {
+                                     const py::object& progress, const std::optional<fs::path>& out) {
   io::FilesConfig config;
   set_parameters(parameters, config);
-  return find(tools::expand_inputs(files, config), config, py::none(), progress);
+  return find(tools::expand_inputs(files, config), config, py::none(), progress, out);
 }
 
 std::vector<std::string> check_files(const std::vector<fs::path>& files, const py::dict& parameters,
                                      const fs::path& folder, const py::object& progress) {
   io::FilesConfig config;
   set_parameters(parameters, config);
-  return check(tools::expand_inputs(files, config), config, folder, progress);
+  return in_python_words(check(tools::expand_inputs(files, config), config, folder, progress));
 }
 
 // Returns the JSON, and warnings.
@@ -62,7 +63,7 @@ std::pair<std::string, std::vector<std::string>> info(const std::vector<fs::path
   const py::gil_scoped_release unlocked;
   std::vector<std::string> warnings;
   std::string json = tools::info_json(files, config, warnings);
-  return {std::move(json), std::move(warnings)};
+  return {std::move(json), in_python_words(warnings)};
 }
 
 // Names, defaults and what is allowed, of the parameters of a run, a check or an info.
@@ -127,7 +128,7 @@ std::pair<std::string, std::vector<std::string>> compare(const fs::path& before,
                                                          double tolerance) {
   const py::gil_scoped_release unlocked;
   const tools::Comparison comparison(tools::read_result(before), tools::read_result(after), tolerance);
-  return {comparison.json().dump(), comparison.warnings};
+  return {comparison.json().dump(), in_python_words(comparison.warnings)};
 }
 
 }  // namespace
@@ -135,10 +136,19 @@ std::pair<std::string, std::vector<std::string>> compare(const fs::path& before,
 PYBIND11_MODULE(_core, module) {
   module.attr("version") = LACUNA_VERSION;
   collect_warnings();
-  py::register_exception<Error>(module, "Error", PyExc_RuntimeError).attr("__module__") = "lacuna";
+  static auto* const raise = new py::exception<Error>(module, "Error", PyExc_RuntimeError);
+  raise->attr("__module__") = "lacuna";
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const Error& error) {
+      (*raise)(in_python_words(error.what()).c_str());
+    }
+  });
 
   py::class_<Found>(module, "Found")
-      .def_property_readonly("warnings", [](const Found& f) { return f.warnings; })
+      .def_property_readonly("warnings", [](const Found& f) { return in_python_words(f.warnings); })
+      .def_property_readonly("has_points", [](const Found& f) { return f.config.results.points; })
       .def_property_readonly("unit", [](const Found& f) { return f.scan->length_unit(); })
       .def_property_readonly("crs", [](const Found& f) { return f.scan->common_crs(); })
       .def("summary", [](const Found& f) { return summary_of(*f.detection); })

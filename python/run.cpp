@@ -29,6 +29,7 @@ namespace lacuna::python {
 namespace {
 
 class Cancelled : public std::exception {};
+constexpr const char* kCancelled = "the run was cancelled by its progress callback";
 
 // Where the run stands, for the thread that Python knows.
 class WatchedProgress final : public tools::CountedProgress {
@@ -119,12 +120,13 @@ void run_watched(Work work, WatchedProgress& progress, const py::object& callbac
     }
     error = worker.join();
   }
+  if (!raised && !error && !wants_more(progress.state(), callback)) throw Error(kCancelled);  // a short run
   if (raised) throw py::error_already_set(*raised);
   if (!error) return;
   try {
     std::rethrow_exception(error);
   } catch (const Cancelled&) {
-    throw Error("the run was cancelled by its progress callback");
+    throw Error(kCancelled);
   }
 }
 
@@ -141,32 +143,36 @@ void set_parameters(const py::dict& values, io::FilesConfig& config) {
 }
 
 std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig config, py::object arrays,
-                            const py::object& progress) {
+                            const py::object& progress, const std::optional<std::filesystem::path>& out) {
   auto found = std::make_unique<Found>();
   found->config = with_min_hole(config);
   found->arrays = std::move(arrays);
-  WatchedProgress watched(tools::steps_of_run(config, !config.area.area.empty()));
+  WatchedProgress watched(tools::steps_of_run(config));
   run_watched(
       [&] {
         check_config(config);
         found->scan.emplace(std::move(inputs), config.input, Memory::share(config.run.memory_limit).reading);
         tools::require_lengths(*found->scan);
         found->warnings = tools::input_warnings(*found->scan);
+        std::optional<io::ResultFolder> results;  // it is refused before the work
+        if (out) io::check_results(*found->scan, config, results.emplace(*out));
         found->scratch =
             std::make_unique<TemporaryFolder>(temporary_parent(config.run.scratch), kScratchPrefix);
-        auto area = io::read_area(*found->scan, config);
         const auto stations = io::watch_stations(*found->scan, config.output, found->scratch->path());
         io::ScanPass pass(*found->scan, stations.get());
         const auto detected = detect(pass, config, found->scratch->path(), watched);
         found->detection.emplace(*detected, pass.counts());
         if (stations) io::find_causes(*stations, config.run, *found->detection);
-        if (area) found->detection->area = io::check_area(std::move(*area), *found->scan, config, watched);
         const io::ExplainedDetection& detection = *found->detection;
         std::ranges::copy(
             tools::station_warnings(detection.stations, detection.points_of_none, detection.upward),
             std::back_inserter(found->warnings));
         std::ranges::copy(tools::scan_warnings(*found->scan, detection, config),
                           std::back_inserter(found->warnings));
+        if (!results) return;
+        watched.begin("write", 0);
+        io::write_results(detection, *found->scan, found->config, *results);
+        watched.end();
       },
       watched, progress);
   return found;

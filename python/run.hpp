@@ -31,9 +31,11 @@ struct Found {
 
 // Runs the engine on a thread of its own, without Python's lock. Meanwhile this thread calls progress(stage,
 // share, seconds left) ten times a second, unless it is None, and Python's handlers of signals. A callback
-// that returns False, or an exception of either, ends the run. Throws `Error`, or that exception.
+// that returns False, or an exception of either, ends the run. It is called once more at the end. The files
+// of the results are written to the folder `out`, if there is one. Throws `Error`, or that exception.
 std::unique_ptr<Found> find(std::vector<io::ScanInput> inputs, io::FilesConfig config,
-                            pybind11::object arrays, const pybind11::object& progress);
+                            pybind11::object arrays, const pybind11::object& progress,
+                            const std::optional<std::filesystem::path>& out = {});
 
 // Checks whether the scan covers `config.area`, in the same way, and writes the voids to the folder. Returns
 // warnings.

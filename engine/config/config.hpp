@@ -100,9 +100,6 @@ struct TangentialConfig {
 struct SelectionConfig {
   double min_confidence = 0.5;  // from 0 to 1; the paper's loops have 1
   double min_perimeter = 0.0;   // lengths in units of the scan
-  double max_perimeter = 0.0;   // 0: no limit
-  double min_area = 0.0;
-  double max_area = 0.0;  // 0: no limit
   double min_diameter = 0.0;
   std::int64_t min_points = 0;
   bool holes_only = false;  // no outer boundaries

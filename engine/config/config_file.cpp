@@ -208,10 +208,8 @@ std::string print_parameters(const std::vector<Parameter>& all) {
     if (parameter.section != section) {
       section = parameter.section;
       text << '[' << section << "]\n";
-      if (parameter.is_constant)
-        text << "# Constants of the method, not for ordinary use. No option of the command line sets "
-                "them.\n\n";
     }
+    if (parameter.in_file_only) text << "# Not for ordinary use: no option of the command line sets it.\n";
     text << "# " << parameter.help << "\n# Allowed: " << parameter.allowed << ".\n"
          << parameter.key << " = " << parameter.print() << '\n';
   }

@@ -50,7 +50,7 @@ struct Parameter {
   std::string_view allowed;  // for error messages: "a whole number from 1 to 1000"
   std::string_view help;
   std::string_view missing = "";  // options without which it changes nothing in this config; empty: it does
-  bool is_constant = false;       // of a method: for the config file, no option of the command line
+  bool in_file_only = false;      // no option of the command line
 
   LACUNA_API std::string option() const;  // "--tile-points"
   LACUNA_API std::string print() const;   // as in the config file

@@ -255,12 +255,10 @@ std::vector<std::size_t> select_loops(const std::vector<LoopMeasures>& loops, co
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const LoopMeasures& loop = loops[i];
     const bool too_short = loop.perimeter < config.min_perimeter;
-    const bool too_long = config.max_perimeter > 0 && loop.perimeter > config.max_perimeter;
-    const bool too_small = loop.diameter < config.min_diameter || loop.area < config.min_area;
-    const bool too_large = config.max_area > 0 && loop.area > config.max_area;
+    const bool too_small = loop.diameter < config.min_diameter;
     const bool too_few = loop.points < static_cast<std::uint64_t>(config.min_points);
     const bool unwanted = config.holes_only && loop.kind == LoopKind::kOuter;
-    if (!too_short && !too_long && !too_small && !too_large && !too_few && !unwanted) selected.push_back(i);
+    if (!too_short && !too_small && !too_few && !unwanted) selected.push_back(i);
   }
   return selected;
 }

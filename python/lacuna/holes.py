@@ -144,6 +144,9 @@ class Holes:
     loops: a sequence of `Loop`.
     summary: counts, bounds, spacing, areas, levels, times; a dict.
     unit, crs: of the scan; empty where it states none.
+
+    Its length is the number of loops. A pickled copy has all but the files: `save`, `report` and `lids` are of
+    the original.
     """
 
     def __init__(
@@ -168,6 +171,24 @@ class Holes:
         self._xyz = xyz
         self._points: Optional[dict[str, np.ndarray]] = None
         self._sample: Optional[dict[str, np.ndarray]] = None
+
+    def __len__(self) -> int:
+        return len(self.loops)
+
+    def __getstate__(self) -> dict[str, Any]:
+        has_points = self._points is not None or (self._found is not None and self._found.has_points)
+        if has_points:
+            self._of_points("probability")  # brings all of them
+        if self._folder is None or (self._folder / "sample.ply").exists():
+            self._sample = self.sample
+        state = {**self.__dict__, "_found": None, "_folder": None, "_read_sample": None}
+        return state if has_points else {**state, "_xyz": None}
+
+    def _kept_folder(self) -> str:
+        """The folder of loaded results."""
+        if self._folder is None:
+            raise _core.Error("a pickled result has no files; save the original, and load its folder")
+        return os.fspath(self._folder)
 
     # ---- results of points, in the order of the input
 
@@ -207,6 +228,8 @@ class Holes:
     def sample(self) -> dict[str, np.ndarray]:
         """Points spread evenly over the surface: id, xyz, probability, normal."""
         if self._sample is None:
+            if self._read_sample is None:
+                raise _core.Error("the pickled result had no sample.ply")
             self._sample = self._read_sample()
         return self._sample
 
@@ -282,16 +305,17 @@ class Holes:
 
         if self._found is not None:
             return list(self._found.save(os.fspath(folder), _checked(params)))
+        source = self._kept_folder()
         if params:
             raise _core.Error("loaded results are copied as they are; save the result of a run to have other files")
-        return list(_core.copy_results(os.fspath(self._folder), os.fspath(folder)))
+        return list(_core.copy_results(source, os.fspath(folder)))
 
     def lids(self) -> dict[int, tuple[np.ndarray, np.ndarray]]:
         """Triangulated lids, by the id of their hole: vertices, m x 3, and triangles, t x 3 indices of vertices.
 
         A hole that cannot be closed has none. Loaded results have lids where the run wrote lids.ply."""
         if self._found is None:
-            return _read_lids(Path(self._folder, "lids.ply"))
+            return _read_lids(Path(self._kept_folder(), "lids.ply"))
         with tempfile.TemporaryDirectory(prefix="lacuna-") as folder:
             self.save(folder, lids=True)
             return _read_lids(Path(folder, "lids.ply"))
@@ -301,7 +325,7 @@ class Holes:
 
         It replaces an earlier report, and no other file."""
         if self._found is None:
-            _core.write_report(os.fspath(self._folder), os.fspath(file))
+            _core.write_report(self._kept_folder(), os.fspath(file))
         else:
             with tempfile.TemporaryDirectory(prefix="lacuna-") as folder:
                 self.save(folder)
@@ -318,7 +342,7 @@ class Holes:
         return plot_holes(self, ax, axes, points)
 
     def _drawn_points(self) -> tuple[np.ndarray, np.ndarray]:
-        if self._xyz is not None and self._found is not None and self._points is not None:
+        if self._xyz is not None and self._points is not None:
             return self._xyz, self.probability
         return self.sample["xyz"], self.sample["probability"]
 

@@ -47,7 +47,8 @@ def find_holes(
     - points: whether results of all points are wanted, such as `Holes.probability`.
     - attributes: further columns of n values each, by name, for files that `Holes.save` writes. The report shows
       `red`, `green` and `blue`.
-    - progress: is called as progress(step, share, seconds_left, run_share, run_seconds_left) some times a second.
+    - progress: is called as progress(step, share, seconds_left, run_share, run_seconds_left) some times a second,
+      and at the end.
       The first share, from 0 to 1, and the first seconds belong to the current step, the others to the whole run.
       They are None where they are not known. The share of the run is rough. If it returns False, the run ends
       with an `Error`.
@@ -72,6 +73,7 @@ def find_holes(
 def detect(
     files: Union[Path, Iterable[Path]],
     *,
+    out: Optional[Path] = None,
     points: bool = False,
     progress: Optional[Progress] = None,
     **params: Unpack[FileParameters],
@@ -80,9 +82,12 @@ def detect(
 
     files: names of scans, of folders with scans, or "@list" of a list of names. LAS, LAZ, E57, PLY, PCD, PTX,
         OBJ and text are read.
+    out: folder for the files that `lacuna detect` writes, with those of report=True, gpkg=True and so on; by
+        default none are written, and `Holes.save` writes them later.
     Other arguments are those of `find_holes`.
     """
-    found = _core.find_in_files(_names(files), _checked({**params, "points": points}), progress)
+    folder = None if out is None else os.fspath(out)
+    found = _core.find_in_files(_names(files), _checked({**params, "points": points}), progress, folder)
     return _holes_of(found)
 
 
@@ -154,6 +159,8 @@ def _checked(params: Mapping[str, Any], command: str = "run") -> dict[str, str]:
         if key not in keys:
             near = difflib.get_close_matches(key, keys, 1)
             hint = f"; did you mean {near[0]}?" if near else "; lacuna.parameters() lists them"
+            if command == "run" and key in {p["key"] for p in _core.parameters("check")}:
+                hint = "; lacuna.check has it"
             of = {"run": "", "check": " of a check", "info": " of info"}[command]
             raise TypeError(f"{key} is no parameter{of}{hint}")
     return {key: _text(value) for key, value in params.items() if value is not None}

@@ -33,9 +33,6 @@ for other in "--threads 1" "--threads 3 --memory-limit 112MiB"; do
   "$program" check mixed.xyz mixed2.xyz --columns "x y z" "${options[@]}" $other --out other 2>other.err || true
   for file in voids.csv voids.json voids.gpkg; do cmp "holes/$file" "other/$file"; done
 done
-"$program" detect holes.xyz --columns "x y z" "${options[@]}" --tile-points 500 --report --out detected 2>detected.err
-for file in voids.csv voids.json voids.gpkg; do cmp "holes/$file" "detected/$file"; done
-grep -q '"area":{"lacuna"' detected/report.html
 
 # ---- the files
 ogrinfo -q -al -so holes/voids.gpkg >layers.txt
@@ -436,8 +433,6 @@ undecided "synthetic points alone" "all 5,[0-9]* points in it are flagged as syn
 undecided "no first return" "no first returns that were measured are in it, but 5,[0-9]* later returns, which" later.txt
 undecided "no point" "no point of the scan is in its bounds" utm.xyz --columns "x y z"
 undecided "few points" "too few points: their spacing is 2.00, and voids of 2.40 need 1.70 or less" sparse.txt
-"$program" detect synthetic.txt "${on[@]}" --out synthetic >synthetic.out 2>synthetic.err  # its exit code is 0
-grep -q "not decided: all 5," synthetic.out
 ogr2ogr -f GPKG -a_srs EPSG:25832 some.gpkg some.geojson
 on=(--area some.gpkg --void-rule 2.4)
 check 0 utm32.las
@@ -455,16 +450,14 @@ refuse() {
   [[ $(wc -l <refused.err) -le 3 ]]
 }
 some=(holes.xyz --columns "x y z" --out refused)
-for command in check detect; do
-  refuse "--void-rule is required for an area; allowed: a length above 0, or" "$command" "${some[@]}" --area holes.geojson
-  refuse "nothing.gpkg: cannot be opened: No such file" "$command" "${some[@]}" --area nothing.gpkg --void-rule 4
-  refuse "holes.xyz: cannot be read as GeoPackage" "$command" "${some[@]}" --area holes.xyz --void-rule 4
-  refuse "void_rule = 1e-6: the area has .* cells of an eighth of this size, more than .* allowed: a size of .* or more" "$command" "${some[@]}" \
-    --area holes.geojson --void-rule 1e-6
-  refuse "void_rule = \"anps:QL9\"; allowed: a length above 0, or" "$command" "${some[@]}" --area holes.geojson --void-rule anps:QL9
-  refuse "void_rule = 4m is a length in m, and the scan states no unit" "$command" "${some[@]}" --area holes.geojson --void-rule 4m
-  refuse "area_tile is less than the void size, 4.0" "$command" "${some[@]}" --area holes.geojson --void-rule 4 --area-tile 3
-done
+refuse "--void-rule is required for an area; allowed: a length above 0, or" check "${some[@]}" --area holes.geojson
+refuse "nothing.gpkg: cannot be opened: No such file" check "${some[@]}" --area nothing.gpkg --void-rule 4
+refuse "holes.xyz: cannot be read as GeoPackage" check "${some[@]}" --area holes.xyz --void-rule 4
+refuse "void_rule = 1e-6: the area has .* cells of an eighth of this size, more than .* allowed: a size of .* or more" check "${some[@]}" \
+  --area holes.geojson --void-rule 1e-6
+refuse "void_rule = \"anps:QL9\"; allowed: a length above 0, or" check "${some[@]}" --area holes.geojson --void-rule anps:QL9
+refuse "void_rule = 4m is a length in m, and the scan states no unit" check "${some[@]}" --area holes.geojson --void-rule 4m
+refuse "area_tile is less than the void size, 4.0" check "${some[@]}" --area holes.geojson --void-rule 4 --area-tile 3
 mkfifo pipe.geojson
 for options in "--area pipe.geojson" "--area holes.geojson --except pipe.geojson" "--area holes.geojson --classes pipe.geojson"; do
   refuse "pipe.geojson: is not a regular file; a file of polygons is needed" check "${some[@]}" --void-rule 4 $options
@@ -532,5 +525,4 @@ refuse "memory_limit = 64MiB is too little for files for GIS" check west.txt "${
 mkdir -p refused
 echo mine >refused/voids.csv
 refuse "refused/voids.csv: " check "${some[@]}" --area holes.geojson --void-rule 4
-refuse "refused/voids.csv: " detect "${some[@]}" --area holes.geojson --void-rule 4
 [[ $(cat refused/voids.csv) == mine ]]

@@ -42,12 +42,9 @@ const std::map<std::string_view, std::string_view> kOtherValues = {
     {"min_curve", "40"},
     {"min_confidence", "0.999"},
     {"min_perimeter", "45"},
-    {"min_area", "60"},
-    {"max_area", "60"},
     {"min_diameter", "15"},
     {"resolution", "0.9"},
     {"min_hole", "7"},
-    {"max_perimeter", "45"},
     {"min_points", "40"},
     {"columns", "y x z classification return_number number_of_returns withheld"},
     {"where", "classification == 2"},
@@ -202,11 +199,11 @@ TEST_CASE("a parameter changes the results unless what it needs is missing or it
       io::FilesConfig changed = config;
       Parameter parameter = parameters(changed)[i];
       // This scan has neither lines nor normals, and none of its coarse curves stands (curves_test has some).
-      // The others say which files are read, and the unit of z needs the unit of x and y. An area needs a
-      // void size; area_test.sh has it.
-      const std::string_view passed[] = {"method", "every_point", "normals", "recursive",   "skip_damaged",
-                                         "unit_z", "trust",       "area",    "coarse_bound"};
-      if (std::find(std::begin(passed), std::end(passed), parameter.key) != std::end(passed)) continue;
+      // The others say which files are read, and the unit of z needs the unit of x and y. A check reads the
+      // section area.
+      const std::string_view passed[] = {"method",       "every_point", "normals", "recursive",
+                                         "skip_damaged", "unit_z",      "trust",   "coarse_bound"};
+      if (std::ranges::count(passed, parameter.key) > 0 || parameter.section == "area") continue;
       set_other(parameter, runs.workspace());
       parameter = parameters(changed)[i];
       const bool has_effect = parameter.missing.empty() && parameter.section != "run";
@@ -232,8 +229,8 @@ void check_kept_runs(const io::FilesConfig& config) {
   for (std::size_t i = 0; i < count; i += count / draws(count)) {
     io::FilesConfig changed = config;
     const Parameter parameter = parameters(changed)[i];
-    const std::string_view passed[] = {"workspace", "recursive", "skip_damaged", "unit_z", "area"};
-    if (std::find(std::begin(passed), std::end(passed), parameter.key) != std::end(passed)) continue;
+    const std::string_view passed[] = {"workspace", "recursive", "skip_damaged", "unit_z"};
+    if (std::ranges::count(passed, parameter.key) > 0 || parameter.section == "area") continue;
     if (parameter.key == "method") {
       changed.loops.method =
           config.loops.method == LoopMethod::kPaper ? LoopMethod::kTangential : LoopMethod::kPaper;
@@ -273,10 +270,11 @@ TEST_CASE("each option without effect has its warning, each other none") {
     for (const Parameter& parameter : parameters(config)) {
       const bool is_flag = std::holds_alternative<bool*>(parameter.value);
       // The files that the last one changes are wanted.
-      const std::set<std::string_view> left_out = {"method",        "points",        "columns",   "eps",
-                                                   "max_perimeter", "max_area",      "polygons",  "unit_z",
-                                                   "area",          "points_format", "resolution"};
-      if (parameter.is_constant || parameter.section == "run" || left_out.contains(parameter.key)) continue;
+      const std::set<std::string_view> left_out = {"method",   "points", "columns",       "eps",
+                                                   "polygons", "unit_z", "points_format", "resolution"};
+      const std::set<std::string_view> sections = {"run", "area"};
+      if (parameter.in_file_only || sections.contains(parameter.section) || left_out.contains(parameter.key))
+        continue;
       options.push_back(parameter.option());
       if (!is_flag) options.emplace_back(other_value(parameter.key));
       if (!parameter.missing.empty()) {
@@ -386,16 +384,17 @@ class Sweep {
   ScratchFolder scratch_;
 };
 
-TEST_CASE("each command refuses the parameters that it does not offer, and a run offers all") {
+TEST_CASE("each command refuses the parameters that it does not offer; a run offers all but an area's") {
   io::FilesConfig config;
   std::map<std::string, std::set<std::string>> offered;
   for (const char* command : kCommands) offered[command] = offered_by(command);
   std::size_t next = 0;
   for (const Parameter& parameter : parameters(config)) {
-    if (parameter.is_constant) continue;
+    if (parameter.in_file_only) continue;
     const std::string option = parameter.option();
     INFO(option);
-    for (const char* command : {"detect", "plan"}) CHECK(offered[command].contains(option));
+    for (const char* command : {"detect", "plan"})
+      CHECK(offered[command].contains(option) == (parameter.section != "area"));
     const bool is_of_process = parameter.changes == Changes::kProcess;
     for (const char* command : {"work", "finish"}) CHECK(offered[command].contains(option) == is_of_process);
     for (const char* command : {"report", "stations", "status", "clean"})
@@ -470,9 +469,8 @@ TEST_CASE("a config file serves all commands: keys that one does not read are ch
     return sweep.outcome({"plain.txt"}, "info", {"--config", scratch.write("c.toml", text)});
   };
   const std::string plain = sweep.outcome({"plain.txt"}, "info", {});
-  CHECK(info("[output]\npoints_format = \"ply\"\nreport = true\n[selection]\nmin_area = "
-             "3.0\n[neighbourhood]\neps = "
-             "1.0\neps_fraction = 0.1\n[area]\nexcept = \"none.gpkg\"\n") == plain);
+  CHECK(info("[output]\npoints_format = \"ply\"\nreport = true\n[selection]\nmin_points = 3\n"
+             "[neighbourhood]\neps = 1.0\neps_fraction = 0.1\n[area]\nexcept = \"none.gpkg\"\n") == plain);
   CHECK(info("[scale]\nmin_hole = 7.0\n") != plain);
   CHECK_THAT(info("[output]\nreports = true\n"), Contains("did you mean \"report\"?"));
   CHECK_THAT(info("[selection]\nmin_confidence = 7\n"), Contains("min_confidence = 7"));

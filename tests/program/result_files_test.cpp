@@ -4,16 +4,15 @@
 #include "engine/pipeline.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/support/clouds.hpp"
-#include "tests/support/json.hpp"
 #include "tests/support/detected.hpp"
+#include "tests/support/json.hpp"
 #include "tests/support/run_program.hpp"
 
 namespace lacuna::test {
 namespace {
 
 // Every kind of result that needs no GDAL, but for the page: it shows the parameters.
-const Words kAllResults = {"--points",         "--points-format", "ply",
-                           "--points-normals", "--lids",          "--obj",
+const Words kAllResults = {"--points",         "--points-format", "ply", "--points-normals", "--lids",
                            "--orient-normals", "--sample-points", "3000"};
 
 void check_every_tiling(const std::string& scan, const fs::path& folder, const Words& options) {
@@ -22,7 +21,7 @@ void check_every_tiling(const std::string& scan, const fs::path& folder, const W
   };
   const fs::path one = detect("one", {"--tile-points", "1000000", "--threads", "1"});
   CHECK(read_json(one / "holes.json").at("loops").size() > 3);
-  for (const char* name : {"points.ply", "lids.ply", "loops.obj"}) CHECK(fs::exists(one / name));
+  for (const char* name : {"points.ply", "lids.ply"}) CHECK(fs::exists(one / name));
   for (const Words& more : {Words{"--tile-points", "500", "--threads", "8", "--memory-limit", "64MiB"},
                             {"--tile-points", "5000", "--threads", "2"},
                             {}}) {

@@ -4,6 +4,7 @@
 import inspect
 import json
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -69,7 +70,7 @@ class FindHoles(Folder):
             self.assertEqual(len(loop), len(loop.ids))
         self.assertEqual(holes.summary["points"], len(SHEET))
         self.assertEqual(repr(holes.loops), "Loops(2 holes, 1 outer)")
-        self.assertEqual(holes.loops[-1].id, len(holes.loops) - 1)
+        self.assertEqual(holes.loops[-1].id, len(holes) - 1)
         self.assertEqual([loop.id for loop in holes.loops[:2]], [0, 1])
         with self.assertRaises(IndexError):
             holes.loops[len(holes.loops)]
@@ -148,6 +149,8 @@ class FindHoles(Folder):
                 lacuna.find_holes(xyz)
         with self.assertRaisesRegex(TypeError, "min_holes is no parameter; did you mean min_hole?"):
             lacuna.find_holes(SHEET, min_holes=1)
+        with self.assertRaisesRegex(TypeError, "area is no parameter; lacuna.check has it"):
+            lacuna.detect("a.laz", area="a.gpkg")
         with self.assertRaisesRegex(lacuna.Error, "k.*a whole number from 1 to 1000"):
             lacuna.find_holes(SHEET, k=0)
         with self.assertRaisesRegex(lacuna.Error, "no_such.laz"):
@@ -164,10 +167,16 @@ class FindHoles(Folder):
         self.assertEqual(boxed.summary["threads"], 1)
         self.assertIn("min_hole", [p["key"] for p in lacuna.parameters()])
 
-    def test_a_warning_is_python_s(self):
+    def test_warnings_and_errors_are_python_s(self):
         far = np.vstack([SHEET, [1e6, 0, 0]])
-        with self.assertWarnsRegex(lacuna.LacunaWarning, "far"):
+        with self.assertWarnsRegex(lacuna.LacunaWarning, "far.* bounds=") as caught:
             lacuna.find_holes(far)
+        self.assertNotIn("--", str(caught.warning))
+        np.savetxt(self.folder / "s.xyz", SHEET)
+        with self.assertRaisesRegex(lacuna.Error, "^void_rule is required"):
+            lacuna.check(self.folder / "s.xyz")
+        with self.assertRaisesRegex(lacuna.Error, "^count: 0 is not possible; allowed: a whole number from 1 to 1000$"):
+            lacuna.stations(lacuna.find_holes(SHEET), count=0)
 
 
 BIG = plane(1000, [(500, 500, 20)])
@@ -189,9 +198,15 @@ class Running(Folder):
         self.assertTrue(0 <= run[0] < run[-1] <= 1)
         self.assertTrue(any(left is not None and left >= 0 for *_, left in calls))
 
+    def test_progress_of_a_short_run_is_its_end(self):
+        calls = []
+        lacuna.find_holes(SHEET, progress=lambda *call: calls.append(call))
+        self.assertEqual(calls[-1][:2], ("collect", 1))
+
     def test_progress_can_cancel(self):
-        with self.assertRaisesRegex(lacuna.Error, "cancelled"):
-            lacuna.find_holes(BIG, progress=lambda *_: False)
+        for xyz in (BIG, SHEET):
+            with self.assertRaisesRegex(lacuna.Error, "cancelled"):
+                lacuna.find_holes(xyz, progress=lambda *_: False)
 
         def fail(*_):
             raise ValueError("mine")
@@ -231,8 +246,8 @@ class Running(Folder):
 class Files(Folder):
     def test_results_are_saved_and_loaded(self):
         holes = lacuna.find_holes(SHEET, points=True, attributes={"red": np.arange(len(SHEET), dtype=np.uint8)})
-        written = holes.save(self.folder / "out", obj=True, points=True)
-        self.assertIn("loops.obj", [file.name for file in written])
+        written = holes.save(self.folder / "out", lids=True, points=True)
+        self.assertIn("lids.ply", [file.name for file in written])
         self.assertIn(b"property uchar red", (self.folder / "out/points/arrays.ply").read_bytes()[:2000])
         loaded = lacuna.load(self.folder / "out")
         self.assertTrue(same_loops(loaded, holes))
@@ -245,6 +260,32 @@ class Files(Folder):
         report = holes.report(self.folder / "x.html").read_text()
         self.assertTrue(report.startswith("<!doctype html>\n<!-- Lacuna report"))
         self.assertEqual(loaded.report(self.folder / "y.html").read_text().split("<body")[0], report.split("<body")[0])
+
+    def test_detect_writes_what_the_program_writes(self):
+        scan = self.synth("surface", "s.ply", "--points", "20000", "--holes", "3")
+        subprocess.run([PROGRAM, "detect", scan, "--out", self.folder / "program", "--gpkg", "--quiet"], check=True)
+        holes = lacuna.detect(scan, out=self.folder / "ours", gpkg=True)
+        names = sorted(os.listdir(self.folder / "program"))
+        self.assertEqual(sorted(os.listdir(self.folder / "ours")), names)
+        for name in ("holes.json", "holes.csv", "loops.ply"):
+            self.assertEqual((self.folder / "ours" / name).read_bytes(), (self.folder / "program" / name).read_bytes())
+        self.assertEqual(len(holes), 4)
+        (self.folder / "ours/mine.txt").write_text("mine")
+        with self.assertRaisesRegex(lacuna.Error, "mine.txt"):
+            lacuna.detect(scan, out=self.folder / "ours")
+
+    def test_a_pickled_result_has_all_but_the_files(self):
+        scan = self.synth("surface", "s.ply", "--points", "20000", "--holes", "3")
+        found = lacuna.detect(scan, out=self.folder / "out", points=True)
+        for holes in (found, lacuna.load(self.folder / "out")):
+            copy = pickle.loads(pickle.dumps(holes))
+            self.assertTrue(same_loops(copy, holes))
+            self.assertEqual((len(copy), copy.summary, copy.unit), (4, holes.summary, holes.unit))
+            np.testing.assert_array_equal(copy.sample["xyz"], holes.sample["xyz"])
+            for use in (copy.save, copy.report, lambda _: copy.lids(), lambda _: lacuna.stations(copy)):
+                with self.assertRaisesRegex(lacuna.Error, "a pickled result has no files; save the original"):
+                    use(self.folder / "copy")
+        np.testing.assert_array_equal(pickle.loads(pickle.dumps(found)).probability, found.probability)
 
     def test_files_of_others_stay(self):
         (self.folder / "holes.csv").write_text("mine")

@@ -141,16 +141,14 @@ TEST_CASE("the share of the run and its time left follow the step, and the bar i
 
 TEST_CASE("a run goes from 0 to 1 through its steps, whether they count points or not") {
   Config config;
-  for (const bool has_area : {false, true}) {
-    for (const double resolution : {0.0, 0.5}) {
-      config.scale.resolution = resolution;
-      const RunSteps steps = steps_of_run(config, has_area);
-      CHECK(run_share(steps, steps.front(), 0) == 0.0);
-      CHECK(*run_share(steps, steps.back(), 1) == Approx(1));
-      for (std::size_t i = 1; i < steps.size(); ++i) {
-        CHECK(*run_share(steps, steps[i], 0) == Approx(*run_share(steps, steps[i - 1], 1)));
-        CHECK(*run_share(steps, steps[i], 0) <= *run_share(steps, steps[i], 1));
-      }
+  for (const double resolution : {0.0, 0.5}) {
+    config.scale.resolution = resolution;
+    const RunSteps steps = steps_of_run(config);
+    CHECK(run_share(steps, steps.front(), 0) == 0.0);
+    CHECK(*run_share(steps, steps.back(), 1) == Approx(1));
+    for (std::size_t i = 1; i < steps.size(); ++i) {
+      CHECK(*run_share(steps, steps[i], 0) == Approx(*run_share(steps, steps[i - 1], 1)));
+      CHECK(*run_share(steps, steps[i], 0) <= *run_share(steps, steps[i], 1));
     }
   }
   CHECK(*run_share(steps_of_check(), "voids", 0) == Approx(0.8));

@@ -49,7 +49,8 @@ struct EffectiveConfig {
 
 class ParameterOptions {
  public:
-  // Adds an option for each parameter that is read, grouped by section in --help-all.
+  // Adds an option for each parameter that is read, grouped by section in --help-all. One that a file alone
+  // sets is refused with the words that say so.
   ParameterOptions(CLI::App& command, const ReadParameters& read);
 
   // `config`, then the config file, then the command line. Throws `UsageError` for what is wrong in the file
@@ -68,7 +69,7 @@ class ParameterOptions {
   struct Given {
     bool is_read = false;
     std::string text;
-    CLI::Option* option = nullptr;  // none: of a constant, or of a parameter that is not read
+    CLI::Option* option = nullptr;  // none: of a file alone, or not read
 
     bool is_given() const;
   };
@@ -163,21 +164,12 @@ std::string print_state(const KeptState& state);
 // its reasons.
 std::string print_answer(const io::AreaCheck& check, std::string_view unit);
 
-// "12,300 m², 98.7 % of it covered; 45,600 points", without the share where the answer is not decided.
-// Points that take no part follow, if there are any.
-std::string print_covered(const io::AreaCheck& check, std::string_view unit);
-
-// "of the voids that count, 120 m² (34.1 %) lie in buildings"; a line for each class.
-std::string print_classes(const io::AreaCheck& check, std::string_view unit);
-
-// Returns what the figures rest on, a line for each thing, and what the check does not show.
-std::string print_basis(const io::AreaCheck& check);
+// Returns the answer, a table of the ten largest voids, the area and its covered share. What the figures rest
+// on follows, and what the check does not show.
+std::string print_check(const io::AreaCheck& check, std::string_view unit);
 
 // Returns lines for points that cover nothing as their heights lie apart, and for densities that may be
 // wrong.
 std::vector<std::string> area_warnings(const io::AreaCheck& check, std::string_view unit);
-
-// The ten largest voids as a table; empty without a void.
-std::string print_voids(const io::AreaCheck& check, std::string_view unit);
 
 }  // namespace lacuna::tools

@@ -67,17 +67,16 @@ std::unique_ptr<KeptFolder> use_workspace(const fs::path& folder) {
 struct RunResources {
   RunResources(const std::vector<ScanInput>& inputs, const FilesConfig& config,
                const ResultArguments& arguments)
-      : scan(open_inputs(inputs, config)), area(read_area(scan, config)), out(arguments.out, "holes.json") {
+      : scan(open_inputs(inputs, config)), out(arguments.out, "holes.json") {
     check_results(scan, config, out.results());
     workspace = use_workspace(config.run.workspace);
     scratch.emplace(scratch_parent(config.run, out.results()));
     print_warnings(memory_warnings(config));
-    progress = arguments.show_progress(steps_of_run(config, area.has_value()));
+    progress = arguments.show_progress(steps_of_run(config));
     stations = watch_stations(scan, config.output, scratch->path());
   }
 
   ScanFiles scan;
-  std::optional<Area> area;                // before any folder is made: a file that is refused leaves none
   OutFolder out;                           // no other run may take its name meanwhile
   std::unique_ptr<KeptFolder> workspace;   // null: nothing is kept
   std::optional<ScratchFolder> scratch;    // in one of these two folders, unless it has its own place
@@ -137,12 +136,10 @@ void detect_to(const std::vector<ScanInput>& inputs, FilesConfig config, const R
   const std::unique_ptr<Detection> found = detect(pass, config, run.scratch->path(), *run.progress);
   ExplainedDetection detection(*found, pass.counts());
   if (run.stations) find_causes(*run.stations, config.run, detection);
-  if (run.area) detection.area = check_area(std::move(*run.area), run.scan, config, *run.progress);
   run.progress->begin("write", 0);
   const auto written = write_results(detection, run.scan, with_min_hole(config), run.out.results());
   note_complete_results();
   run.progress->end();
-  if (detection.area) print_warnings(area_warnings(*detection.area, run.scan.length_unit()));
   print_warnings(station_warnings(detection.stations, detection.points_of_none, detection.upward));
   print_warnings(scan_warnings(run.scan, detection, config));
 
@@ -218,11 +215,7 @@ void run_check(const CheckArguments& arguments) {
       bounds.extend(Eigen::Vector3d(corner.x(), corner.y(), 0));
   print_warnings(filter_warnings(scan, check.counts, bounds));
   const std::string_view unit = scan.length_unit();
-  const std::string answer = print_answer(check, unit);
-  std::string text = answer + "\n\n";
-  if (const std::string voids = print_voids(check, unit); !voids.empty()) text += voids + "\n";
-  text += "  area  " + print_covered(check, unit) + "\n" + print_classes(check, unit) + "\n" +
-          print_basis(check) + "\n";
+  std::string text = print_check(check, unit);
   if (out) {
     for (const auto& file : write_voids(check, scan, config, out->results()))
       text += "written: " + visible(file.string()) + "\n";
@@ -230,8 +223,9 @@ void run_check(const CheckArguments& arguments) {
   }
   if (!arguments.run.quiet) std::cout << text;
   if (!check.is_covered())
-    throw AnswerIsNo{(check.is_outline ? "outline of the scan" : config.area.area) + ": " + answer,
-                     check.answer() == AreaAnswer::kVoids};
+    throw AnswerIsNo{
+        (check.is_outline ? "outline of the scan" : config.area.area) + ": " + print_answer(check, unit),
+        check.answer() == AreaAnswer::kVoids};
 }
 
 }  // namespace

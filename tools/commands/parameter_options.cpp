@@ -8,6 +8,7 @@
 #include "tools/console/terminal.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <set>
@@ -96,12 +97,25 @@ struct TypeName {
   std::string operator()(const std::string*) const { return "TEXT"; }
   std::string operator()(const std::uint64_t*) const { return "SIZE"; }
   std::string operator()(const std::vector<double>*) const { return "X,X..."; }
-  std::string operator()(const NamedValue& value) const {
-    std::string names;
-    for (const std::string_view name : value.names) names += (names.empty() ? "" : "|") + std::string(name);
-    return names;
-  }
+  std::string operator()(const NamedValue&) const { return "NAME"; }
 };
+
+// The sections of how holes are looked for are one in the help.
+std::string help_section(const Parameter& parameter) {
+  constexpr std::array<std::string_view, 4> kSearch = {"scale", "neighbourhood", "normals", "loops"};
+  return std::string(std::ranges::count(kSearch, parameter.section) > 0 ? "search" : parameter.section);
+}
+
+// Adds an option that says where its parameter is set.
+void refuse_option(const Parameter& parameter, CLI::App& command) {
+  const std::string reason = "is no option; a file for --config sets it, in its section [" +
+                             std::string(parameter.section) + "]: " + std::string(parameter.key) + " = " +
+                             parameter.print();
+  const auto fail = [option = parameter.option(), reason](const std::string&) {
+    throw WrongOption(option, reason);
+  };
+  command.add_option_function<std::string>(parameter.option(), fail)->expected(0, 1)->group("");
+}
 
 std::string type_name(const Parameter& parameter) {
   return parameter.key == "workspace" || parameter.key == "scratch" ? "DIR"
@@ -166,7 +180,7 @@ ReadParameters parameters_of_run() {
   return {.common = {"min_hole", "k", "min_confidence", "holes_only", "bounds", "where", "crs", "unit",
                      "points", "gpkg", "stations", "report", "workspace", "memory_limit"},
           .rare = {"scale", "neighbourhood", "normals", "criteria", "coherence", "loops", "spanning",
-                   "tangential", "selection", "input", "area", "output", "run"}};
+                   "tangential", "selection", "input", "output", "run"}};
 }
 
 ReadParameters parameters_of_check() {
@@ -198,9 +212,13 @@ ParameterOptions::ParameterOptions(CLI::App& command, const ReadParameters& read
   for (const Parameter& parameter : parameters(defaults)) {
     Given& given = given_.emplace_back();
     given.is_read = read.has(parameter);
-    if (!given.is_read || parameter.is_constant) continue;
+    if (!given.is_read) continue;
+    if (parameter.in_file_only) {
+      refuse_option(parameter, command);
+      continue;
+    }
     const bool is_flag = std::holds_alternative<bool*>(parameter.value);
-    const std::string help(parameter.help), group(parameter.section);
+    const std::string help(parameter.help), group = help_section(parameter);
     given.option = is_flag ? command.add_flag(parameter.option(), given.text, help)
                            : command.add_option(parameter.option(), given.text,
                                                 help + " Allowed: " + std::string(parameter.allowed) + ".");

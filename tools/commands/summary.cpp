@@ -169,10 +169,6 @@ std::string print_summary(const ExplainedDetection& detection, const ScanFiles& 
                      counted(outer, "outer curve", "outer curves") + "\n" +
                      print_largest(loops, holes, extent, unit) + "\n";
   auto facts = findings(detection, scan, unit);
-  if (detection.area) {
-    facts.emplace_back("area", print_answer(*detection.area, unit));
-    facts.emplace_back("", print_covered(*detection.area, unit));
-  }
   if (!causes.empty()) facts.emplace_back("causes", causes);
   if (summary.surface_area > 0)
     facts.emplace_back("surface", print_surface(summary, detection.opening_area().value_or(0), unit));
@@ -296,8 +292,8 @@ std::string print_taking_no_part(const AreaCheck& check) {
   return text;
 }
 
-}  // namespace
-
+// "12,300 m², 98.7 % of it covered; 45,600 points", without the share where the answer is not decided.
+// Points that take no part follow, if there are any.
 std::string print_covered(const AreaCheck& check, std::string_view unit) {
   const double share = check.area > 0 ? 1 - check.missing_area / check.area : 1;
   const std::string covered =
@@ -306,6 +302,7 @@ std::string print_covered(const AreaCheck& check, std::string_view unit) {
          print_taking_no_part(check);
 }
 
+// "of the voids that count, 120 m² (34.1 %) lie in buildings"; a line for each class.
 std::string print_classes(const AreaCheck& check, std::string_view unit) {
   double voids_area = 0;
   for (std::size_t id = 0; id < check.counting(); ++id) voids_area += check.voids[id].area;
@@ -329,25 +326,6 @@ std::string print_basis(const AreaCheck& check) {
   return text;
 }
 
-std::vector<std::string> area_warnings(const AreaCheck& check, std::string_view unit) {
-  std::vector<std::string> warnings;
-  if (!check.apart.empty())
-    warnings.push_back(points_apart(check) + " in the bounds of the area at heights of " +
-                       print_heights(check.apart) + ", more than " + print_length(check.height_gap, unit) +
-                       " off all others, cover nothing, as no-data values and clouds; --bounds with "
-                       "heights, min x y z max x y z, says which points count");
-  constexpr std::uint64_t kByChance = 20;  // one point in so many has another as near, at most
-  if (check.near > check.points / kByChance)
-    warnings.push_back("about " + counted(check.near, "point", "points") +
-                       " without a time have another within a 25th of the spacing, as copies have that two "
-                       "files round differently; such copies count twice in densities and spacings");
-  if (!check.counts_once && check.repeated > 0)
-    warnings.push_back("about " + print_count(check.repeated) +
-                       " points in the area are there twice, as in tiles that overlap, and count twice in "
-                       "densities and spacings; with a larger --memory-limit they count once");
-  return warnings;
-}
-
 std::string print_voids(const AreaCheck& check, std::string_view unit) {
   constexpr std::size_t kMostRows = 10;
   if (check.voids.empty()) return "";
@@ -365,6 +343,33 @@ std::string print_voids(const AreaCheck& check, std::string_view unit) {
   if (check.voids.size() > kMostRows)
     text += "  and " + print_count(check.voids.size() - kMostRows) + " more: voids.csv has them all\n";
   return text;
+}
+
+}  // namespace
+
+std::string print_check(const AreaCheck& check, std::string_view unit) {
+  const std::string voids = print_voids(check, unit);
+  return print_answer(check, unit) + "\n\n" + voids + (voids.empty() ? "" : "\n") + "  area  " +
+         print_covered(check, unit) + "\n" + print_classes(check, unit) + "\n" + print_basis(check) + "\n";
+}
+
+std::vector<std::string> area_warnings(const AreaCheck& check, std::string_view unit) {
+  std::vector<std::string> warnings;
+  if (!check.apart.empty())
+    warnings.push_back(points_apart(check) + " in the bounds of the area at heights of " +
+                       print_heights(check.apart) + ", more than " + print_length(check.height_gap, unit) +
+                       " off all others, cover nothing, as no-data values and clouds; --bounds with "
+                       "heights, min x y z max x y z, says which points count");
+  constexpr std::uint64_t kByChance = 20;  // one point in so many has another as near, at most
+  if (check.near > check.points / kByChance)
+    warnings.push_back("about " + counted(check.near, "point", "points") +
+                       " without a time have another within a 25th of the spacing, as copies have that two "
+                       "files round differently; such copies count twice in densities and spacings");
+  if (!check.counts_once && check.repeated > 0)
+    warnings.push_back("about " + print_count(check.repeated) +
+                       " points in the area are there twice, as in tiles that overlap, and count twice in "
+                       "densities and spacings; with a larger --memory-limit they count once");
+  return warnings;
 }
 
 }  // namespace lacuna::tools

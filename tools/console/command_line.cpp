@@ -61,7 +61,8 @@ class Help final : public CLI::Formatter {
 
  private:
   static Options options_of(const CLI::App& app) {
-    return app.get_options([](const CLI::Option* option) { return option->nonpositional(); });
+    return app.get_options(
+        [](const CLI::Option* option) { return option->nonpositional() && !option->get_group().empty(); });
   }
 
   std::string common(const Options& all) const {
@@ -107,16 +108,20 @@ std::vector<std::string> option_names(const CLI::App& command) {
   return names;
 }
 
+// Options without a group are there to be refused.
+bool offers(const CLI::App& app, const std::string& name) {
+  const CLI::Option* const option = app.get_option_no_throw(name);
+  return option != nullptr && !option->get_group().empty();
+}
+
 // Other programs name their input and output by options such as -i and --output.
 std::string option_hint(const CLI::App& command, const std::string& name) {
   if (name == "-i" || name == "--input") return "; the names of inputs need no option";
   for (const CLI::App* parent = command.get_parent(); parent != nullptr; parent = parent->get_parent()) {
     const std::string path = parent->get_name();
-    if (parent->get_option_no_throw(name) != nullptr)
-      return "; it has no command before it: " + path + " " + name;
+    if (offers(*parent, name)) return "; it has no command before it: " + path + " " + name;
     for (const CLI::App* other : parent->get_subcommands({})) {
-      if (other->get_option_no_throw(name) != nullptr)
-        return "; " + path + " " + other->get_name() + " has it";
+      if (offers(*other, name)) return "; " + path + " " + other->get_name() + " has it";
     }
   }
   const bool has_out = command.get_option_no_throw("--out") != nullptr;

@@ -24,8 +24,8 @@ namespace lacuna::tools {
 // The names of steps, in the order in which a run begins them.
 using RunSteps = std::vector<std::string_view>;
 
-// Returns the steps of a run that finds holes, and then checks an area if it has one.
-RunSteps steps_of_run(const Config& config, bool has_area);
+// Returns the steps of a run that finds holes.
+RunSteps steps_of_run(const Config& config);
 // Returns the steps of a check of an area.
 RunSteps steps_of_check();
 

@@ -192,8 +192,8 @@ void lay_cells(Area& area, double void_size, const Eigen::AlignedBox2d& bounds, 
   check_tiles(area.grid, limit / 8, config.area);
 }
 
-Area read_area_files(const ScanFiles& scan, const FilesConfig& config, double void_size, const char* user) {
-  require_plan(scan, user);
+Area read_area_files(const ScanFiles& scan, const FilesConfig& config, double void_size) {
+  require_plan(scan, config.area.area.empty() ? "check" : "--area");
   Area area;
   PolygonFiles files(scan, config, void_size);
   if (!config.area.area.empty()) area.polygons = files.read(config.area.area);
@@ -204,18 +204,9 @@ Area read_area_files(const ScanFiles& scan, const FilesConfig& config, double vo
   return area;
 }
 
-std::optional<Area> read_area(const ScanFiles& scan, const FilesConfig& config) {
-  if (config.area.area.empty()) return std::nullopt;
-  const double void_size = void_size_in(scan, config.area);
-  Area area = read_area_files(scan, config, void_size, "--area");
-  lay_cells(area, void_size, bounds_of(area.polygons), config);
-  return area;
-}
-
 double tile_edge_of(const FilesConfig& config, double void_size, const Eigen::AlignedBox2d& bounds) {
   constexpr double kAlongMap = 50;
-  if (config.area.area_tile > 0 || !config.area.is_check || !config.output.report)
-    return config.area.area_tile;
+  if (config.area.area_tile > 0 || !config.output.report) return config.area.area_tile;
   const double least = std::max(void_size, bounds.sizes().maxCoeff() / kAlongMap);
   const double power = std::pow(10, std::floor(std::log10(least)));
   for (const double edge : {power, 2 * power, 5 * power})

@@ -191,6 +191,19 @@ void sort_voids(AreaCheck& check) {
   });
 }
 
+// The area of the convex hull that the outline leaves out.
+double left_out_of(const PlanOutline& outline) {
+  ConvexHull hull;
+  double area = 0;
+  for (const std::vector<PlanPolygon>& polygons : outline.groups) {
+    for (const PlanPolygon& polygon : polygons) {
+      area += area_of(polygon);
+      for (const Eigen::Vector2d& corner : polygon.front()) hull.add(corner);
+    }
+  }
+  return std::max(area_of({hull.corners()}) - area, 0.0);
+}
+
 AreaCheck check_cells(Area& area, double tile_edge, const ScanFiles& scan, const FilesConfig& config,
                       Progress& progress) {
   // What is empty: the cells of the area without a point near them.
@@ -277,32 +290,21 @@ void add_check(AreaCheck&& other, AreaCheck& sum) {
 
 }  // namespace
 
-AreaCheck check_area(Area area, const ScanFiles& scan, const FilesConfig& config, Progress& progress) {
-  const double tile_edge = tile_edge_of(config, area.grid.size, bounds_of(area.polygons));
-  AreaCheck check = check_cells(area, tile_edge, scan, config, progress);
-  check.basis = basis_of(check, scan, config);
-  progress.end();
-  return check;
-}
-
 AreaCheck check_scan(const ScanFiles& scan, const FilesConfig& config, Progress& progress) {
-  if (std::optional<Area> area = read_area(scan, config))
-    return check_area(std::move(*area), scan, config, progress);
   const double void_size = void_size_in(scan, config.area);
-  Area area = read_area_files(scan, config, void_size, "check");
-  PlanOutline outline = outline_of_points(scan, void_size, progress);
-  if (outline.groups.empty())
-    throw Error("the points cover no area, so that the scan has no outline; --area states one");
-  Eigen::AlignedBox2d bounds;
-  ConvexHull hull;
-  double outline_area = 0;
-  for (const std::vector<PlanPolygon>& polygons : outline.groups) {
-    bounds.extend(bounds_of(polygons));
-    for (const PlanPolygon& polygon : polygons) {
-      outline_area += area_of(polygon);
-      for (const Eigen::Vector2d& corner : polygon.front()) hull.add(corner);
-    }
+  Area area = read_area_files(scan, config, void_size);
+  const bool is_outline = config.area.area.empty();
+  PlanOutline outline;
+  if (is_outline) {
+    outline = outline_of_points(scan, void_size, progress);
+    if (outline.groups.empty())
+      throw Error("the points cover no area, so that the scan has no outline; --area states one");
+  } else {
+    outline.groups.push_back(std::move(area.polygons));
   }
+  Eigen::AlignedBox2d bounds;
+  for (const std::vector<PlanPolygon>& polygons : outline.groups) bounds.extend(bounds_of(polygons));
+  const double left_out = is_outline ? left_out_of(outline) : 0;
   const double tile_edge = tile_edge_of(config, void_size, bounds);
   std::optional<AreaCheck> check;
   for (std::vector<PlanPolygon>& polygons : outline.groups) {
@@ -314,9 +316,10 @@ AreaCheck check_scan(const ScanFiles& scan, const FilesConfig& config, Progress&
     else
       check = std::move(part);
   }
-  check->is_outline = true;
-  check->left_out = std::max(area_of({hull.corners()}) - outline_area, 0.0);
-  if (check->polygons.size() > 1 || outline.has_dust) check->undecided.push_back(Undecided::kSeveralParts);
+  check->is_outline = is_outline;
+  check->left_out = left_out;
+  if (is_outline && (check->polygons.size() > 1 || outline.has_dust))
+    check->undecided.push_back(Undecided::kSeveralParts);
   if (outline.has_bay) check->undecided.push_back(Undecided::kBay);
   check->basis = basis_of(*check, scan, config);
   progress.end();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// check_area: the voids of a scan within an area, the polygons of files or the scan's own outline.
+// check_scan: the voids of a scan within an area, the polygons of files or the scan's own outline.
 //
 // Idea: what no point covers is empty (empty_places.hpp). Circles around that are the voids (void_plan.cpp).
 // For the outline, cells with points become coarser until nearly all have neighbours, as within an area. What
@@ -37,16 +37,13 @@ struct Area {
   PlanGrid grid;
 };
 
-// Returns nothing where the config has no area. Throws `Error`: a file that cannot be used, or too many
-// corners or cells for the memory limit.
-LACUNA_API std::optional<Area> read_area(const ScanFiles& scan, const FilesConfig& config);
-
-// What `read_area` is made of, for a check of the scan's own outline.
+// The parts of `check_scan`.
 inline constexpr const char* kAreaOptions = "--area, --except and --classes";
 double from_metres(double metres, const ScanFiles& scan);  // a scan without a unit is taken to be in metres
 double void_size_in(const ScanFiles& scan, const AreaConfig& config);  // diameter of the least void
-Area read_area_files(const ScanFiles& scan, const FilesConfig& config, double void_size,
-                     const char* user);  // `user` needs the plan
+// Reads the polygons of the config, of an outline without the area's own. Throws `Error`: a file that cannot
+// be used, or too many corners for the memory limit.
+Area read_area_files(const ScanFiles& scan, const FilesConfig& config, double void_size);
 // Throws `Error` where the cells over the area, or its table, do not fit in memory.
 void lay_cells(Area& area, double void_size, const Eigen::AlignedBox2d& bounds, const FilesConfig& config);
 Eigen::AlignedBox2d bounds_of(std::span<const PlanPolygon> polygons);
@@ -90,12 +87,10 @@ PlanOutline outline_of_points(const ScanFiles& scan, double void_size, Progress&
 // Reads the scan once or twice, and once or twice more where heights lie apart or points do not fit in
 // memory. Memory: 3 or 4 bits for each cell in the bounds of the area, and the outlines. Cost: linear in
 // points and in cells. Throws `Error` where outlines do not fit in memory.
-LACUNA_API AreaCheck check_area(Area area, const ScanFiles& scan, const FilesConfig& config,
-                                Progress& progress);
-
-// Checks the area of the config, or the scan's own outline. The outline is never
+//
+// Without an area, the config means the scan's own outline. The outline is never
 // `covered`, but covered within itself, or not decided where it has several polygons or leaves out a bay. Its
-// polygons are checked in their groups, and each group reads the scan like an area. Throws `Error`.
+// polygons are checked in their groups, and each group reads the scan like an area.
 LACUNA_API AreaCheck check_scan(const ScanFiles& scan, const FilesConfig& config, Progress& progress);
 
 }  // namespace lacuna::io

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "engine/model/detection.hpp"
-#include "io/explain/area/area_check.hpp"
 #include "io/explain/stations/station.hpp"
 #include "io/read/scan/scan_pass.hpp"
 
@@ -132,7 +131,6 @@ struct ExplainedDetection : Detection {
   PointsOfNone points_of_none = {};
   std::optional<Upward> upward = {};   // where stations are known, and z does not seem to point upwards
   std::vector<LoopCause> causes = {};  // of each loop; empty where no station is known
-  std::optional<AreaCheck> area = {};  // nothing where no area was given
 
   // Returns the part of Summary::hole_area that is not missing surface: of holes whose main cause is an
   // opening. Returns nothing where no cause is known.

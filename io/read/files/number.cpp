@@ -49,13 +49,6 @@ int place_decimals(double distance) {
   return distance > 0 ? static_cast<int>(std::clamp(std::ceil(3 - std::log10(distance)), 0.0, 300.0)) : 17;
 }
 
-void append_plain(std::string& text, double value) {
-  const double size = std::abs(value);
-  if (size != 0 && !(size >= 1e-15 && size < 1e15)) return append_shortest(text, value);
-  char digits[64];  // at most 15 zeros behind the point, and 17 digits
-  text.append(digits, std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed).ptr);
-}
-
 bool parse_foreign_number(std::string_view text, double& value) {
   constexpr std::size_t kLongest = 100;
   if (text.size() > kLongest) return false;

@@ -49,10 +49,6 @@ void append_shortest(std::string& text, T value) {
   text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
 }
 
-// Does so without an exponent, such as "500000.125", for formats whose readers may not know exponents. Below
-// 1e-15 and from 1e15 on there is one.
-void append_plain(std::string& text, double value);
-
 // Returns the number that reads as so many digits of the value. Arithmetic would round 0.1 + 0.2 to
 // 0.30000000000000004. A number that is not finite stays as it is.
 double reread(double value, std::chars_format format, int digits);

@@ -50,7 +50,7 @@ void check_boxes(const InputConfig& input) {
 // MiB.
 void check_memory_of_outputs(const OutputConfig& output, const AreaConfig& area, std::uint64_t memory_limit) {
   constexpr std::uint64_t kMiB = 1 << 20, kLeast = 64, kReport = 32, kGis = 48;
-  const bool has_gis = has_loops_for_gis(output) || area.is_wanted();
+  const bool has_gis = has_loops_for_gis(output) || area.is_check;
   const std::uint64_t least = kLeast + (output.report ? kReport : 0) + (has_gis ? kGis : 0);
   if (memory_limit == 0 || memory_limit >= least * kMiB) return;
   const std::string outputs = output.report && has_gis ? "a report and files for GIS"
@@ -123,7 +123,6 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
   InputConfig& input = config.input;
   AreaConfig& area = config.area;
   OutputConfig& output = config.output;
-  const std::string_view no_area = area.is_wanted() ? "" : "--area";
   const std::string_view no_points = config.results.points ? "" : "--points";
   const std::string_view no_gis = has_loops_for_gis(output) ? "" : "--gpkg or --geojson";
   return {
@@ -164,29 +163,25 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
       flag("input", "skip_damaged", Changes::kPoints, &input.skip_damaged,
            "Files that cannot be read to their end do not take part; each is read once more to know it."),
       {"area", "area", Changes::kNothingKept, &area.area, 0, 0, "a file name, or nothing",
-       "File of polygons, GeoPackage, GeoJSON or Shapefile, that the scan is to cover, seen from above; "
-       "writes voids.json, voids.csv and voids.gpkg."},
+       "File of polygons, GeoPackage, GeoJSON or Shapefile, that the scan is to cover, seen from above; of "
+       "lacuna check."},
       {"area", "void_rule", Changes::kNothingKept, &area.void_rule, 0, 0, kAllowedRules,
        "Diameter of the smallest circle without points that is a void of the area; anps: four, spacing2: two "
-       "nominal spacings.",
-       no_area},
+       "nominal spacings."},
       {"area", "except", Changes::kNothingKept, &area.except, 0, 0, "a file name, or nothing",
-       "File of polygons, such as water, in which voids do not count.", no_area},
+       "File of polygons, such as water, in which voids do not count."},
       {"area", "classes", Changes::kNothingKept, &area.classes, 0, 0,
        "file names, divided by commas, or nothing",
-       "Files of polygons, such as buildings.gpkg,water.gpkg, for the share of each void that lies in each.",
-       no_area},
+       "Files of polygons, such as buildings.gpkg,water.gpkg, for the share of each void that lies in each."},
       {"area", "area_tile", Changes::kNothingKept, &area.area_tile, 0, 1e100,
        "a length of 0 (off) or more than the void size",
-       "Edge of the squares of a table: area, voids, points and density of each.", no_area},
+       "Edge of the squares of a table: area, voids, points and density of each."},
       {"output", "points_format", Changes::kNothingKept, named(output.points_format, kPointsFormats), 0, 2,
        "input, ply or csv",
        "One file for the annotated scan, as ply or csv; input: one for each file of the scan, in its format.",
        no_points},
       flag("output", "points_normals", Changes::kNothingKept, &output.points_normals,
            "Add the estimated normals to the annotated scan, unless a scan brings its own.", no_points),
-      flag("output", "obj", Changes::kNothingKept, &output.obj,
-           "Write loops.obj too: the loops as polylines, for CAD, ParaView and Blender."),
       flag("output", "gpkg", Changes::kNothingKept, &output.gpkg,
            "Write loops.gpkg too: the loops as a GeoPackage, for QGIS and other GIS."),
       flag("output", "geojson", Changes::kNothingKept, &output.geojson,
@@ -230,7 +225,7 @@ void check_config(const FilesConfig& config) {
   FilesConfig checked = config;
   check_ranges(file_parameters(checked));
   check_boxes(config.input);
-  if (config.area.is_wanted()) void_size_of(config.area);
+  if (config.area.is_check) void_size_of(config.area);
   check_memory_of_outputs(config.output, config.area, config.run.memory_limit);
 }
 

@@ -49,7 +49,6 @@ enum class PointsFormat : std::uint8_t { kInput, kPly, kCsv };
 struct OutputConfig {
   PointsFormat points_format = PointsFormat::kInput;
   bool points_normals = false;         // with nx ny nz where they were estimated
-  bool obj = false;                    // write the loops for CAD
   bool gpkg = false, geojson = false;  // for GIS: GeoPackage, GeoJSON
   bool lids = false;                   // triangulated lids of the holes
   bool polygons = false;               // files for GIS have the loops as polygons, too
@@ -60,15 +59,13 @@ struct OutputConfig {
   bool report = false;                 // write report.html
 };
 
-// Whether the scan covers an area.
+// Whether the scan covers an area: a check alone reads these.
 struct AreaConfig {
   std::string area, except;  // files of polygons; empty: none
   std::string classes;       // files of polygons, divided by commas
   std::string void_rule;     // as in void_size_of
   double area_tile = 0;      // edge of the squares of the table; 0: no table
-  bool is_check = false;  // of `lacuna check`: without a file, the scan's outline is the area; no parameter
-
-  bool is_wanted() const { return !area.empty() || is_check; }
+  bool is_check = false;     // no parameter; without a file, the scan's outline is the area
 };
 
 // The diameter of the least void.

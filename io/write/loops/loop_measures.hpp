@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The measures of loops by name, and their colours, for all writers. A new measure is a line of this table.
-// holes.json alone has its own list, which its schema describes.
+// The measures of loops by name, and their colours. A new measure is a line of this table. The first ones are
+// columns of holes.csv and of files for GIS; the report has all. holes.json has its own list, which its schema
+// describes.
 #pragma once
 
 #include "engine/model/loop.hpp"
@@ -9,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string_view>
 
 namespace lacuna::io {
@@ -25,19 +27,19 @@ double share_of(const ExplainedLoop& loop) {
 }
 
 inline constexpr auto kLoopMeasures = std::to_array<LoopMeasure>({
+    {"points", [](const ExplainedLoop& loop) { return static_cast<double>(loop.points); }, true},
+    {"confidence", [](const ExplainedLoop& loop) { return loop.track.confidence; }},
+    {"perimeter", [](const ExplainedLoop& loop) { return loop.perimeter; }},
+    {"area", [](const ExplainedLoop& loop) { return loop.area; }},
+    {"diameter", [](const ExplainedLoop& loop) { return loop.diameter; }},
     {"parent",
      [](const ExplainedLoop& loop) {
        return loop.parent < 0 ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(loop.parent);
      },
      true},
-    {"points", [](const ExplainedLoop& loop) { return static_cast<double>(loop.points); }, true},
-    {"confidence", [](const ExplainedLoop& loop) { return loop.track.confidence; }},
     {"prominence", [](const ExplainedLoop& loop) { return loop.track.evidence.prominence; }},
     {"first_scale", [](const ExplainedLoop& loop) { return loop.track.first_scale; }},
     {"last_scale", [](const ExplainedLoop& loop) { return loop.track.last_scale; }},
-    {"perimeter", [](const ExplainedLoop& loop) { return loop.perimeter; }},
-    {"area", [](const ExplainedLoop& loop) { return loop.area; }},
-    {"diameter", [](const ExplainedLoop& loop) { return loop.diameter; }},
     {"planarity", [](const ExplainedLoop& loop) { return loop.planarity; }},
     {"mean_probability", [](const ExplainedLoop& loop) { return loop.mean_probability; }},
     {"hidden", share_of<Cause::kHidden>},
@@ -46,6 +48,9 @@ inline constexpr auto kLoopMeasures = std::to_array<LoopMeasure>({
     {"no_return", share_of<Cause::kNoReturn>},
     {"filtered", share_of<Cause::kFiltered>},
 });
+
+// What a person sorts and filters by in a spreadsheet or on a map: points to diameter.
+inline constexpr std::span kTableMeasures = std::span(kLoopMeasures).first<5>();
 
 struct LoopColour {
   std::uint8_t red, green, blue;

@@ -201,7 +201,6 @@ Json report_of(const Scene& scene) {
           {"opening_area", holes.value("opening_area", Json())},
           {"stations", holes.value("stations", Json::array())},
           {"next_stations", scene.next_stations},
-          {"area", scene.area},
           {"method", holes.at("parameters").at("loops").at("method")},
           {"parameters", holes.at("parameters")},
           {"changed", changed_parameters(holes.at("parameters"))},
@@ -360,11 +359,9 @@ class Lists {
   std::map<std::string, Json> lists_;
 };
 
-}  // namespace
-
-Json read_area_section(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / kVoidsFile;
-  if (!std::filesystem::exists(file)) return nullptr;
+// Returns voids.json with the largest voids and the first polygons alone, and with outlines as fine as a map
+// shows them. Throws `Error` if it is not as Lacuna writes it.
+Json read_area_section(const std::filesystem::path& file) {
   try {
     Json area;
     const auto read = [&](double step) {
@@ -386,8 +383,10 @@ Json read_area_section(const std::filesystem::path& folder) {
   }
 }
 
+}  // namespace
+
 void write_area_sheet(const std::filesystem::path& folder, const std::string& title, OutputFile& out) {
-  Json area = read_area_section(folder);
+  Json area = read_area_section(folder / kVoidsFile);
   area["title"] = title;
   const std::size_t data = kSheetPage.find(kDataPlace);
   out.write(kSheetPage.substr(0, data));

@@ -336,7 +336,6 @@ Scene read_scene(const fs::path& folder, const SceneLimits& limits) {
   Scene scene;
   read_holes(folder / "holes.json", limits.all_loops, scene);
   if (const fs::path run = folder / "run.json"; fs::exists(run)) scene.run = read_json(run, kResultOfDetect);
-  scene.area = read_area_section(folder);
   read_loops(folder / "loops.ply", limits, scene);
   read_points(folder / "sample.ply", limits.positions - scene.loops.vertices.size(), scene);
   scene.points.spacing = typical_spacing(scene);

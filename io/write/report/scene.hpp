@@ -31,7 +31,6 @@ struct Scene {
   Json holes;                       // holes.json without its loops
   Json run;                         // run.json; null where the folder has none
   Json next_stations;               // of read_next_stations(); null without
-  Json area;                        // of read_area_section(); null where no area was checked
   Eigen::AlignedBox3d bounds;       // of the scan without its strays; empty without points
   std::uint64_t strays = 0;         // points of the scan that lie outside of them
   Eigen::Vector3d origin{0, 0, 0};  // least corner of the bounds
@@ -125,10 +124,5 @@ std::optional<double> roof_height(const Scene& scene);
 // Leaves out the points above `height`, in coordinates of the scan. Loops that lie above it with all of their
 // vertices have none afterwards, as loops through strays. Cost: linear.
 void hide_above(Scene& scene, double height);
-
-// Returns voids.json of a folder with the largest voids and the first polygons alone, and with outlines as
-// fine as a map shows them. Returns null if the file is not there. Throws `Error` if it is not as Lacuna
-// writes it.
-Json read_area_section(const std::filesystem::path& folder);
 
 }  // namespace lacuna::io

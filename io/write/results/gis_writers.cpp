@@ -157,7 +157,7 @@ class LoopsWriter {
     add_field("kind", OFTString);
     add_field("cause", OFTString);
     add_field("unit", OFTString);
-    for (const LoopMeasure& measure : kLoopMeasures)
+    for (const LoopMeasure& measure : kTableMeasures)
       add_field(std::string(measure.name), measure.is_count ? OFTInteger64 : OFTReal);
   }
 
@@ -186,7 +186,7 @@ class LoopsWriter {
     const std::string cause(explained.cause.name());
     cause.empty() ? feature.SetFieldNull(field++) : feature.SetField(field++, cause.c_str());
     feature.SetField(field++, task_.unit.c_str());
-    for (const LoopMeasure& measure : kLoopMeasures) {
+    for (const LoopMeasure& measure : kTableMeasures) {
       const double value = measure.of(explained);
       if (measure.is_count && std::isfinite(value)) {
         feature.SetField(field++, static_cast<GIntBig>(value));

@@ -24,12 +24,8 @@ struct ResultFile {
   Writer writer = Writer::kThis;
 };
 
-bool has_area(const FilesConfig& config) {
-  return !config.area.area.empty();
-}
-
-bool needs_gis_library(const FilesConfig& config) {
-  return config.output.gpkg || config.output.geojson || config.output.coverage > 0 || has_area(config);
+bool needs_gis_library(const OutputConfig& output) {
+  return output.gpkg || output.geojson || output.coverage > 0;
 }
 
 std::vector<ResultFile> results_of(const ExplainedDetection& detection, const std::vector<LidMeasures>& lids,
@@ -39,7 +35,6 @@ std::vector<ResultFile> results_of(const ExplainedDetection& detection, const st
           {"boundary.ply", true, [&](OutputFile& out) { write_boundary(detection, scan, output, out); }},
           {"sample.ply", config.results.sample_points > 0,
            [&](OutputFile& out) { write_sample(detection, scan, output, out); }},
-          {"loops.obj", output.obj, [&](OutputFile& out) { write_loops_obj(detection, out); }},
           {"loops.gpkg", output.gpkg,
            [&](OutputFile& out) { write_loops_gis(detection, scan, output, GisFormat::kGeoPackage, out); },
            Writer::kLibrary},
@@ -57,7 +52,7 @@ std::vector<ResultFile> results_of(const ExplainedDetection& detection, const st
 
 void check_results(const ScanFiles& scan, const FilesConfig& config, const ResultFolder& folder) {
   check_points(scan, config);
-  if (needs_gis_library(config)) check_gis_module(kGisUser);
+  if (needs_gis_library(config.output)) check_gis_module(kGisUser);
   if (config.output.coverage > 0) require_plan(scan, "--coverage");
   check_not_input(folder, scan);
 }
@@ -65,16 +60,12 @@ void check_results(const ScanFiles& scan, const FilesConfig& config, const Resul
 std::vector<std::filesystem::path> write_results(const ExplainedDetection& detection, const ScanFiles& scan,
                                                  const FilesConfig& config, ResultFolder& folder) {
   check_results(scan, config, folder);
-  if (has_area(config) && !detection.area)
-    throw Error(config.area.area + ": the area was not checked; io::check_area does it");
-
   const TaskArena arena(static_cast<std::size_t>(config.run.threads));
   std::vector<LidMeasures> lids;
   arena.for_each(1, [&](std::size_t) {
     write_points(detection, scan, config, folder);
     if (config.output.lids) lids = measure_lids(detection);
   });
-  if (has_area(config)) add_voids(*detection.area, scan, config.area, folder);
   const std::vector<ResultFile> results = results_of(detection, lids, scan, config);
   arena.for_each(results.size(), [&](std::size_t i) {
     if (results[i].is_wanted) folder.add(results[i].name, results[i].write, results[i].writer);

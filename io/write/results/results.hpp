@@ -70,8 +70,8 @@ void write_holes(const ExplainedDetection& detection, const ScanFiles& scan, con
 // coordinate reference system and the unit, too. What depends on the answer belongs in holes.json.
 void write_run(const Detection& detection, const ScanFiles& scan, const FilesConfig& config, OutputFile& out);
 
-// holes.csv: one line for each loop, in order, with the ids of holes.json. What is not finite is empty. With
-// lids, there is a column lid_area.
+// holes.csv: one line for each loop, the largest first, with the ids of holes.json and kTableMeasures. What
+// is not finite is empty. With lids, there is a column lid_area.
 void write_table(const ExplainedDetection& detection, const std::vector<LidMeasures>& lids, OutputFile& out);
 
 // Names as CloudCompare ("scalar_", of which it shows the first one) and MeshLab (quality: the probability)
@@ -80,12 +80,6 @@ void write_table(const ExplainedDetection& detection, const std::vector<LidMeasu
 // vertex2, closing each loop. Coordinates here and below: see `local_offset`.
 void write_loops(const Detection& detection, const ScanFiles& scan, const OutputConfig& config,
                  OutputFile& out);
-
-// loops.obj, for CAD, Blender and Rhinoceros: for each loop, in order, its measures as comments, its object
-// "hole_0" or "outer_0" (the id), and its points. A line `l a b` for each edge follows. Blender 3.4 and
-// MeshLab 2020.09 read only the first edge of a longer line. Coordinates have all digits. Holds one loop in
-// memory.
-void write_loops_obj(const ExplainedDetection& detection, OutputFile& out);
 
 // Every point that is coherent or on a loop, in ascending id: x y z, scalar_probability, scalar_id,
 // scalar_loop (-1: none), quality (the probability).
@@ -103,16 +97,11 @@ void write_sample(const Detection& detection, const ScanFiles& scan, const Outpu
 std::vector<PlyProperty> position_and_id(const Detection& detection, const ScanFiles& scan,
                                          const OutputConfig& config);
 
-// The voids of an area as files: voids.json, voids.csv and voids.gpkg. docs/area.md describes them.
-
-// Writes voids.json, voids.csv and voids.gpkg to the folder. The first has the sums, the voids with their
-// outlines, and the table; what is not finite is null. The second has a line for each void; what is not
-// finite is empty. Memory: one void. Throws `Error`.
-void add_voids(const AreaCheck& check, const ScanFiles& scan, const AreaConfig& config,
-               const ResultFolder& folder);
-
-// Writes these files alone to the folder, and the sheet of the check (io/write/report/report.hpp) where
-// the config wants a report, which then takes its name. Returns the files. Throws `Error`.
+// Writes voids.json, voids.csv and voids.gpkg, which docs/area.md describes, to the folder, which then takes
+// its name. The first has the sums, the voids with their outlines, and the table; what is not finite is null.
+// The second has a line for each void; what is not finite is empty. Where the config wants a report, the
+// sheet of the check (io/write/report/report.hpp) is there, too. Returns the files. Memory: one void. Throws
+// `Error`.
 LACUNA_API std::vector<std::filesystem::path> write_voids(const AreaCheck& check, const ScanFiles& scan,
                                                           const FilesConfig& config, ResultFolder& folder);
 

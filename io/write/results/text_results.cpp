@@ -100,7 +100,8 @@ Json head(const ExplainedDetection& detection, const ScanFiles& scan, const File
   const Summary& summary = detection.summary;
   Json json = begin_json(kHolesSchema);
   put_crs(scan, json);
-  json["parameters"] = parameter_values(config, [](std::string_view section) { return section != "run"; });
+  json["parameters"] = parameter_values(
+      config, [](std::string_view section) { return section != "run" && section != "area"; });
   json["inputs"] = inputs(scan, detection.counts);
   json["counts"] = counts(summary.counts, detection.counts.filtered_out, detection.loops);
   json["bounds"] = corners(summary.bounds);
@@ -245,7 +246,7 @@ void append(std::string& line, double value) {
 
 std::string table_header(bool has_lids) {
   std::string names = "id,kind";
-  for (const LoopMeasure& measure : kLoopMeasures) names.append(",").append(measure.name);
+  for (const LoopMeasure& measure : kTableMeasures) names.append(",").append(measure.name);
   if (has_lids) names += ",lid_area";
   return names + ",x,y,z,nx,ny,nz,cause,hidden_by_x,hidden_by_y,hidden_by_z\n";
 }
@@ -272,7 +273,7 @@ void write_table(const ExplainedDetection& detection, const std::vector<LidMeasu
   for (const std::size_t id : by_size(detection.loops)) {
     const ExplainedLoop loop = detection.loop(id);
     std::string line = std::to_string(id) + "," + name_of(loop.kind);
-    for (const LoopMeasure& measure : kLoopMeasures) {
+    for (const LoopMeasure& measure : kTableMeasures) {
       const int digits = measure.is_count ? kDigitsOfCount : kDigits;
       append(line, reread(measure.of(loop), std::chars_format::general, digits));
     }
@@ -283,44 +284,6 @@ void write_table(const ExplainedDetection& detection, const std::vector<LidMeasu
     line.append(",").append(loop.cause.name());
     for (const double coordinate : loop.cause.hidden_by) append(line, place(coordinate));
     out.write(line + "\n");
-  }
-}
-
-namespace {
-
-std::string head_of(std::size_t id, const ExplainedLoop& loop) {
-  const std::string name = std::string(name_of(loop.kind)) + "_" + std::to_string(id);
-  std::string text = "\n";
-  if (!loop.cause.name().empty()) text.append("# cause ").append(loop.cause.name()).append("\n");
-  for (const LoopMeasure& measure : kLoopMeasures) {
-    if (!std::isfinite(measure.of(loop))) continue;
-    text += "# " + std::string(measure.name) + " ";
-    append_plain(text, measure.of(loop));
-    text += "\n";
-  }
-  return text + "o " + name + "\n";
-}
-
-}  // namespace
-
-void write_loops_obj(const ExplainedDetection& detection, OutputFile& out) {
-  out.write("# lacuna detect, loops\n");
-  std::uint64_t next = 1;  // vertices count from 1, over all objects
-  for (std::size_t id = 0; id < detection.loops.size(); ++id) {
-    const ExplainedLoop loop = detection.loop(id);
-    out.write(head_of(id, loop));
-    std::string line;
-    detection.for_each_loop_point(id, [&](const LoopPoint& point) {
-      line = "v";
-      for (const double component : point.position()) append_plain(line += " ", component);
-      out.write(line += "\n");
-    });
-    const std::uint64_t first = next;
-    next += loop.points;
-    for (std::uint64_t a = first; a < next; ++a) {
-      const std::uint64_t b = a + 1 < next ? a + 1 : first;
-      out.write("l " + std::to_string(a) + " " + std::to_string(b) + "\n");
-    }
   }
 }
 
@@ -454,17 +417,12 @@ void write_table(const AreaCheck& check, OutputFile& out) {
 
 }  // namespace
 
-void add_voids(const AreaCheck& check, const ScanFiles& scan, const AreaConfig& config,
-               const ResultFolder& folder) {
+std::vector<std::filesystem::path> write_voids(const AreaCheck& check, const ScanFiles& scan,
+                                               const FilesConfig& config, ResultFolder& folder) {
   folder.add(
       "voids.gpkg", [&](OutputFile& out) { write_voids_gpkg(check, scan, out); }, Writer::kLibrary);
   folder.add("voids.csv", [&](OutputFile& out) { write_table(check, out); });
-  folder.add(kVoidsFile, [&](OutputFile& out) { write_json(check, scan, config, out); });
-}
-
-std::vector<std::filesystem::path> write_voids(const AreaCheck& check, const ScanFiles& scan,
-                                               const FilesConfig& config, ResultFolder& folder) {
-  add_voids(check, scan, config.area, folder);
+  folder.add(kVoidsFile, [&](OutputFile& out) { write_json(check, scan, config.area, out); });
   if (config.output.report) {
     const auto& files = scan.files();
     const std::string title =

@@ -28,11 +28,12 @@ TEST_CASE("one more line in the table is one more criterion: its weight, its par
     return test::run_command(words);
   };
   REQUIRE(detect(LACUNA_PROGRAM, "three", {}).exit_code == 0);
-  CHECK_THAT(detect(LACUNA_PROGRAM, "none", {"--weight-curvature", "7"}).err, Contains("--weight-curvature"));
-  const auto four = detect(LACUNA_PROGRAM_OF_FOUR, "four", {"--weight-curvature", "7"});
+  const std::string config = folder.write("four.toml", "[criteria]\nweight_curvature = 7.0\n");
+  CHECK_THAT(detect(LACUNA_PROGRAM, "none", {"--config", config}).err, Contains("weight_curvature"));
+  const auto four = detect(LACUNA_PROGRAM_OF_FOUR, "four", {"--config", config});
   INFO(four.err);
   REQUIRE(four.exit_code == 0);
-  CHECK_THAT(test::run_command({LACUNA_PROGRAM_OF_FOUR, "detect", "--help-all"}).out,
+  CHECK_THAT(test::run_command({LACUNA_PROGRAM_OF_FOUR, "detect", "--print-config"}).out,
              Contains("Share of the curvature criterion."));
 
   const test::Table before = test::read_table(folder.path() / "three" / "points.ply");

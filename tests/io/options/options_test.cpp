@@ -79,6 +79,23 @@ TEST_CASE("configs/default.toml is the printed default, byte for byte") {
   REQUIRE(test::read_file(LACUNA_SOURCE_DIR "/configs/default.toml") == print_config(FilesConfig{}));
 }
 
+TEST_CASE("the engine's config knows no parameter of files") {
+  const ScratchFolder scratch;
+  Config config;
+  CHECK_THROWS_WITH(read_config(scratch.write("c.toml", "[output]\nreport = true\n"), config),
+                    Contains(":2: unknown key \"report\" in [output]; allowed there: points, sample_points"));
+}
+
+TEST_CASE("constants of both methods are for the config file alone, which says so") {
+  FilesConfig config;
+  const std::set<std::string_view> sections = {"criteria", "coherence", "spanning", "tangential"};
+  for (const Parameter& parameter : parameters(config))
+    CHECK(parameter.in_file_only == (sections.contains(parameter.section) ||
+                                     parameter.key == "eps_fraction" || parameter.key == "crease_threshold"));
+  CHECK_THAT(print_config(config),
+             Contains("[coherence]\n# Not for ordinary use: no option of the command line sets it.\n"));
+}
+
 TEST_CASE("every file in configs is read and possible, and each of its values has an effect") {
   std::size_t files = 0;
   for (const auto& entry : fs::directory_iterator(LACUNA_SOURCE_DIR "/configs")) {
@@ -217,8 +234,6 @@ TEST_CASE("values that contradict each other are refused") {
   refused([](Changed c) { c.neighbourhood = {.eps = 1, .eps_fraction = 0.1}; }, "eps and eps_fraction");
   refused([](Changed c) { c.criteria.weights = {0, 0, 0}; }, "weight_halfdisc and weight_shape are all 0");
   refused([](Changed c) { c.criteria.weights = {1, 1}; }, "2 weights of criteria; allowed: 3");
-  refused([](Changed c) { c.selection = {.min_perimeter = 2, .max_perimeter = 1}; }, "max_perimeter");
-  refused([](Changed c) { c.selection = {.min_area = 2, .max_area = 1}; }, "is less than min_area = 2.0");
   refused([](Changed c) { c.criteria.sigma = std::nan(""); }, "sigma = nan");
   refused([](Changed c) { c.run.memory_limit = 1; }, "memory_limit");
   refused([](Changed c) { c.input.bounds = {0, 0, 1}; }, "bounds has 3 numbers; allowed: 4");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loops as OBJ, and lids as PLY: read back here, and compared with holes.json of the same run.
+// Lids as PLY: read back here, and compared with holes.json of the same run.
 #include "bench/evaluation/loops_reader.hpp"
 #include "tests/io/io_support.hpp"
 #include "tests/support/clouds.hpp"
@@ -19,46 +19,6 @@ std::string write_earth_sheet(const ScratchFolder& scratch) {
   Cloud cloud;
   for (const auto& row : read_table(surface).rows) cloud.positions.emplace_back(row[0], row[1], row[2]);
   return scratch.write("earth.txt", cloud.translated({500'000.1, 5'400'000.1, 0}).text());
-}
-
-// An object of OBJ, the comments before it, and what it has of the vertices of the file.
-struct Object {
-  std::string name;
-  std::map<std::string, double> comments;
-  std::vector<std::array<std::uint64_t, 2>> edges;  // count vertices from 0
-};
-
-struct Obj {
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<Object> objects;
-};
-
-Obj read_obj(const fs::path& file) {
-  Obj obj;
-  std::map<std::string, double> comments;
-  std::istringstream lines(read_file(file));
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    std::string key, name;
-    words >> key;
-    if (key == "#") {
-      double value = 0;
-      if (words >> name >> value) comments[name] = value;
-    } else if (key == "v") {
-      Eigen::Vector3d& vertex = obj.vertices.emplace_back();
-      words >> vertex.x() >> vertex.y() >> vertex.z();
-    } else if (key == "o") {
-      words >> name;
-      obj.objects.push_back({.name = name, .comments = std::exchange(comments, {})});
-    } else if (key == "l") {
-      // One edge a line: some programs read only the first edge of a longer one.
-      std::uint64_t a = 0, b = 0;
-      words >> a >> b;
-      CHECK_FALSE(words >> name);
-      obj.objects.back().edges.push_back({a - 1, b - 1});
-    }
-  }
-  return obj;
 }
 
 // The fields of each line, by the names of the first one.
@@ -90,35 +50,6 @@ std::vector<Eigen::Vector3d> coordinates(const json& loop) {
 }
 
 }  // namespace
-
-TEST_CASE("OBJ has the loops and measures of holes.json, with all digits on Earth", "[results]") {
-  const ScratchFolder scratch;
-  const fs::path out = detect(write_earth_sheet(scratch), scratch / "out", {"--obj"});
-  const json loops = read_json(out / "holes.json").at("loops");
-  const Obj obj = read_obj(out / "loops.obj");
-  REQUIRE(loops.size() == 5);
-  REQUIRE(obj.objects.size() == 5);
-  std::uint64_t first = 0;
-  for (std::size_t i = 0; i < 5; ++i) {
-    const json& loop = loops[i];
-    const Object& object = obj.objects[i];
-    CHECK(object.name == loop.at("kind").get<std::string>() + "_" + std::to_string(i));
-    for (const auto& [name, value] : object.comments) CHECK(loop.at(name) == value);
-    for (const char* measure : {"points", "confidence", "prominence", "first_scale", "last_scale",
-                                "perimeter", "area", "diameter", "planarity", "mean_probability"})
-      CHECK(object.comments.contains(measure));
-    CHECK(object.comments.contains("parent") == !loop.at("parent").is_null());
-    const std::vector<Eigen::Vector3d> places = coordinates(loop);
-    REQUIRE(object.edges.size() == places.size());
-    REQUIRE(places[0].y() > 5e6);
-    for (std::uint64_t k = 0; k < places.size(); ++k) {
-      CHECK(object.edges[k] == std::array{first + k, first + (k + 1) % places.size()});
-      CHECK(obj.vertices.at(first + k) == places[k]);
-    }
-    first += places.size();
-  }
-  CHECK(first == obj.vertices.size());
-}
 
 TEST_CASE("each hole has its lid between the points of its loop, with all digits on Earth", "[results]") {
   const ScratchFolder scratch;
@@ -162,11 +93,10 @@ TEST_CASE("each hole has its lid between the points of its loop, with all digits
     CHECK((Eigen::Vector3d(local.rows[i].data()) - Eigen::Vector3d(ply.rows[i].data())).norm() < 1e-4);
 }
 
-TEST_CASE("a scan without holes has empty lids and an empty OBJ", "[results]") {
+TEST_CASE("a scan without holes has empty lids", "[results]") {
   const ScratchFolder scratch;
   const std::string scan = scratch.write("few.xyz", "0 0 0\n1 0 0\n0 1 0\n");
-  const fs::path out = detect(scan, scratch / "out", {"--lids", "--obj"});
-  CHECK(read_obj(out / "loops.obj").objects.empty());
+  const fs::path out = detect(scan, scratch / "out", {"--lids"});
   CHECK(evaluation::read_triangles(out / "lids.ply").empty());
 }
 
