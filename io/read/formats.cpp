@@ -3,13 +3,11 @@
 
 #include "io/read/e57/e57.hpp"
 #include "io/read/files/input_file.hpp"
-#include "io/read/files/number.hpp"
 #include "io/read/rows/readers.hpp"
 #include "io/read/rows/scan_reader.hpp"
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <string>
 
 namespace lacuna::io {
@@ -125,19 +123,6 @@ std::array<std::string, 2> first_words(std::string_view text) {
   return words;
 }
 
-// Whether these are records of 17 numbers, the first of which is a time that goes on by up to a second.
-bool looks_like_sbet(std::string_view bytes) {
-  constexpr std::size_t kRecord = 17 * sizeof(double);
-  if (bytes.size() < 3 * kRecord) return false;
-  const auto time = [&](std::size_t i) {
-    return load<double>(std::as_bytes(std::span(bytes)).data() + i * kRecord);
-  };
-  const auto goes_on = [&](std::size_t i) {
-    return time(i + 1) - time(i) > 1e-6 && time(i + 1) - time(i) <= 1;
-  };
-  return time(0) >= 1 && goes_on(0) && goes_on(1);
-}
-
 // Names a format that is not read, and a way out.
 std::optional<std::string> describe_other_format(const std::filesystem::path& file,
                                                  std::string_view first_bytes) {
@@ -147,8 +132,6 @@ std::optional<std::string> describe_other_format(const std::filesystem::path& fi
       return describe(format.name, format.way_out);
   }
   const auto [first, second] = first_words(first_bytes);
-  if (looks_like_sbet(first_bytes))
-    return describe("a trajectory (SBET)", "--stations takes it as text, with the columns time, x, y and z");
   if (first.ends_with("off") && first.size() <= 5) return describe("OFF", kMeshLab);  // and NOFF, STOFF
   if (first == "ply" && first_bytes.find("\nelement vertex_position ") != first_bytes.npos)
     return describe("PLY of displaz", kExportPoints);

@@ -222,33 +222,6 @@ TEST_CASE("a name of thousands of bytes is shortened in the line of its error") 
   CHECK_THAT(result.err, Contains("beginnnn") && Contains("nnnend.xyz: "));
 }
 
-TEST_CASE("a file that comes to earlier results after the last look goes to the new ones") {
-  const ScratchFolder scratch;
-  const std::string scan = scratch.write("scan.xyz", sheet(30));
-  const fs::path out = detect(scan, scratch / "out");
-  // The kernel exchanges the folders late.
-  const std::string script =
-      "strace -f -qq -o /dev/null -e trace=renameat2 -e inject=renameat2:delay_enter=2000000 "
-      "\"$0\" detect \"$1\" --out \"$2\" --quiet & "
-      "until ls \"$3\"/.out.lacuna-*/results/.lacuna > /dev/null 2>&1; do kill -0 $! || exit 77; done; "
-      "sleep 1; echo mine > \"$2/notes\"; mkdir \"$2/empty\"; wait $!";
-  const auto run = [&] {
-    return run_command({"bash", "-c", script, LACUNA_PROGRAM, scan, out.string(), scratch.path().string()});
-  };
-  ProgramResult result = run();
-  for (int again = 0; again < 3 && result.exit_code == 1; ++again) {  // it came before the last look
-    fs::remove(out / "notes");
-    fs::remove(out / "empty");
-    result = run();
-  }
-  if (result.exit_code > 1) return skip("cannot trace a program");
-  CHECK_THAT(result.err, Contains("out/notes: came while the results took their place; it is kept"));
-  CHECK(read_file(out / "notes") == "mine\n");
-  CHECK(fs::exists(out / "empty"));
-  CHECK(fs::exists(out / "holes.json"));
-  CHECK(scratch.names() == Words{"out", "scan.xyz"});
-}
-
 TEST_CASE("an input that is replaced during a run ends it, and leaves nothing") {
   const ScratchFolder scratch;
   const std::string text = sheet(150);

@@ -120,8 +120,7 @@ laz::Layout laz_layout(int point_format, std::uint16_t extra_bytes, std::uint32_
                        std::uint16_t version) {
   laz::Layout layout = laz::layout_of(point_format, extra_bytes);
   layout.chunk_points = chunk_points;
-  for (laz::Item& item : layout.items)
-    if (item.type != laz::item_type::kWavepacket13) item.version = version;
+  for (laz::Item& item : layout.items) item.version = version;
   return layout;
 }
 
@@ -160,9 +159,7 @@ std::string laz_head(LasFile las, const laz::Layout& layout) {
 std::string laz_points(const laz::Layout& layout, const std::string& records,
                        const std::vector<std::uint64_t>& chunk_points, std::size_t offset) {
   const std::span bytes = std::as_bytes(std::span(records));
-  return text_of(layout.compressor == laz::compressor::kPointwise
-                     ? laz_chunk(layout, bytes)
-                     : laz_point_data(layout, bytes, chunk_points, offset));
+  return text_of(laz_point_data(layout, bytes, chunk_points, offset));
 }
 
 std::string laz_file(const LasFile& las, const laz::Layout& layout,

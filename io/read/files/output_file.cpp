@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
-#include <chrono>
 #include <climits>
 #include <cstring>
 #include <fstream>
@@ -16,7 +15,6 @@
 #include <string>
 #include <string_view>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 #include <fcntl.h>
@@ -248,14 +246,14 @@ void sync_folder(const fs::path& folder, int (*sync)(int)) {
   if (sync(opened.number()) != 0 && errno != EINVAL) fail(folder, "cannot be written", errno);
 }
 
-// Gives `from` the name `to`. Returns where a folder of that name has gone: to `from`, or to `aside`.
-fs::path exchange(const fs::path& from, const fs::path& to, const fs::path& aside, const fs::path& shown) {
-  if (::rename(from.c_str(), to.c_str()) == 0) return {};  // the name is free, or of an empty folder
+// Gives `from` the name `to`. A folder of that name goes to `from`, or to `aside`.
+void exchange(const fs::path& from, const fs::path& to, const fs::path& aside, const fs::path& shown) {
+  if (::rename(from.c_str(), to.c_str()) == 0) return;  // the name is free, or of an empty folder
   if (errno != ENOTEMPTY && errno != EEXIST) fail(shown, "the results cannot be put in place", errno);
-  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_EXCHANGE) == 0) return from;
+  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_EXCHANGE) == 0) return;
   if (errno != EINVAL && errno != ENOSYS) fail(shown, "the results cannot be put in place", errno);
   if (::rename(to.c_str(), aside.c_str()) != 0) fail(shown, "the earlier results cannot be moved", errno);
-  if (::rename(from.c_str(), to.c_str()) == 0) return aside;
+  if (::rename(from.c_str(), to.c_str()) == 0) return;
   const int reason = errno;
   if (::rename(aside.c_str(), to.c_str()) == 0) fail(shown, "the results cannot be put in place", reason);
   const fs::path kept = to.string() + "-" + random_digits();
@@ -269,21 +267,6 @@ void put_back(const fs::path& earlier, const fs::path& target, const fs::path& s
   if (::rename(earlier.c_str(), target.c_str()) == 0 || errno == ENOENT || is_result_folder(target)) return;
   throw Error(shown.string() + ": other files have taken the place of earlier results, which are in " +
               earlier.string() + "; allowed: move these results, or those files, to another place");
-}
-
-// Gives the new results what came to the earlier ones after their files were `known`, as if it had come a
-// moment later.
-void take_over(const fs::path& earlier, const std::vector<std::string>& known, const fs::path& target,
-               const fs::path& shown) {
-  for (const std::string& name : files_in(earlier)) {
-    if (std::ranges::binary_search(known, name)) continue;
-    fs::path kept = name;
-    if (fs::exists(fs::symlink_status(target / name))) kept += "-" + random_digits();
-    fs::create_directories((target / kept).parent_path());
-    fs::rename(earlier / name, target / kept);
-    spdlog::warn("{}: came while the results took their place; it is kept, and is no result",
-                 (shown / kept).string());
-  }
 }
 
 // The kernel has the same limit for all file systems but few.
@@ -303,20 +286,6 @@ void require_movable(const fs::path& target, const fs::path& onto, const fs::pat
   } else if (errno == EXDEV || errno == EPERM) {
     throw Error(shown.string() + ": the system cannot replace this folder: " + std::strerror(errno) +
                 "; allowed: another folder, or remove this one first");
-  }
-}
-
-// Several runs may begin at once. The one goes on whose temporary folder is the last by its name. `look`
-// returns the folders of all runs.
-void require_alone(const fs::path& own, const std::function<std::vector<fs::path>()>& look,
-                   const fs::path& shown) {
-  constexpr int kRounds = 200;
-  for (int round = 0;; ++round) {
-    std::vector<fs::path> others = look();
-    std::erase(others, own);
-    if (others.empty()) return;
-    if (round == kRounds || others.back() > own) fail_in_use(shown);
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
 }
 
@@ -359,7 +328,6 @@ ResultFolder::ResultFolder(const fs::path& folder) : folder_(folder) {
   if (!fs::create_directory(staged(), error)) fail(staged(), "cannot be made", error.value());
   // Other users see that this process is at work.
   fs::permissions(temporary(), fs::status(staged()).permissions(), fs::perm_options::add, error);
-  require_alone(temporary(), look, folder);
   if (!is_free) require_movable(target_, temporary(), folder);
   if (exists) fs::permissions(staged(), fs::status(target_).permissions(), error);
 }
@@ -400,9 +368,8 @@ std::vector<fs::path> ResultFolder::commit() {
   std::sort(written.begin(), written.end());
   sync_folder(staged(), ::syncfs);
   const RemovalPause pause;
-  const std::vector<std::string> known = replaced_files(target_, folder_);
-  const fs::path earlier = exchange(staged(), target_, temporary() / kEarlier, folder_);
-  if (!earlier.empty()) take_over(earlier, known, target_, folder_);
+  replaced_files(target_, folder_);  // may have become others meanwhile
+  exchange(staged(), target_, temporary() / kEarlier, folder_);
   sync_folder(target_.parent_path(), ::fsync);
   return written;
 }

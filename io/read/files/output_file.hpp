@@ -104,8 +104,7 @@ class NewFile {
 // 2. Files are written to a temporary folder next to it, `.NAME.lacuna-` and drawn digits. A run that sees
 //    the one of another process is refused. What a killed run has left there goes with the next run.
 // 3. commit: the list is added, and all files are brought to the disk. Then one rename gives the folder its
-//    name. An earlier result changes places with the new one, and is removed. A file that came to it after
-//    the last look goes to the new result.
+//    name. An earlier result changes places with the new one, and is removed.
 //
 // A crash leaves the earlier result whole, or the new one. On a file system that cannot exchange two names,
 // the earlier result moves to the temporary folder first. If the run is killed then, the next one puts it

@@ -93,25 +93,4 @@ TEST_CASE("scans in lengths do not look like degrees, in any order of their poin
   }
 }
 
-TEST_CASE("no real scan in lengths looks like degrees") {
-  namespace fs = std::filesystem;
-  const auto shared = shared_folder();
-  if (!shared) return;
-  std::vector<fs::path> files;
-  for (const char* folder : {"data/real", "data/uneven", "data/solids", "data/cases"}) {
-    std::error_code none;
-    for (const auto& entry : fs::directory_iterator(*shared / folder, none)) {
-      const fs::path& file = entry.path();
-      const bool is_scan = file.extension() == ".ply" || file.extension() == ".pcd";
-      const bool is_case = file.parent_path().filename() == "cases";
-      if (is_scan && (!is_case || file.filename().string().starts_with("50"))) files.push_back(file);
-    }
-  }
-  for (const fs::path& file : files) {
-    INFO(file);
-    const ScanFiles scan({file}, {});
-    CHECK_FALSE((scan.files()[0].may_be_degrees || scan.files()[0].is_geographic));
-  }
-}
-
 }  // namespace lacuna::test
