@@ -48,10 +48,16 @@ struct PcdHeader {
   PcdEncoding encoding = PcdEncoding::kAscii;
   Pose viewpoint = Pose::Identity();  // of the scanner; turns by nothing if its quaternion is 0 0 0 0
 
-  std::size_t row_bytes() const;
+  std::size_t row_bytes(bool with_padding = true) const {
+    std::size_t bytes = 0;
+    for (const PcdField& field : fields) bytes += with_padding || !field.is_padding() ? field.bytes() : 0;
+    return bytes;
+  }
   // Returns where the scanner is; nothing at 0 0 0, which is the default.
-  std::optional<Eigen::Vector3d> scanner() const;
-  std::size_t padding_bytes() const;  // of them, in fields named "_"
+  std::optional<Eigen::Vector3d> scanner() const {
+    const Eigen::Vector3d place = viewpoint.translation();
+    return place.isZero(0) ? std::nullopt : std::optional(place);
+  }
 };
 
 // "ascii", "binary", "binary_compressed".
@@ -218,23 +224,6 @@ std::uint64_t count_rows(const Parser& parser) {
                 "; they must be equal");
   }
   return width * height;
-}
-
-std::size_t PcdHeader::row_bytes() const {
-  std::size_t bytes = 0;
-  for (const PcdField& field : fields) bytes += field.bytes();
-  return bytes;
-}
-
-std::optional<Eigen::Vector3d> PcdHeader::scanner() const {
-  const Eigen::Vector3d place = viewpoint.translation();
-  return place.isZero(0) ? std::nullopt : std::optional(place);
-}
-
-std::size_t PcdHeader::padding_bytes() const {
-  std::size_t bytes = 0;
-  for (const PcdField& field : fields) bytes += field.is_padding() ? field.bytes() : 0;
-  return bytes;
 }
 
 // Reads the header with its line DATA. Versions are .5 to .7; without SIZE, TYPE or COUNT, values are single
@@ -507,9 +496,8 @@ void PcdReader::open_block() {
   unpacked_bytes_ = read_size(in_);
   if (block_bytes_ > in_.remaining()) fail_too_short();
   // PCL leaves padding out of the block; other writers may not.
-  const std::uint64_t with_padding = row_bytes_;
-  const std::uint64_t without = row_bytes_ - header_.padding_bytes();
-  has_padding_ = is_product(unpacked_bytes_, header_.rows, with_padding);
+  const std::uint64_t without = header_.row_bytes(false);
+  has_padding_ = is_product(unpacked_bytes_, header_.rows, row_bytes_);
   if (!has_padding_ && !is_product(unpacked_bytes_, header_.rows, without)) {
     in_.fail_at_byte(place + 4, std::to_string(unpacked_bytes_) + " uncompressed bytes are not " +
                                     std::to_string(header_.rows) + " points of " + std::to_string(without) +

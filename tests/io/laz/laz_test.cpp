@@ -216,11 +216,11 @@ TEST_CASE("chunks have the bytes that an encoder of its own, written after the s
     INFO(name(expected.of));
     Random random(8);
     const Layout layout = layout_of(expected.of);
-    const LazBytes chunk = laz_chunk(layout, plausible_records(layout, 5000, random));
+    const LazBytes chunk = encode_chunk(layout, plausible_records(layout, 5000, random));
     CHECK(chunk.size() == expected.bytes);
     CHECK(digest(chunk) == expected.plausible);
-    CHECK(digest(laz_chunk(layout, leaping_records(layout, 5000, random))) == expected.leaping);
-    CHECK(digest(laz_chunk(layout, random_records(layout, 500, random))) == expected.random);
+    CHECK(digest(encode_chunk(layout, leaping_records(layout, 5000, random))) == expected.leaping);
+    CHECK(digest(encode_chunk(layout, random_records(layout, 500, random))) == expected.random);
   }
 }
 
@@ -251,7 +251,7 @@ TEST_CASE("records are the same after compression and decompression", "[laz]") {
     const Layout layout = layout_of(c);
     const auto check = [&](const LazBytes& records) {
       const std::size_t points = records.size() / layout.record_bytes();
-      CHECK((decoded(layout, laz_chunk(layout, records), points) == records));
+      CHECK((decoded(layout, encode_chunk(layout, records), points) == records));
     };
     for (const std::size_t points : {1, 2, 3, 50, 5000}) {
       check(plausible_records(layout, points, random));
@@ -279,7 +279,7 @@ TEST_CASE("a chunk has the same points, however few of its bytes and points are 
   for (const Case& c : kCases) {
     const Layout layout = layout_of(c);
     const LazBytes whole = plausible_records(layout, kPoints, random);
-    const LazBytes chunk = laz_chunk(layout, whole);
+    const LazBytes chunk = encode_chunk(layout, whole);
     for (const std::size_t piece : {1u, 7u, 512u}) {
       for (const std::size_t block : {1u, 2u, 77u, 1000u}) {
         const ChunkInPieces bytes(chunk, piece);
@@ -303,7 +303,7 @@ TEST_CASE("a chunk with changed sizes of layers gives records or an error", "[la
   for (const Case& c : kCases) {
     if (c.version < 3) continue;
     const Layout layout = layout_of(c);
-    const LazBytes chunk = laz_chunk(layout, plausible_records(layout, 40, random));
+    const LazBytes chunk = encode_chunk(layout, plausible_records(layout, 40, random));
     for (std::size_t layer = 0; layer < 9; ++layer) {
       for (const std::uint32_t size : {0u, 1u, 3u, 4u, 100000u, 0xffffffffu}) {
         LazBytes changed = chunk;
