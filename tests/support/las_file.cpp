@@ -120,7 +120,8 @@ laz::Layout laz_layout(int point_format, std::uint16_t extra_bytes, std::uint32_
                        std::uint16_t version) {
   laz::Layout layout = laz::layout_of(point_format, extra_bytes);
   layout.chunk_points = chunk_points;
-  for (laz::Item& item : layout.items) item.version = version;
+  for (laz::Item& item : layout.items)
+    if (item.type != laz::item_type::kWavepacket13) item.version = version;
   return layout;
 }
 

@@ -245,6 +245,26 @@ class Colours {
   ChannelValues<ColourValue, ColourModels> channels_;
 };
 
+template <class Layer>
+class Wavepacket14 {
+ public:
+  Wavepacket14(ChannelRule rule, unsigned channel, const std::byte* first, Layer& layer)
+      : layer_(layer), channels_(rule, channel, load<Wavepacket>(first), WavepacketModels()) {}
+
+  void code(unsigned channel, bool changed_channel, ItemByte<Layer>* item) {
+    const auto chosen = channels_.choose(channel, changed_channel);
+    Wavepacket now = chosen.last;
+    if constexpr (Layer::kEncodes) now = load<Wavepacket>(item);
+    layer_.code(chosen.last, now, [&](auto& coder) { chosen.models.code(coder, chosen.last, now); });
+    chosen.last = now;
+    if constexpr (!Layer::kEncodes) store(item, now);
+  }
+
+ private:
+  Layer& layer_;
+  ChannelValues<Wavepacket, WavepacketModels> channels_;
+};
+
 // BYTE14: a layer for each byte.
 template <class Layer>
 class ExtraBytes14 {
@@ -274,6 +294,7 @@ std::size_t layers_of(const Item& item) {
     case item_type::kPoint14:
       return Point14<DecodedLayer>::kLayers;
     case item_type::kRgb14:
+    case item_type::kWavepacket14:
       return 1;
     case item_type::kRgbNir14:
       return 2;
@@ -295,6 +316,9 @@ class Records {
       if (item.type == item_type::kRgb14 || item.type == item_type::kRgbNir14) {
         colours_.emplace(rule, point_.channel(), &first[at], own);
         colours_at_ = at;
+      } else if (item.type == item_type::kWavepacket14) {
+        wavepackets_.emplace(rule, point_.channel(), &first[at], own[0]);
+        wavepackets_at_ = at;
       } else if (item.type == item_type::kByte14) {
         extra_bytes_.emplace(rule, point_.channel(), first.subspan(at, item.size), own);
         extra_bytes_at_ = at;
@@ -309,14 +333,16 @@ class Records {
     const unsigned channel = point_.channel();
     const bool changed = point_.changed_channel();
     if (colours_) colours_->code(channel, changed, record + colours_at_);
+    if (wavepackets_) wavepackets_->code(channel, changed, record + wavepackets_at_);
     if (extra_bytes_) extra_bytes_->code(channel, changed, record + extra_bytes_at_);
   }
 
  private:
   Point14<Layer> point_;
   std::optional<Colours<Layer>> colours_;
+  std::optional<Wavepacket14<Layer>> wavepackets_;
   std::optional<ExtraBytes14<Layer>> extra_bytes_;
-  std::size_t colours_at_ = 0, extra_bytes_at_ = 0;
+  std::size_t colours_at_ = 0, wavepackets_at_ = 0, extra_bytes_at_ = 0;
 };
 
 // Reads the layers of a chunk. From `begin` on, it has the number of points, the size of each layer, and the

@@ -100,8 +100,7 @@ void check(const Item& item, Order order) {
   const auto fail = [&](const std::string& why) { throw Corrupt(described(item) + " " + why); };
   if (expected.size ? item.size != expected.size : item.size == 0) fail("has a wrong size");
   if (expected.order != order) fail("does not belong to the compressor of the file");
-  if (item.type == item_type::kWavepacket13 || item.type == item_type::kWavepacket14)
-    fail("is a waveform, which is not read; `laszip` decompresses the file");
+  if (item.type == item_type::kWavepacket13 && item.version == 1) return;
   if (order == Order::kPointwise && item.version != 2)
     fail("is not supported (version 2 is); `laszip` decompresses files from before 2011");
   if (order == Order::kLayered && item.version != 3 && item.version != 4)
@@ -150,7 +149,8 @@ Layout parse_layout(std::span<const std::byte> record) {
       const Item& before = layout.items.back();
       const bool both_rgb = before.type == item_type::kRgb14 && item.type == item_type::kRgbNir14;
       if (&known(before) >= &known(item) || both_rgb) throw Corrupt(described(item) + " is in a wrong place");
-      if (before.version != item.version)
+      const bool is_packet = before.type == item_type::kWavepacket13 || item.type == item_type::kWavepacket13;
+      if (before.version != item.version && !is_packet)
         throw Corrupt(described(item) + " has not the version of the items before");
     }
     layout.items.push_back(item);
@@ -320,18 +320,19 @@ Layout layout_of(int point_format, std::uint16_t extra_bytes) {
   constexpr std::size_t kChunkPoints = 50'000;
   using namespace item_type;
   Layout layout{};
-  assert(point_format <= 3 || (point_format >= 6 && point_format <= 8));
-  if (point_format <= 3) {
+  if (point_format <= 5) {
     layout.compressor = compressor::kPointwiseChunked;
     layout.items.push_back({kPoint10, 20, 2});
-    if (point_format % 2 == 1) layout.items.push_back({kGpsTime11, 8, 2});
-    if (point_format >= 2) layout.items.push_back({kRgb12, 6, 2});
+    if (point_format != 0 && point_format != 2) layout.items.push_back({kGpsTime11, 8, 2});
+    if (point_format == 2 || point_format == 3 || point_format == 5) layout.items.push_back({kRgb12, 6, 2});
+    if (point_format >= 4) layout.items.push_back({kWavepacket13, 29, 1});
     if (extra_bytes > 0) layout.items.push_back({kByte, extra_bytes, 2});
   } else {
     layout.compressor = compressor::kLayeredChunked;
     layout.items.push_back({kPoint14, 30, 3});
     if (point_format == 7) layout.items.push_back({kRgb14, 6, 3});
-    if (point_format == 8) layout.items.push_back({kRgbNir14, 8, 3});
+    if (point_format == 8 || point_format == 10) layout.items.push_back({kRgbNir14, 8, 3});
+    if (point_format >= 9) layout.items.push_back({kWavepacket14, 29, 3});
     if (extra_bytes > 0) layout.items.push_back({kByte14, extra_bytes, 3});
   }
   layout.chunk_points =

@@ -2,8 +2,8 @@
 // Decompresses and compresses the points of LAZ files, whose bytes the caller provides: no file access.
 //
 // Idea: a chunk of points begins with a whole one. Of each other point, every field is predicted from the
-// points before it, and an adaptive arithmetic coder takes the difference. Points of formats 0 to 3 are one
-// stream (pointwise.cpp). Those of formats 6 to 8 have a stream for each attribute (layered.cpp).
+// points before it, and an adaptive arithmetic coder takes the difference. Points of formats 0 to 5 are one
+// stream (pointwise.cpp). Those of formats 6 to 10 have a stream for each attribute (layered.cpp).
 // Memory has the bounds decoder_bytes() and encoder_bytes().
 //
 // The format: M. Isenburg, "LASzip: lossless compression of LiDAR data", Photogrammetric Engineering & Remote
@@ -67,8 +67,8 @@ struct Layout {
 };
 
 // Reads the data of the variable length record with user id "laszip encoded" and record id 22204. Supports
-// POINT10, GPSTIME11, RGB12 and BYTE of version 2 (point formats 0 to 3). Of version 3 and 4, it supports
-// POINT14, RGB14, RGBNIR14 and BYTE14 (point formats 6 to 8).
+// POINT10, GPSTIME11, RGB12 and BYTE of version 2, and WAVEPACKET13 of version 1 (point formats 0 to 5). Of
+// version 3 and 4, it supports POINT14, RGB14, RGBNIR14, WAVEPACKET14 and BYTE14 (point formats 6 to 10).
 // Throws `Corrupt` for other items, with the item's name.
 Layout parse_layout(std::span<const std::byte> record);
 
@@ -152,9 +152,10 @@ std::uint64_t decoder_bytes(const Layout& layout);
 // The number of streams that a chunk consists of: 1, or one for each layer.
 std::size_t stream_count(const Layout& layout);
 
-// Returns how points of this format, from 0 to 3 or 6 to 8, are compressed, with `extra_bytes` behind the
-// format's fields. Formats 0 to 3 use compressor 2 with items of version 2. The others use compressor 3 with
-// items of version 3. A chunk has 50,000 points, as LASzip's; fewer if these take more than kMostChunkBytes.
+// Returns how points of this format, from 0 to 10, are compressed, with `extra_bytes` behind the format's
+// fields. Formats 0 to 5 use compressor 2 with items of version 2, and 1 for waveforms. The others use
+// compressor 3 with items of version 3. A chunk has 50,000 points, as LASzip's; fewer if these take more than
+// kMostChunkBytes.
 Layout layout_of(int point_format, std::uint16_t extra_bytes);
 inline constexpr std::size_t kMostChunkBytes = std::size_t{4} << 20;
 

@@ -146,23 +146,27 @@ class GpsTime11 {
   GpsTimeCoder<GpsTimeCodes::kGpsTime11> coder_;
 };
 
-class Rgb12 {
+// An item that its models code by the last one.
+template <class Value, class Models>
+class ItemByLast {
  public:
-  explicit Rgb12(const std::byte* first) : last_(load<Rgb>(first)) {}
+  explicit ItemByLast(const std::byte* first) : last_(load<Value>(first)) {}
   void code(ArithmeticDecoder& decoder, std::byte* item) {
-    models_.code(decoder, Rgb(last_), last_);
+    models_.code(decoder, Value(last_), last_);
     store(item, last_);
   }
   void code(ArithmeticEncoder& encoder, const std::byte* item) {
-    const Rgb before = last_;
-    last_ = load<Rgb>(item);
+    const Value before = last_;
+    last_ = load<Value>(item);
     models_.code(encoder, before, last_);
   }
 
  private:
-  Rgb last_;
-  RgbModels models_;
+  Value last_;
+  Models models_;
 };
+using Rgb12 = ItemByLast<Rgb, RgbModels>;
+using Wavepacket13 = ItemByLast<Wavepacket, WavepacketModels>;
 
 // BYTE (LAZ, "BYTE"): the difference of each byte to the same byte of the last point.
 class ExtraBytes {
@@ -183,8 +187,9 @@ struct Items {
   std::optional<Point10> point;
   std::optional<GpsTime11> gps_time;
   std::optional<Rgb12> rgb;
+  std::optional<Wavepacket13> wavepacket;
   std::optional<ExtraBytes> extra_bytes;
-  std::size_t gps_time_at = 0, rgb_at = 0, extra_bytes_at = 0;
+  std::size_t gps_time_at = 0, rgb_at = 0, wavepacket_at = 0, extra_bytes_at = 0;
 
   Items(const Layout& layout, const std::byte* first) {
     std::size_t at = 0;
@@ -201,6 +206,10 @@ struct Items {
           rgb.emplace(first + at);
           rgb_at = at;
           break;
+        case item_type::kWavepacket13:
+          wavepacket.emplace(first + at);
+          wavepacket_at = at;
+          break;
         default:
           extra_bytes.emplace(first + at, item.size);
           extra_bytes_at = at;
@@ -214,6 +223,7 @@ struct Items {
     point->code(coder, record);
     if (gps_time) gps_time->code(coder, record + gps_time_at);
     if (rgb) rgb->code(coder, record + rgb_at);
+    if (wavepacket) wavepacket->code(coder, record + wavepacket_at);
     if (extra_bytes) extra_bytes->code(coder, record + extra_bytes_at);
   }
 };
