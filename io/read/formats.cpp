@@ -3,13 +3,11 @@
 
 #include "io/read/e57/e57.hpp"
 #include "io/read/files/input_file.hpp"
-#include "io/read/files/number.hpp"
 #include "io/read/rows/readers.hpp"
 #include "io/read/rows/scan_reader.hpp"
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <string>
 
 namespace lacuna::io {
@@ -39,12 +37,10 @@ struct OtherFormat {
   std::string_view begins;
   std::string_view name;
   std::string_view way_out;
-  std::size_t at = 0;  // byte of its beginning
 };
 
 constexpr std::string_view kZip = "PK\x03\x04"sv;
 
-constexpr std::string_view kConvert = "CloudCompare or `pdal translate` convert it to LAS or PLY";
 constexpr std::string_view kMeshLab = "MeshLab saves it as PLY";
 constexpr std::string_view kExportPoints = "its points must be exported to LAS, PLY or text";
 constexpr std::string_view kGridToText = "`gdal_translate -of XYZ IN OUT.xyz` makes points of its cells";
@@ -68,17 +64,12 @@ constexpr std::array kOtherFormats = {
     OtherFormat{"# vtk DataFile"sv, "VTK", "ParaView exports it as PLY"},
     OtherFormat{"<VTKFile"sv, "VTK XML", "ParaView exports it as PLY"},
     OtherFormat{"CCB2"sv, "CloudCompare's BIN", "CloudCompare saves it as PLY or LAS"},
-    OtherFormat{"BPF!"sv, "BPF", kConvert},
-    OtherFormat{"FASTBIN"sv, "FBI of TerraScan", kConvert},
-    OtherFormat{"CXYZ"sv, "BIN of TerraScan", kConvert, 12},
-    OtherFormat{"CSD\0"sv, "CSD of Optech", kConvert},
-    OtherFormat{"NITF0"sv, "NITF", kConvert},
     OtherFormat{"PAR1"sv, "Parquet", kExportPoints},
     OtherFormat{"\x93NUMPY"sv, "an array of NumPy", kTakesArrays},
     OtherFormat{"glTF"sv, "binary glTF", "CloudCompare or Blender export it as PLY"},
     OtherFormat{"version https://git-lfs"sv, "a pointer of Git LFS",
                 "`git lfs pull` fetches the file itself"},
-    OtherFormat{"<?xml"sv, "XML", kConvert},
+    OtherFormat{"<?xml"sv, "XML", kExportPoints},
     OtherFormat{"\xff\xfe"sv, "text in UTF-16", kSaveAsUtf8},
     OtherFormat{"\xfe\xff"sv, "text in UTF-16", kSaveAsUtf8},
     OtherFormat{"<!DOCTYPE"sv, "a web page", "a download may have failed"},
@@ -103,7 +94,6 @@ constexpr std::array kNamedFormats = {
     NamedFormat{".rxp", "", "a scan of RIEGL", kFromMaker},
     NamedFormat{".rdbx", "", "a scan of RIEGL", kFromMaker},
     NamedFormat{".zfs", "", "a scan of Zoller + Froehlich", kFromMaker},
-    NamedFormat{".qi", "", "QFIT", kConvert},
     NamedFormat{".npz", kZip, "an archive of NumPy", kTakesArrays},
     NamedFormat{".slpk", kZip, "a scene layer package", "ArcGIS Pro exports its points as LAS"},
 };
@@ -125,19 +115,6 @@ std::array<std::string, 2> first_words(std::string_view text) {
   return words;
 }
 
-// Whether these are records of 17 numbers, the first of which is a time that goes on by up to a second.
-bool looks_like_sbet(std::string_view bytes) {
-  constexpr std::size_t kRecord = 17 * sizeof(double);
-  if (bytes.size() < 3 * kRecord) return false;
-  const auto time = [&](std::size_t i) {
-    return load<double>(std::as_bytes(std::span(bytes)).data() + i * kRecord);
-  };
-  const auto goes_on = [&](std::size_t i) {
-    return time(i + 1) - time(i) > 1e-6 && time(i + 1) - time(i) <= 1;
-  };
-  return time(0) >= 1 && goes_on(0) && goes_on(1);
-}
-
 // Names a format that is not read, and a way out.
 std::optional<std::string> describe_other_format(const std::filesystem::path& file,
                                                  std::string_view first_bytes) {
@@ -147,11 +124,7 @@ std::optional<std::string> describe_other_format(const std::filesystem::path& fi
       return describe(format.name, format.way_out);
   }
   const auto [first, second] = first_words(first_bytes);
-  if (looks_like_sbet(first_bytes))
-    return describe("a trajectory (SBET)", "--stations takes it as text, with the columns time, x, y and z");
   if (first.ends_with("off") && first.size() <= 5) return describe("OFF", kMeshLab);  // and NOFF, STOFF
-  if (first == "ply" && first_bytes.find("\nelement vertex_position ") != first_bytes.npos)
-    return describe("PLY of displaz", kExportPoints);
   if (first == "ncols" || first == "nrows") return describe("a grid of Esri (ASC)", kGridToText);
   if ((first == "0" && second == "section") ||
       (first == "999" && first_bytes.find("\nSECTION") != first_bytes.npos))
@@ -162,8 +135,7 @@ std::optional<std::string> describe_other_format(const std::filesystem::path& fi
     return describe("JSON",
                     "of points of GeoJSON, `ogr2ogr -f CSV OUT.csv IN -lco GEOMETRY=AS_XYZ` makes text");
   for (const OtherFormat& format : kOtherFormats) {
-    if (first_bytes.substr(std::min(format.at, first_bytes.size())).starts_with(format.begins))
-      return describe(format.name, format.way_out);
+    if (first_bytes.starts_with(format.begins)) return describe(format.name, format.way_out);
   }
   return std::nullopt;
 }

@@ -54,9 +54,9 @@ void check_many_broken_files(const std::vector<WholeFile>& files, std::uint32_t 
 
 // Files changed at random, the same for the same seed.
 
-// Returns `whole` with one to four random changes. Bytes are set, bits flipped, spans removed, repeated,
-// inserted or swapped. Integers become extreme values, numbers of text change, or the end is cut off. Each
-// `number` gives a file of its own, on every machine the same.
+// Returns `whole` with one to four random changes. Bytes are set, spans removed, repeated or inserted,
+// integers and numbers of text become extreme values, or the end is cut off. Each `number` gives a file of
+// its own, on every machine the same.
 std::string mutated(const std::string& whole, std::uint32_t seed, std::uint32_t number);
 
 }  // namespace lacuna::test

@@ -9,7 +9,7 @@
 namespace lacuna::test {
 namespace {
 
-// Small files of a format, and more of them for the slow test. The seed is that of the changes.
+// Small files of a format, and more of them for the slow test. The changes have this seed.
 struct Format {
   std::uint32_t seed;
   std::vector<WholeFile> (*files)();
@@ -64,14 +64,6 @@ TEST_CASE("each format of text: a wrong row is an error that names its line", "[
 
 // ---- Which format a file has
 
-// Three records of a trajectory in 17 doubles.
-std::string sbet() {
-  std::string bytes(3 * 17 * sizeof(double), '\0');
-  for (std::size_t i = 0; i < 3; ++i)
-    put(bytes, i * 17 * sizeof(double), 302'400 + 0.005 * static_cast<double>(i));
-  return bytes;
-}
-
 TEST_CASE("what cannot be opened is an error that names it", "[io]") {
   const ScratchFolder folder;
   const auto refused = [](const fs::path& file, const std::string& reason) {
@@ -95,29 +87,21 @@ TEST_CASE("a format is known by its first bytes, not by its name", "[io]") {
 
 TEST_CASE("a format that is known but not read is named, with a way out", "[io]") {
   using namespace std::string_literals;
-  check_refused(
-      "a.bin",
-      {{"CCB2\1\0\0\0", "byte 0: this is CloudCompare's BIN, which is not read; Cloud"},
-       {"\x1f\x8b\x08", "packed by gzip"},
-       {"\x1f\x8b\x08", "unpack it first"},
-       {"ncols 3\nnrows 3\n", "a grid of Esri"},
-       {"  0\r\nSECTION\r\n", "this is DXF"},
-       {"DRACO\2\2", "this is Draco"},
-       {"BPF!0003", "this is BPF"},
-       {"FASTBIN\1", "this is FBI of TerraScan"},
-       {"\1\1\1\1\1\1\1\1\1\1\1\1CXYZ", "this is BIN of TerraScan"},
-       {"CSD\0\1"s, "this is CSD of Optech"},
-       {"NITF02.10", "this is NITF"},
-       {"PAR1\25", "this is Parquet"},
-       {"STOFF\n4 0 0\n", "this is OFF, which is not read; MeshLab"},
-       {"OFF 4 0 0\n", "this is OFF"},
-       {"{\"type\": \"FeatureCollection\"}", "this is JSON, which is not read; of points of GeoJSON"},
-       {"ply\nformat ascii 1.0\nelement vertex_position 3\n", "this is PLY of displaz"},
-       {sbet(), "this is a trajectory (SBET), which is not read; --stations takes it as text"},
-       {"# vtk DataFile Version 3.0\n", "VTK"},
-       {"version https://git-lfs.github.com/spec/v1\noid sha256:1\n", "git lfs pull"},
-       {"\xff\xfe\x31\0 \0"s, "text in UTF-16"},
-       {"\xfe\xff\0\x31"s, "saves it as UTF-8"}});
+  check_refused("a.bin", {{"CCB2\1\0\0\0", "byte 0: this is CloudCompare's BIN, which is not read; Cloud"},
+                          {"\x1f\x8b\x08", "packed by gzip"},
+                          {"\x1f\x8b\x08", "unpack it first"},
+                          {"ncols 3\nnrows 3\n", "a grid of Esri"},
+                          {"  0\r\nSECTION\r\n", "this is DXF"},
+                          {"DRACO\2\2", "this is Draco"},
+                          {"PAR1\25", "this is Parquet"},
+                          {"STOFF\n4 0 0\n", "this is OFF, which is not read; MeshLab"},
+                          {"OFF 4 0 0\n", "this is OFF"},
+                          {"{\"type\": \"FeatureCollection\"}",
+                           "this is JSON, which is not read; of points of GeoJSON"},
+                          {"# vtk DataFile Version 3.0\n", "VTK"},
+                          {"version https://git-lfs.github.com/spec/v1\noid sha256:1\n", "git lfs pull"},
+                          {"\xff\xfe\x31\0 \0"s, "text in UTF-16"},
+                          {"\xfe\xff\0\x31"s, "saves it as UTF-8"}});
   check_refused("a.npz", {{"PK\3\4", "an archive of NumPy"}});
   check_refused("a.npy",
                 {{"\x93NUMPY\1\0v", "an array of NumPy, which is not read; lacuna.find_holes of Python"}});
@@ -126,8 +110,7 @@ TEST_CASE("a format that is known but not read is named, with a way out", "[io]"
   for (const auto& [name, format] : {std::pair{"a.rcp", "Autodesk ReCap"},
                                      {"a.fls", "a scan of FARO"},
                                      {"a.rdbx", "a scan of RIEGL"},
-                                     {"a.zfs", "Zoller + Froehlich"},
-                                     {"a.qi", "this is QFIT"}})
+                                     {"a.zfs", "Zoller + Froehlich"}})
     check_refused(name, {{"anything", format}});
   CHECK_THAT(read_error("https://host/a.laz"), Contains("is an address"));
 }

@@ -27,13 +27,6 @@ std::string degrees_las() {
   return las.bytes();
 }
 
-// Keys of GeoTIFF in a LAS file: a projected system by its code, without one for the unit.
-std::string coded_las(std::uint16_t code) {
-  const std::string keys = las_geo_keys({{1024, 0, 1, 1}, {3072, 0, 1, code}});
-  return LasFile{.points = {las_point(20, 0, 0, 0)}, .records = {las_record("LASF_Projection", 34735, keys)}}
-      .bytes();
-}
-
 }  // namespace
 
 TEST_CASE("a system whose lengths are not those on the ground is refused, with the UTM zone of the scan") {
@@ -49,16 +42,6 @@ TEST_CASE("a system whose lengths are not those on the ground is refused, with t
   check_failure(detect(north, "EPSG:3857"), 1, "EPSG:32632");
   CHECK(detect(equator, "EPSG:3857").exit_code == 0);
   check_failure(detect(north, "EPSG:3395"), 1, "EPSG:32632");
-}
-
-TEST_CASE("the unit of a system that a file names by its code alone is the unit of the code") {
-  const ScratchFolder scratch;
-  const auto unit_of = [&](std::uint16_t code) {
-    return json_of(succeed({"info", scratch.write("a.las", coded_las(code)), "--json"}).out)["unit"];
-  };
-  CHECK(unit_of(25832) == "m");
-  CHECK(unit_of(2992) == "ft");     // NAD83 / Oregon GIC Lambert (ft)
-  CHECK(unit_of(2263) == "us-ft");  // NAD83 / New York Long Island (ftUS)
 }
 
 TEST_CASE("a scan in degrees is refused before the work with the ways out, and info says so") {
@@ -115,31 +98,6 @@ TEST_CASE("a system of no lengths is an error before the work") {
     check_failure(run_program({"detect", scan, "--out", out, "--crs", code}), 1,
                   "is in longitude and latitude, and holes need lengths");
   CHECK_FALSE(fs::exists(out));
-}
-
-TEST_CASE("a code and well-known text of one system are the same for a scan of several files") {
-  const ScratchFolder scratch;
-  const std::string scan = scratch.write("sheet.xyz", sheet_text());
-  const auto las_of = [&](const std::string& name, const std::string& crs) {
-    LasFile las;
-    for (int i = 0; i < 100; ++i) las.points.push_back(las_point(20, i % 10, i / 10, 0));
-    detect(scan, scratch / name, {"--crs", crs});
-    const std::string text = read_json(scratch / name / "holes.json").at("crs");
-    las.records = {las_record("LASF_Projection", 2112, text)};
-    return scratch.write(name + ".las", las.bytes());
-  };
-  const std::string text = las_of("text", "EPSG:25832"), other = las_of("other", "EPSG:25833");
-  const std::string code = scratch.write("code.las", coded_las(25832));
-  const auto detect = [&](const Words& scans) {
-    const ProgramResult result =
-        succeed(with({"detect", "--out", (scratch / "out").string(), "--quiet"}, scans));
-    const auto holes = read_json(scratch / "out" / "holes.json");
-    return std::pair(result.err, holes["crs"].is_null() ? "" : holes["crs"].get<std::string>());
-  };
-  const auto [warnings, common] = detect({code, text});
-  CHECK_THAT(warnings, !Contains("coordinate reference system"));
-  CHECK(common == "EPSG:25832");
-  CHECK(detect({text, other}).second.empty());
 }
 
 }  // namespace lacuna::test

@@ -114,22 +114,6 @@ TEST_CASE("an area of many corners stays within the memory limit, or is refused 
                Contains("coast.json: ") && Contains(" corners of polygons") && Contains("allowed: "));
 }
 
-TEST_CASE("a hierarchy of many point tiles stays within the memory limit, or is refused") {
-  const auto info_of = [](int tiles, int exit_code) {
-    const ScratchFolder scratch;
-    fs::create_directories(scratch / "ept-data");
-    fs::create_directories(scratch / "ept-hierarchy");
-    std::string hierarchy = R"({"0-0-0-0": 1)";
-    for (int i = 0; i < tiles; ++i) hierarchy += ", \"21-" + std::to_string(i) + "-0-0\": 0";
-    scratch.write("ept-hierarchy/0-0-0-0.json", hierarchy + "}");
-    scratch.write("ept-data/0-0-0-0.laz", LasFile{.points = {las_point(20, 1, 2, 3)}}.bytes());
-    const std::string ept = scratch.write("ept.json", R"({"dataType": "laszip", "points": 1})");
-    return run_within("64MiB", {"info", ept}, exit_code);
-  };
-  info_of(90'000, 0);
-  check_failure(info_of(800'000, 1), 1, "that fit in the memory limit");
-}
-
 TEST_CASE("lacuna-bench score takes the memory of the true holes, however large the found ones are") {
   const ScratchFolder scratch;
   fs::create_directories(scratch / "clouds");
@@ -229,31 +213,18 @@ TEST_CASE("two million points, however uneven they lie, stay within the memory l
 }
 
 // A file of few bytes: LAZ codes points that are alike in next to none.
-std::string laz_of_equal_points(std::uint32_t count, bool has_chunks) {
+std::string laz_of_equal_points(std::uint32_t count) {
   const LasFile las{.points = {las_point(20, 1000, 2000, 3000)}};
-  laz::Layout layout = laz_layout(0, 0, count, 2);
-  if (!has_chunks) layout.compressor = laz::compressor::kPointwise;
+  const laz::Layout layout = laz_layout(0, 0, count, 2);
   std::string head = laz_head(las, layout), points;
   put(head, 107, count);
   for (std::uint32_t i = 0; i < count; ++i) points += las.points[0];
   return head + laz_points(layout, points, {count}, head.size());
 }
 
-void check_laz_of_one_chunk(std::uint32_t points) {
+TEST_CASE("LAZ of one large chunk stays within the memory limit") {
   const ScratchFolder scratch;
-  for (const bool has_chunks : {true, false}) {
-    INFO("chunks: " << has_chunks);
-    const std::string scan = scratch.write("a.laz", laz_of_equal_points(points, has_chunks));
-    run_within("64MiB", {"info", scan, "--threads", "2"});
-  }
-}
-
-TEST_CASE("LAZ of one large chunk stays within the memory limit, with and without a chunk table") {
-  check_laz_of_one_chunk(4'000'000);
-}
-
-TEST_CASE("LAZ of one chunk of 15 million points, 286 MiB, stays within the memory limit", "[.slow]") {
-  check_laz_of_one_chunk(15'000'000);
+  run_within("64MiB", {"info", scratch.write("a.laz", laz_of_equal_points(4'000'000)), "--threads", "2"});
 }
 
 TEST_CASE("text of 500,000 columns is refused within the memory limit") {

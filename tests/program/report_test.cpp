@@ -113,7 +113,7 @@ TEST_CASE("the data of a report are the loops and the sample, to a millionth of 
 }
 
 // The licence is as /usr/share/doc/libjs-three/copyright has it.
-TEST_CASE("a report of finished results is that of the run itself, goes with them, and has a licence") {
+TEST_CASE("a report of finished results equals the report of the run, goes with them, and has a licence") {
   Made made(sheet(), {"--report"});
   const std::string page = made.page(), out = made.out().string();
   REQUIRE(page.find("Number.EPSILON===undefined") != page.npos);  // it contains three.js

@@ -125,16 +125,12 @@ laz::Layout laz_layout(int point_format, std::uint16_t extra_bytes, std::uint32_
   return layout;
 }
 
-LazBytes laz_chunk(const laz::Layout& layout, std::span<const std::byte> records) {
-  return laz::encode_chunk(layout, records);
-}
-
 LazBytes laz_point_data(const laz::Layout& layout, std::span<const std::byte> records,
                         std::span<const std::uint64_t> chunk_points, std::uint64_t offset) {
   LazBytes data(8);
   std::vector<laz::Chunk> chunks;
   for (const std::uint64_t points : chunk_points) {
-    const LazBytes chunk = laz_chunk(layout, records.first(points * layout.record_bytes()));
+    const LazBytes chunk = laz::encode_chunk(layout, records.first(points * layout.record_bytes()));
     records = records.subspan(points * layout.record_bytes());
     chunks.push_back({offset + data.size(), chunk.size(), points});
     data.insert(data.end(), chunk.begin(), chunk.end());
@@ -160,9 +156,7 @@ std::string laz_head(LasFile las, const laz::Layout& layout) {
 std::string laz_points(const laz::Layout& layout, const std::string& records,
                        const std::vector<std::uint64_t>& chunk_points, std::size_t offset) {
   const std::span bytes = std::as_bytes(std::span(records));
-  return text_of(layout.compressor == laz::compressor::kPointwise
-                     ? laz_chunk(layout, bytes)
-                     : laz_point_data(layout, bytes, chunk_points, offset));
+  return text_of(laz_point_data(layout, bytes, chunk_points, offset));
 }
 
 std::string laz_file(const LasFile& las, const laz::Layout& layout,

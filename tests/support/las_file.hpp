@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// LAS files drawn as bytes, and their points compressed: of every version that the decoder reads. The encoder
-// of io/read/laz makes these, and one for version 1, which Lacuna does not write.
+// LAS files drawn as bytes, and their points compressed by the encoder of io/read/laz.
 #pragma once
 
 #include "io/read/laz/laz.hpp"
@@ -66,13 +65,10 @@ std::string las_of_classes(const std::vector<int>& classes);
 
 using LazBytes = std::vector<std::byte>;
 
-// The items of a point format, 0 to 3 with version 1 or 2, or 6 to 8 with version 3 or 4. `extra_bytes` are
-// behind them. `chunk_points`: laz::kVariableChunks writes the number of points of each chunk.
+// The items of a point format, 0 to 3 with version 2, or 6 to 8 with version 3 or 4. `extra_bytes` are behind
+// them. `chunk_points`: laz::kVariableChunks writes the number of points of each chunk.
 io::laz::Layout laz_layout(int point_format, std::uint16_t extra_bytes, std::uint32_t chunk_points,
                            std::uint16_t version);
-
-// One chunk, of at least one record as in an uncompressed LAS file.
-LazBytes laz_chunk(const io::laz::Layout& layout, std::span<const std::byte> records);
 
 // All bytes of a file from its point data at `offset` on: the offset of the chunk table, the chunks, the
 // table. `chunk_points` are the points of each chunk, together all of `records`.
@@ -84,8 +80,7 @@ std::string text_of(std::span<const std::byte> bytes);
 // What is before the points of a file: its header and records, with that of the layout.
 std::string laz_head(LasFile las, const io::laz::Layout& layout);
 
-// The points of a file behind its head, one record after the other. Those of compressor 1 are one chunk
-// without a table.
+// The points of a file behind its head, one record after the other.
 std::string laz_points(const io::laz::Layout& layout, const std::string& records,
                        const std::vector<std::uint64_t>& chunk_points, std::size_t offset);
 

@@ -85,26 +85,6 @@ TEST_CASE("bytes that are not UTF-8 are shown one by one, and the next character
   CHECK(visible("\xf4\x90\x80\x80") == "\\xf4\\x90\\x80\\x80");  // above U+10FFFF
 }
 
-TEST_CASE("every character that UTF-8 can hold is found with its length, and no other bytes") {
-  for (char32_t c = 0; c < 0x120000; ++c) {
-    std::string bytes;
-    if (c < 0x80) {
-      bytes.push_back(char(c));
-    } else if (c < 0x800) {
-      bytes = {char(0xc0 | c >> 6), char(0x80 | (c & 63))};
-    } else if (c < 0x10000) {
-      bytes = {char(0xe0 | c >> 12), char(0x80 | (c >> 6 & 63)), char(0x80 | (c & 63))};
-    } else {
-      bytes = {char(0xf0 | c >> 18), char(0x80 | (c >> 12 & 63)), char(0x80 | (c >> 6 & 63)),
-               char(0x80 | (c & 63))};
-    }
-    const bool is_character = c < 0xd800 || (c > 0xdfff && c < 0x110000);
-    if (utf8_length(bytes) != (is_character ? bytes.size() : 0)) FAIL("U+" << std::hex << std::uint32_t(c));
-    if (bytes.size() > 1 && utf8_length(bytes.substr(0, bytes.size() - 1)) != 0)
-      FAIL("cut: " << std::uint32_t(c));
-  }
-}
-
 StepProgress evaluating() {
   return {.step = "evaluate", .done = 3'200'000, .total = 8'000'000, .step_seconds = 2, .run_seconds = 75};
 }

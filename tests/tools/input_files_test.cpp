@@ -141,17 +141,14 @@ TEST_CASE("a folder without a scan, an empty list and one that is missing are er
     CHECK_THROWS_WITH(expand_inputs({given}), Contains(reason));
 }
 
-// An EPT folder of tiles of two points, each in its file of the hierarchy.
+// An EPT folder of tiles of two points each.
 struct Ept {
   ScratchFolder scratch;
-  fs::path folder = scratch / "ept";
+  fs::path folder = scratch / "ept", data = folder / "ept-data";
 
   Ept() {
-    fs::create_directories(folder / "ept-data");
-    fs::create_directories(folder / "ept-hierarchy");
+    fs::create_directories(data);
     write("ept.json", R"({"dataType": "laszip", "points": 6})");
-    write("ept-hierarchy/0-0-0-0.json", R"({"0-0-0-0": 2, "1-0-0-0": -1, "1-1-0-0": 0})");
-    write("ept-hierarchy/1-0-0-0.json", R"({"1-0-0-0": 2, "2-0-0-1": 2})");
     for (const char* tile : {"0-0-0-0", "1-0-0-0", "2-0-0-1"}) write_tile(tile, 2);
   }
   void write(const std::string& name, const std::string& bytes) const { scratch.write("ept/" + name, bytes); }
@@ -167,60 +164,34 @@ struct Ept {
 
 TEST_CASE("a folder of Entwine's point tiles is the scan in its files") {
   const Ept ept;
-  const fs::path data = ept.folder / "ept-data";
-  const Paths tiles = {data / "0-0-0-0.laz", data / "1-0-0-0.laz", data / "2-0-0-1.laz"};
+  const Paths tiles = {ept.data / "0-0-0-0.laz", ept.data / "1-0-0-0.laz", ept.data / "2-0-0-1.laz"};
   CHECK(files_of({ept.folder}) == tiles);
   CHECK(files_of({ept.folder / "ept.json"}) == tiles);
-  ept.write("ept.json", R"({"dataType": "zstandard"})");
-  CHECK_THAT(ept.error(), Contains("allowed: laszip"));
-  ept.write("ept.json", "{}");
-  CHECK_THAT(ept.error(), Contains("has no \"dataType\""));
-  ept.write("ept.json", "[]");
-  CHECK_THAT(ept.error(), Contains("an ept.json is needed"));
+  for (const auto& [json, part] : {std::pair{R"({"dataType": "zstandard"})", "allowed: laszip"},
+                                   {"{}", "has no \"dataType\""},
+                                   {"[]", "an ept.json is needed"}}) {
+    ept.write("ept.json", json);
+    CHECK_THAT(ept.error(), Contains(part));
+  }
 }
 
-TEST_CASE(
-    "point tiles that are not as ept.json and the hierarchy say are an error, which --skip-damaged ends") {
+TEST_CASE("point tiles with other points than ept.json counts are an error, which --skip-damaged ends") {
   const auto fails = [](const Ept& ept, const std::string& reason) {
     CHECK_THAT(ept.error(), Contains(reason) && Contains("; --skip-damaged reads the tiles that are there"));
     FilesConfig skipping;
     skipping.input.skip_damaged = true;
     CHECK(expand_inputs({ept.folder}, skipping).size() >= 2);
   };
-  const auto hierarchy = [&](const std::string& json, const std::string& reason) {
-    const Ept ept;
-    ept.write("ept-hierarchy/0-0-0-0.json", json);
-    fails(ept, reason);
-  };
-  Ept missing;
-  fs::remove(missing.folder / "ept-data" / "2-0-0-1.laz");
-  fails(missing, "2-0-0-1.laz: is missing; of the 4 tiles in the hierarchy, 1 cannot be found");
-  Ept unknown;
-  unknown.write_tile("1-1-0-0", 2);
-  unknown.write_tile("3-0-0-0", 2);
-  fails(unknown, "3-0-0-0.laz: is no tile of the hierarchy");
-  Ept shorter;
+  const std::string missing = "ept.json: counts 6 points, but its tiles have 4; tiles are missing";
+  Ept without, more, shorter, uncounted;
+  fs::remove(without.data / "2-0-0-1.laz");
+  fails(without, missing);
+  more.write_tile("3-0-0-0", 2);
+  fails(more, "but its tiles have 8");
   shorter.write_tile("2-0-0-1", 1);
-  fails(shorter, "2-0-0-1.laz: has 1 points, but the hierarchy counts 2");
-  Ept sum;
-  sum.write("ept.json", R"({"dataType": "laszip", "points": 7})");
-  fails(sum, "ept.json: counts 7 points, but the tiles of its hierarchy have 6");
-  sum.write("ept.json", R"({"dataType": "laszip"})");
-  fails(sum, "ept.json: has no number \"points\"");
-  Ept cut;
-  fs::remove(cut.folder / "ept-hierarchy" / "1-0-0-0.json");
-  fails(cut, "1-0-0-0.json: cannot be opened: No such file");
-  for (const char* const bad : {"{", "[]", "7", R"({"0-0-0-0": 1e999})"})
-    hierarchy(bad, "a hierarchy of point tiles is needed");
-  hierarchy(R"({"0-0-0-0": )" + std::string(100'000, '['), "'0-0-0-0': a list is not the number of points");
-  hierarchy(R"({"0-0-0-0": ")" + std::string(500'000, 'x') + R"("})", "xxx...' is not the number of points");
-  hierarchy(R"({"0-0-0-0": ")" + std::string(2'000'000, 'x') + R"("})", "a value of more than 1 MiB");
-  hierarchy(R"([{"0-0-0-0": 2}])", "'': a list is not the number of points");
-  hierarchy(R"({"00-0-0-0": 6})", "'00-0-0-0': '6' is not the number of points");
-  hierarchy(R"({"0-0-0-0": -1})", "0-0-0-0.json: the hierarchy names this file more than once");
-  hierarchy(R"({"0-0-0-0": 2, "1-0-0-0": 2, "1-0-0-1": -2})", "is not the number of points of a tile, or -1");
-  hierarchy(R"({"../a": -1})", "is not the number of points of a tile, or -1");
-  hierarchy(R"({"0-0-0-0": 2, "2-0-0-1": 2, "1-0-0-0": -1})", "counts tile 2-0-0-1 more than once");
+  fails(shorter, "but its tiles have 5");
+  uncounted.write("ept.json", R"({"dataType": "laszip"})");
+  fails(uncounted, "ept.json: has no number \"points\"");
 }
 
 }  // namespace

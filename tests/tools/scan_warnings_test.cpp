@@ -47,7 +47,7 @@ TEST_CASE("a file with another coordinate reference system than the first is a w
   CHECK(ScanFiles({{b, parse_pose("1 2 3 0 0 0 1")}}, {}).common_crs().empty());  // not in these coordinates
 }
 
-TEST_CASE("files without a system take that of the others, and one warning names the first of them") {
+TEST_CASE("files without a system take the system of the others, and one warning names the first of them") {
   const ScratchFolder folder;
   const auto a = folder.write("a.las", las(kFeet)), b = folder.write("b.las", LasFile().bytes()),
              c = folder.write("c.xyz", "1 2 3\n"), d = folder.write("d.las", las(kFeet));
@@ -64,6 +64,21 @@ TEST_CASE("files without a system take that of the others, and one warning names
   const ScanFiles posed({a, {c, parse_pose("1 2 3 0 0 0 1")}}, {});
   CHECK(posed.common_crs() == kFeet);
   CHECK(input_warnings(posed).empty());
+}
+
+TEST_CASE("a code and well-known text of one system are one system, with the unit of the code") {
+  const ScratchFolder folder;
+  for (const auto& [number, unit] : {std::pair(25832, "m"), {2992, "ft"}, {2263, "us-ft"}}) {
+    const auto keys = las_geo_keys({{1024, 0, 1, 1}, {3072, 0, 1, static_cast<std::uint16_t>(number)}});
+    const std::string name = "EPSG:" + std::to_string(number);
+    const auto code =
+        folder.write("code.las", LasFile{.records = {las_record("LASF_Projection", 34735, keys)}}.bytes());
+    const auto text = folder.write("text.las", las(facts_of(name).known_text));
+    const ScanFiles scan({code, text}, {});
+    CHECK(scan.common_crs() == name);
+    CHECK(scan.length_unit() == unit);
+    CHECK(input_warnings(scan).empty());
+  }
 }
 
 TEST_CASE("files in different units are a warning, and the scan has no unit") {

@@ -143,8 +143,6 @@ void add_ept(const fs::path& ept, const ReadOptions& options, const InputConfig&
   const fs::path data = ept_data(ept);
   try {
     check_ept(ept, options);
-  } catch (const TooManyTiles&) {
-    throw;
   } catch (const Error& error) {
     const std::string reason = visible(error.what());
     if (!config.skip_damaged) throw Error(reason + "; --skip-damaged reads the tiles that are there");

@@ -14,11 +14,11 @@ namespace lacuna::tools {
 // folders. Hidden files are passed over. One warning names other files and folders that are not read. Text
 // among scans of other formats is one of these. With `skip_damaged`, files that cannot be read to their end
 // are left out with a warning. A folder with an ept.json, or that file, stands for the LAZ files in its
-// ept-data, if they are as its hierarchy says (tools/run/ept.hpp). With `skip_damaged`, a warning says that
-// they are not. "@FILE" stands for the files named in it, one per line, relative to its folder; blank lines
-// and lines that begin with # are passed over. A pose may follow the name: `pose=` and its numbers, or a file
-// that holds them (io/read/rows/pose.hpp), or `viewpoint`, the one of the scan file. Throws `Error` if a
-// folder or list names no scan, if a pose is not valid, and for "-".
+// ept-data. They have as many points as it counts (io/read/ept.hpp); with `skip_damaged`, a warning says where
+// they have not. "@FILE" stands for the files named in it, one per line, relative to its folder; blank
+// lines and lines that begin with # are passed over. A pose may follow the name: `pose=` and its numbers, or
+// a file that holds them (io/read/rows/pose.hpp), or `viewpoint`, the one of the scan file. Throws `Error` if
+// a folder or list names no scan, if a pose is not valid, and for "-".
 std::vector<io::ScanInput> expand_inputs(const std::vector<std::filesystem::path>& given,
                                          const io::FilesConfig& config = {});
 

@@ -24,7 +24,7 @@ struct HeldPolygons {
   bool is_converted = false;          // from that system
   ConversionAccuracy accuracy;        // of that conversion
   double bend = 0;                    // how far converted edges may be off, in units of the scan
-  // The corners of all files so far, those of the polygon that has most, and the bytes that they may take.
+  // The corners of all files so far, the most in one polygon, and the bytes that they may take.
   std::uint64_t corners = 0, most_in_one = 0, memory = 0;
 };
 
@@ -32,7 +32,7 @@ struct HeldPolygons {
 // with rows, and buffers of GDAL and SQLite.
 inline constexpr std::uint64_t kBytesHeld = 40, kBytesAtWork = 40;
 
-// Returns the bytes that so many corners take, with those of the one polygon that is read, drawn or written.
+// Returns the bytes that so many corners take, with the one polygon that is read, drawn or written.
 inline std::uint64_t bytes_of_corners(std::uint64_t all, std::uint64_t most_in_one) {
   return all * kBytesHeld + most_in_one * kBytesAtWork;
 }
@@ -70,7 +70,7 @@ inline void take_polygon(PlanPolygon polygon, HeldPolygons& polygons) {
   polygons.polygons.push_back(std::move(polygon));
 }
 
-// Fills in the polygons of all layers, unless they are there, as those of GeoJSON are: in the system
+// Fills in the polygons of all layers, unless they are there, as of GeoJSON: in the system
 // `file_crs`. They are converted where both systems are known and differ. Edges are straight in the system of
 // the file, as RFC 7946 has it. So they are cut until the parts bend by no more than `bend`. Of a GeoPackage,
 // tables alone are read: a view may have no end. Throws `Error` if the file cannot be read, has a system that
@@ -85,7 +85,7 @@ bool looks_like_geojson(const std::filesystem::path& file);
 
 // Fills in the polygons of all features, and the system of the file. That is longitude and latitude, unless a
 // member `crs` names another, as in older files. Other geometries are passed over. The file is read corner by
-// corner, so memory is that of the polygons. Throws `Error` if it is no GeoJSON, or has more corners than are
+// corner, so only the polygons take memory. Throws `Error` if it is no GeoJSON, or has more corners than are
 // allowed.
 void read_geojson_polygons(HeldPolygons& polygons);
 

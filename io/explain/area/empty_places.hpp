@@ -67,7 +67,7 @@ class RepeatedPoints {
   RepeatedPoints(CopyDistance apart, std::uint64_t memory);
 
   // Whether the point was added before; `time` is 0 where it is not stated: then it must have the same place.
-  // False for points that are not in the sample. Cost: that of a look-up, or of up to eight for points near
+  // False for points that are not in the sample. Cost: a look-up, or up to eight for points near
   // the border of a cell.
   bool add(const Eigen::Vector3d& place, double time);
   bool is_exact() const { return sample_ == 0; }

@@ -51,7 +51,7 @@ void for_each_row_of_disc(const Eigen::Vector2d& middle, double radius, const Pl
 using VisitRun = std::function<void(std::size_t row, std::size_t from, std::size_t to)>;
 using Crossing = std::pair<std::size_t, double>;  // of a row's middle with an edge: row, place
 
-// Returns those of the rows [first, last); nothing where several rows have too many together.
+// Returns the crossings of the rows [first, last); nothing where several rows have too many together.
 std::optional<std::vector<Crossing>> crossings_of(const PlanPolygon& polygon, Frame frame,
                                                   const PlanGrid& grid, std::size_t first, std::size_t last) {
   constexpr std::size_t kMost = std::size_t{1} << 17;

@@ -91,7 +91,7 @@ struct PointsOfNone {
 // Whether the axes of a scan can be what they are taken for: z upwards, and the same for all files.
 //
 // Idea: things stand on level surfaces. So the lower end of a column of the scan is level. Its upper end is
-// that of a tree, a wall or a roof. Below a ceiling it is the other way: the ceiling is level, and things
+// of a tree, a wall or a roof. Below a ceiling it is the other way: the ceiling is level, and things
 // hide the floor.
 
 struct Upward {

@@ -218,7 +218,7 @@ double speed_between(const Rows::value_type& a, const Rows::value_type& b) {
   return (b.second - a.second).norm() / std::abs(b.first - a.first);
 }
 
-// Returns a speed between those of the path, and those of ways to a wrong place and back; infinity without
+// Returns a speed between the path's speeds and the ones of ways to a wrong place and back; infinity without
 // such ways.
 double speed_of_jumps(const Rows& rows) {
   constexpr double kOverMedian = 100, kOverOthers = 10;

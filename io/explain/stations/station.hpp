@@ -77,7 +77,7 @@ struct Station {
 // The points are a file name, a number in the column `scan` or `point_source_id`, or both in this order. A
 // single station needs neither, and no name. Blanks, commas or semicolons divide the fields; lines that begin
 // with # are comments. A first line without numbers is a header. File names are names in `files`, or the ends
-// of such names. `layouts` are those of the files. Throws `Error`, also where a station has a number and no
+// of such names. `layouts`: of the files. Throws `Error`, also where a station has a number and no
 // file of it has such a column.
 std::vector<Station> read_stations(const std::filesystem::path& list,
                                    std::span<const std::filesystem::path> files,

@@ -160,9 +160,7 @@ void check_columns(const PagedFile& pages, const E57Scan& scan, std::size_t numb
     pages.fail_physical(scan.points_at, "scan " + std::to_string(number) + ": " + reason);
   };
   if (!has_all(scan, position_names(scan))) {
-    fail(
-        "its points have no position; cartesianX Y Z, or sphericalRange Azimuth Elevation are needed; "
-        "--skip-damaged leaves out this scan, if others have one");
+    fail("its points have no position; cartesianX Y Z, or sphericalRange Azimuth Elevation are needed");
   }
   std::unordered_set<std::string_view> names = {"scan"};
   for (const FieldColumn& column : columns) {
@@ -170,21 +168,6 @@ void check_columns(const PagedFile& pages, const E57Scan& scan, std::size_t numb
       fail("two fields become the column " + in_quotes(column.name) + "; names must differ");
     }
   }
-}
-
-// Takes the points from scans whose points have no position. Returns the number of these scans; 0, and
-// changes nothing, if no scan has a position.
-std::uint64_t drop_scans_without_position(E57Header& header) {
-  const auto has_position = [](const E57Scan& scan) { return has_all(scan, position_names(scan)); };
-  if (std::ranges::none_of(header.scans, has_position)) return 0;
-  std::uint64_t count = 0;
-  for (E57Scan& scan : header.scans) {
-    if (scan.records == 0 || has_position(scan)) continue;
-    scan.records = scan.points_at = 0;
-    scan.fields.clear();
-    ++count;
-  }
-  return count;
 }
 
 // Throws `Error` unless each scan with points has a position, and the names of its columns differ.
@@ -244,7 +227,6 @@ class E57Reader final : public ScanReader {
       : trusts_header_(options.trust == Trust::kHeader),
         header_(read_e57_header(file)),
         pages_(file, header_.page_bytes),
-        without_position_(options.skip_damaged ? drop_scans_without_position(header_) : 0),
         columns_(e57_columns(pages_, header_)) {}
 
   std::string format() const override {
@@ -275,14 +257,11 @@ class E57Reader final : public ScanReader {
 
   std::vector<ReaderNote> notes() const override {
     const auto count = std::ranges::count_if(header_.scans, &E57Scan::has_zero_rotation);
-    return {
-        {.count = static_cast<std::uint64_t>(count),
-         .thing = "scan",
-         .what = " with the quaternion 0 0 0 0, taken for no rotation; a pose in a list of files can turn "
-                 "the file"},
-        {.count = without_position_,
-         .thing = "scan",
-         .what = " whose points have no position; left out, as --skip-damaged says"}};
+    return {{.count = static_cast<std::uint64_t>(count),
+             .thing = "scan",
+             .what =
+                 " with the quaternion 0 0 0 0, taken for no rotation; a pose in a list of files can turn "
+                 "the file"}};
   }
   RowFindings findings() const override { return findings_; }
 
@@ -348,7 +327,6 @@ class E57Reader final : public ScanReader {
   bool trusts_header_;
   E57Header header_;
   PagedFile pages_;
-  std::uint64_t without_position_;  // scans that are left out
   E57Columns columns_;
   std::size_t next_scan_ = 0;
   std::optional<E57Points> points_;  // of the scan before the next one

@@ -76,6 +76,9 @@ class InputFile {
   char line_end_ = '\n';
 };
 
+// Which number of points holds where a file's header counts others than the file has.
+enum class Trust : std::uint8_t { kNeither, kHeader, kFile };
+
 inline constexpr std::string_view kBlanks = " \t\r\n\v\f";
 
 // Throws `Error` if more than `padding` is left: rows that the header does not count would be lost.

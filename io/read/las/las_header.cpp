@@ -407,27 +407,6 @@ void read_extended_records(const std::filesystem::path& file, std::uint64_t plac
   }
 }
 
-// Finds waveforms within the file: LAS 1.3 has their record behind the points, and no count of such records.
-void find_waveforms(const std::filesystem::path& file, std::uint64_t place, LasHeader& header) {
-  constexpr std::uint16_t kIsInside = 2;
-  if ((value_at<std::uint16_t>(header.bytes, 6) & kIsInside) == 0 || place == 0) return;
-  const auto found = std::find_if(header.extended.begin(), header.extended.end(),
-                                  [&](const LasRecordExtent& record) { return record.at == place; });
-  if (found != header.extended.end()) {
-    header.waveforms_at = place;
-    return;
-  }
-  InputFile in(file, kHead);
-  if (place > in.remaining() || in.remaining() - place < kHead) return;
-  in.skip(place);
-  std::array<std::byte, kHead> head;
-  in.read(head.data(), head.size());
-  const auto bytes = value_at<std::uint64_t>(head, 20);
-  if (bytes > in.remaining()) return;
-  header.waveforms_at = place;
-  header.extended.push_back({text_at(head, 2, 16), value_at<std::uint16_t>(head, 18), place, kHead + bytes});
-}
-
 void check_points(const InputFile& in, const LasHeader& header) {
   const std::string format = std::to_string(header.point_format);
   if (header.record_bytes < las_point_bytes(header.point_format)) {
@@ -501,7 +480,6 @@ LasHeader read_las_header(InputFile& in) {
   constexpr std::uint16_t kTextBit = 16;  // of the global encoding, reserved before LAS 1.4
   reading.join_extra();
   header.crs.choose((value_at<std::uint16_t>(head, 6) & kTextBit) != 0);
-  if (minor >= 3) find_waveforms(in.file(), value_at<std::uint64_t>(head, 227), header);
   in.skip(header.points_at - in.position());
   return header;
 }

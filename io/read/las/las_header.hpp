@@ -95,7 +95,6 @@ struct LasHeader {
   LasCrs crs;
   std::vector<std::byte> bytes;  // the whole header block, as it is in the file
   std::vector<LasRecordExtent> records, extended;
-  std::optional<std::uint64_t> waveforms_at;  // of the extended record with waveforms, where they are inside
 };
 
 // The bytes of the public header block, by minor version.

@@ -122,12 +122,6 @@ class CompressedPoints final : public LasPoints {
   std::vector<laz::Chunk> find_chunks(std::uint64_t points) const {
     if (points == 0) return {};
     const std::uint64_t end = file_bytes(in_);
-    if (layout_.compressor == laz::compressor::kPointwise) {
-      const std::uint64_t bytes = end - points_at_;
-      if (points > laz::kMostPointsInAByte * bytes)
-        throw laz::Corrupt(std::to_string(points) + " points in only " + std::to_string(bytes) + " bytes");
-      return {{points_at_, bytes, points}};
-    }
     const std::uint64_t table_at = find_table(end);
     std::array<std::byte, 8> head;
     in_.read_at(table_at, head);
@@ -234,10 +228,9 @@ class CompressedPoints final : public LasPoints {
     }
   }
 
-  // Refuses a chunk with other points than are counted. Without chunks, other data may follow the points.
+  // Refuses a chunk with other points than are counted.
   void check_end(const laz::Chunk& chunk, laz::ChunkDecoder& decoder) const {
-    if (trusts_header_ || layout_.compressor == laz::compressor::kPointwise) return;
-    if (decoder.has_other_than(chunk.points))
+    if (!trusts_header_ && decoder.has_other_than(chunk.points))
       throw laz::Corrupt("a chunk does not end with the " + std::to_string(chunk.points) +
                          " points that header and chunk table count; --trust header reads these, and "
                          "`laszip` or `lasinfo -repair` count the others");
@@ -443,16 +436,17 @@ void LasWriter::put_rows(std::span<const std::byte> records) {
 
 void LasWriter::write_extended() {
   extended_at_ = written_;
+  const auto waveforms_at = value_at<std::uint64_t>(header_, 227);  // 0 without them
+  put_at(header_, 227, std::uint64_t{0});
   for (const LasRecordExtent& record : from_.extended) {
     if (!goes_over(record)) continue;
-    if (record.at == from_.waveforms_at) waveforms_at_ = written_;
+    if (record.at == waveforms_at) put_at(header_, 227, written_);
     written_ += copy_las_record(file_, record, out_);
     ++extended_;
   }
 }
 
 void LasWriter::complete_header() {
-  put_at(header_, 227, waveforms_at_);
   put_at(header_, 235, extended_ > 0 ? extended_at_ : std::uint64_t{0});
   put_at(header_, 243, extended_);
   put_at(header_, 247, points_);

@@ -7,7 +7,6 @@
 #include "io/read/files/output_file.hpp"
 #include "io/read/las/las_header.hpp"
 #include "io/read/laz/laz.hpp"
-#include "io/read/options/trust.hpp"
 #include "io/read/rows/scan_reader.hpp"
 
 #include <array>
@@ -94,7 +93,7 @@ class LasWriter final : public RowsWriter {
   std::uint64_t written_ = 0;  // bytes, but for the points
   std::unique_ptr<LasPointsWriter> points_out_;
   std::uint32_t records_ = 0, extended_ = 0;
-  std::uint64_t points_ = 0, extended_at_ = 0, waveforms_at_ = 0;
+  std::uint64_t points_ = 0, extended_at_ = 0;
   std::array<std::uint64_t, 16> of_return_{};  // points of each return number
 };
 

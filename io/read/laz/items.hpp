@@ -195,8 +195,7 @@ class RecordDecoder {
   virtual bool has_other_than(std::uint64_t points) const = 0;
 };
 
-// Chunks of point formats 0 to 3: all items of a point in one stream, point by point (LAZ, compressors 1 and
-// 2).
+// Chunks of point formats 0 to 3: all items of a point in one stream, point by point (LAZ, compressor 2).
 
 // The records of a chunk after the first, which is not compressed.
 std::unique_ptr<RecordDecoder> pointwise_decoder(const Layout& layout, const ChunkBytes& bytes,

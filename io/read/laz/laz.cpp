@@ -123,8 +123,10 @@ Layout parse_layout(std::span<const std::byte> record) {
   Layout layout{.compressor = load<std::uint16_t>(&record[kCompressorAt]),
                 .chunk_points = load<std::uint32_t>(&record[kChunkPointsAt]),
                 .items = {}};
-  if (layout.compressor < compressor::kPointwise || layout.compressor > compressor::kLayeredChunked) {
-    throw Corrupt("compressor " + std::to_string(layout.compressor) + " is not supported (1, 2 and 3 are)");
+  if (layout.compressor != compressor::kPointwiseChunked &&
+      layout.compressor != compressor::kLayeredChunked) {
+    throw Corrupt("compressor " + std::to_string(layout.compressor) +
+                  " is not supported (2 and 3 are); `laszip` decompresses files from before 2011");
   }
   const auto coder = load<std::uint16_t>(&record[kCoderAt]);
   if (coder != 0) throw Corrupt("entropy coder " + std::to_string(coder) + " is not supported (0 is)");
@@ -148,9 +150,8 @@ Layout parse_layout(std::span<const std::byte> record) {
       const bool both_rgb = before.type == item_type::kRgb14 && item.type == item_type::kRgbNir14;
       if (&known(before) >= &known(item) || both_rgb) throw Corrupt(described(item) + " is in a wrong place");
       const bool is_packet = before.type == item_type::kWavepacket13 || item.type == item_type::kWavepacket13;
-      if (before.version != item.version && !is_packet) {
+      if (before.version != item.version && !is_packet)
         throw Corrupt(described(item) + " has not the version of the items before");
-      }
     }
     layout.items.push_back(item);
   }

@@ -10,13 +10,10 @@
 // Sensing 79(2), 2013, and "LAZ specification 1.4", rapidlasso, below cited as "LAZ". The arithmetic coder:
 // A. Said, "Introduction to arithmetic coding", HP Labs report HPL-2004-76, below cited as "Said".
 //
-// The points of a LAZ file follow from the LAS header's `offset to point data`, P:
-//
-// - Compressor 2 and 3: P has the offset of the chunk table, 8 bytes, signed. The first chunk begins at
-//   P + 8, the next one directly behind it. An offset of -1, or another that is not behind P, comes from a
-//   writer that could not seek. The last 8 bytes of the file hold the offset then.
-// - Compressor 1: no offset and no table. One chunk begins at P and has all points of the file. It goes up to
-//   the first extended variable length record or the end of the file; bytes that follow it do no harm.
+// The points of a LAZ file follow from the LAS header's `offset to point data`, P.
+// P has the offset of the chunk table, 8 bytes, signed. The first chunk begins at P + 8, the next one
+// directly behind it. An offset of -1, or another that is not behind P, comes from a writer that could not
+// seek. The last 8 bytes of the file hold the offset then. Compressor 1 had no table, and is not read.
 #pragma once
 
 #include <cstddef>
@@ -27,20 +24,6 @@
 #include <vector>
 
 namespace lacuna::io::laz {
-
-// Decompresses the points of LAZ files, whose bytes the caller provides: no file access.
-//
-// The format: M. Isenburg, "LASzip: lossless compression of LiDAR data", Photogrammetric Engineering & Remote
-// Sensing 79(2), 2013, and "LAZ specification 1.4", rapidlasso, below cited as "LAZ". The arithmetic coder:
-// A. Said, "Introduction to arithmetic coding", HP Labs report HPL-2004-76, below cited as "Said".
-//
-// The points of a LAZ file follow from the LAS header's `offset to point data`, P:
-//
-// - Compressor 2 and 3: P has the offset of the chunk table, 8 bytes, signed. The first chunk begins at
-//   P + 8, the next one directly behind it. An offset of -1, or another that is not behind P, comes from a
-//   writer that could not seek. The last 8 bytes of the file hold the offset then.
-// - Compressor 1: no offset and no table. One chunk begins at P and has all points of the file. It goes up to
-//   the first extended variable length record or the end of the file; bytes that follow it do no harm.
 
 // An error in compressed data, one line; the caller adds file and place.
 class Corrupt : public std::runtime_error {
@@ -68,7 +51,6 @@ inline constexpr std::uint16_t kByte14 = 14;
 }  // namespace item_type
 
 namespace compressor {
-inline constexpr std::uint16_t kPointwise = 1;
 inline constexpr std::uint16_t kPointwiseChunked = 2;
 inline constexpr std::uint16_t kLayeredChunked = 3;
 }  // namespace compressor

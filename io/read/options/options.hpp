@@ -5,7 +5,7 @@
 #include "engine/config/config.hpp"
 #include "engine/config/config_file.hpp"
 #include "engine/export.hpp"
-#include "io/read/options/trust.hpp"
+#include "io/read/files/input_file.hpp"
 
 #include <cstdint>
 #include <string>
@@ -71,7 +71,7 @@ struct AreaConfig {
 // The diameter of the least void.
 struct VoidSize {
   double length = 0;
-  std::string_view unit;      // as "m"; empty: that of the scan
+  std::string_view unit;      // as "m"; empty: the unit of the scan
   bool is_standards = false;  // by a rule of a standard, which is in metres
 };
 

@@ -48,10 +48,16 @@ struct PcdHeader {
   PcdEncoding encoding = PcdEncoding::kAscii;
   Pose viewpoint = Pose::Identity();  // of the scanner; turns by nothing if its quaternion is 0 0 0 0
 
-  std::size_t row_bytes() const;
+  std::size_t row_bytes(bool with_padding = true) const {
+    std::size_t bytes = 0;
+    for (const PcdField& field : fields) bytes += with_padding || !field.is_padding() ? field.bytes() : 0;
+    return bytes;
+  }
   // Returns where the scanner is; nothing at 0 0 0, which is the default.
-  std::optional<Eigen::Vector3d> scanner() const;
-  std::size_t padding_bytes() const;  // of them, in fields named "_"
+  std::optional<Eigen::Vector3d> scanner() const {
+    const Eigen::Vector3d place = viewpoint.translation();
+    return place.isZero(0) ? std::nullopt : std::optional(place);
+  }
 };
 
 // "ascii", "binary", "binary_compressed".
@@ -220,23 +226,6 @@ std::uint64_t count_rows(const Parser& parser) {
   return width * height;
 }
 
-std::size_t PcdHeader::row_bytes() const {
-  std::size_t bytes = 0;
-  for (const PcdField& field : fields) bytes += field.bytes();
-  return bytes;
-}
-
-std::optional<Eigen::Vector3d> PcdHeader::scanner() const {
-  const Eigen::Vector3d place = viewpoint.translation();
-  return place.isZero(0) ? std::nullopt : std::optional(place);
-}
-
-std::size_t PcdHeader::padding_bytes() const {
-  std::size_t bytes = 0;
-  for (const PcdField& field : fields) bytes += field.is_padding() ? field.bytes() : 0;
-  return bytes;
-}
-
 // Reads the header with its line DATA. Versions are .5 to .7; without SIZE, TYPE or COUNT, values are single
 // floats; WIDTH x HEIGHT must equal POINTS if both are given. Throws `Error` with the line.
 PcdHeader read_pcd_header(InputFile& in) {
@@ -365,53 +354,6 @@ RowLayout pcd_layout(const InputFile& in, const PcdHeader& header) {
   return packed_layout(properties);
 }
 
-// Converts `batch.count` rows from the header's form, in the machine's byte order, to rows of the layout.
-void convert_pcd_rows(const PcdHeader& header, const std::byte* raw, const RowLayout& layout,
-                      RowBatch& batch) {
-  const auto stride = static_cast<std::ptrdiff_t>(header.row_bytes());
-  std::size_t from = 0, to = 0;
-  for (const PcdField& field : header.fields) {
-    if (!field.is_padding()) {
-      convert(field, {.data = raw + from, .stride = stride, .type = scalar_of(field)},
-              batch.bytes.data() + to, layout.stride, batch.count);
-    }
-    from += field.bytes();
-    to += converted_bytes(field);
-  }
-}
-
-// The rows of a PCD file as its header describes them, front to back, whatever their encoding. Memory and
-// errors are as for open_pcd.
-class PcdRows {
- public:
-  explicit PcdRows(const std::filesystem::path& file);
-
-  const InputFile& in() const { return in_; }
-  const PcdHeader& header() const { return header_; }
-  // Reads the next rows in the machine's byte order, at most `max_rows` and no more than 32 MiB. Returns
-  // their number, 0 at the end. The content of fields of padding is not defined.
-  std::size_t next(std::vector<std::byte>& rows, std::size_t max_rows);
-
- private:
-  std::string_view padding() const;
-  void require_size() const;
-  [[noreturn]] void fail_too_short() const;
-  void open_block();
-  void start_columns();
-  void read_columns(std::byte* rows, std::size_t count);
-  void read_text_row(std::byte* to);
-
-  InputFile in_;
-  PcdHeader header_;
-  std::uint64_t left_;             // rows not yet read
-  std::size_t row_bytes_;          // padding included
-  std::uint64_t block_bytes_ = 0;  // compressed
-  std::uint64_t unpacked_bytes_ = 0;
-  bool has_padding_ = false;        // the block has columns of padding
-  std::vector<LzfStream> columns_;  // of the fields but padding, once rows are read
-  std::vector<std::byte> column_bytes_;
-};
-
 constexpr std::size_t kMostHeldColumns = 256;  // of a compressed file: each takes a stream
 
 std::uint32_t read_size(InputFile& in) {
@@ -426,44 +368,109 @@ bool is_product(std::uint64_t product, std::uint64_t a, std::uint64_t b) {
   return b == 0 ? product == 0 : product % b == 0 && product / b == a;
 }
 
-PcdRows::PcdRows(const std::filesystem::path& file)
-    : in_(file), header_(read_pcd_header(in_)), left_(header_.rows), row_bytes_(header_.row_bytes()) {
-  if (header_.encoding == PcdEncoding::kCompressed) {
-    if (header_.rows > 0) open_block();
+class PcdReader final : public ScanReader {
+ public:
+  explicit PcdReader(const std::filesystem::path& file)
+      : in_(file),
+        header_(read_pcd_header(in_)),
+        layout_(pcd_layout(in_, header_)),
+        left_(header_.rows),
+        row_bytes_(header_.row_bytes()) {
+    if (header_.encoding == PcdEncoding::kCompressed) {
+      if (header_.rows > 0) open_block();
+    } else {
+      require_size();
+    }
+  }
+
+  std::string format() const override { return std::string("PCD, ") + pcd_name(header_.encoding); }
+  const RowLayout& layout() const override { return layout_; }
+  std::vector<Eigen::Vector3d> no_return_places() const override {
+    std::vector<Eigen::Vector3d> places{Eigen::Vector3d::Zero()};
+    if (const auto scanner = header_.scanner()) places.push_back(*scanner);
+    return places;
+  }
+  std::vector<ScannerPose> scanners() const override {
+    const auto place = header_.scanner();
+    return place ? std::vector{ScannerPose{.place = *place}} : std::vector<ScannerPose>{};
+  }
+  bool has_scanner_at_zero() const override { return !header_.scanner(); }
+  std::optional<Pose> viewpoint() const override { return header_.viewpoint; }
+  std::optional<std::uint64_t> expected_rows() const override { return header_.rows; }
+
+  bool next(RowBatch& batch, std::size_t max_rows) override {
+    assert(max_rows > 0);
+    const std::size_t fitting = std::max<std::size_t>(1, kBatchBytes / row_bytes_);
+    batch.count = static_cast<std::size_t>(std::min<std::uint64_t>(left_, std::min(max_rows, fitting)));
+    batch.bytes.resize(batch.count * layout_.stride);
+    if (batch.count == 0) {
+      require_end(in_, padding());
+      return false;
+    }
+    read_raw(batch.count);
+    convert_rows(batch);
+    left_ -= batch.count;
+    return true;
+  }
+
+ private:
+  std::string_view padding() const;
+  void require_size() const;
+  [[noreturn]] void fail_too_short() const;
+  void open_block();
+  void start_columns();
+  void read_raw(std::size_t count);
+  void read_columns(std::byte* rows, std::size_t count);
+  void read_text_row(std::byte* to);
+  void convert_rows(RowBatch& batch) const;
+
+  InputFile in_;
+  PcdHeader header_;
+  RowLayout layout_;
+  std::uint64_t left_;             // rows not yet read
+  std::size_t row_bytes_;          // padding included
+  std::vector<std::byte> raw_;     // rows as the header describes them, in the machine's byte order
+  std::uint64_t block_bytes_ = 0;  // compressed
+  std::uint64_t unpacked_bytes_ = 0;
+  bool has_padding_ = false;        // the block has columns of padding
+  std::vector<LzfStream> columns_;  // of the fields but padding, once rows are read
+  std::vector<std::byte> column_bytes_;
+};
+
+// The content of fields of padding is not defined.
+void PcdReader::read_raw(std::size_t count) {
+  raw_.resize(count * row_bytes_);
+  if (header_.encoding == PcdEncoding::kAscii) {
+    for (std::size_t row = 0; row < count; ++row) read_text_row(raw_.data() + row * row_bytes_);
+  } else if (header_.encoding == PcdEncoding::kBinary) {
+    in_.read(raw_.data(), raw_.size());
   } else {
-    require_size();
+    read_columns(raw_.data(), count);
   }
 }
 
-std::size_t PcdRows::next(std::vector<std::byte>& rows, std::size_t max_rows) {
-  assert(max_rows > 0);
-  const std::size_t fitting = std::max<std::size_t>(1, kBatchBytes / row_bytes_);
-  const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(left_, std::min(max_rows, fitting)));
-  if (count == 0) {
-    require_end(in_, padding());
-    return 0;
+void PcdReader::convert_rows(RowBatch& batch) const {
+  const auto stride = static_cast<std::ptrdiff_t>(row_bytes_);
+  std::size_t from = 0, to = 0;
+  for (const PcdField& field : header_.fields) {
+    if (!field.is_padding()) {
+      convert(field, {.data = raw_.data() + from, .stride = stride, .type = scalar_of(field)},
+              batch.bytes.data() + to, layout_.stride, batch.count);
+    }
+    from += field.bytes();
+    to += converted_bytes(field);
   }
-  rows.resize(count * row_bytes_);
-  if (header_.encoding == PcdEncoding::kAscii) {
-    for (std::size_t row = 0; row < count; ++row) read_text_row(rows.data() + row * row_bytes_);
-  } else if (header_.encoding == PcdEncoding::kBinary) {
-    in_.read(rows.data(), rows.size());
-  } else {
-    read_columns(rows.data(), count);
-  }
-  left_ -= count;
-  return count;
 }
 
 // PCL reserves more than the rows or the compressed block need, up to a page, and leaves the rest zero.
-std::string_view PcdRows::padding() const {
+std::string_view PcdReader::padding() const {
   using std::string_view_literals::operator""sv;
   if (header_.encoding == PcdEncoding::kAscii) return kBlanks;
   return header_.encoding == PcdEncoding::kBinary ? "\0 \t\r\n\v\f"sv : "\0"sv;
 }
 
 // The rows of an uncompressed file.
-void PcdRows::require_size() const {
+void PcdReader::require_size() const {
   const bool is_text = header_.encoding == PcdEncoding::kAscii;
   std::uint64_t least = row_bytes_, left = in_.remaining();
   if (is_text) {
@@ -475,23 +482,22 @@ void PcdRows::require_size() const {
   if (header_.rows > left / least) fail_too_short();
 }
 
-void PcdRows::fail_too_short() const {
+void PcdReader::fail_too_short() const {
   in_.fail_at_byte(in_.position() + in_.remaining(), "the file ends here, too early for the " +
                                                          std::to_string(header_.rows) +
                                                          " points of its header; it must be complete");
 }
 
 // A compressed file: two sizes, then the block.
-void PcdRows::open_block() {
+void PcdReader::open_block() {
   const std::uint64_t place = in_.position();
   if (in_.remaining() < 8) fail_too_short();
   block_bytes_ = read_size(in_);
   unpacked_bytes_ = read_size(in_);
   if (block_bytes_ > in_.remaining()) fail_too_short();
   // PCL leaves padding out of the block; other writers may not.
-  const std::uint64_t with_padding = row_bytes_;
-  const std::uint64_t without = row_bytes_ - header_.padding_bytes();
-  has_padding_ = is_product(unpacked_bytes_, header_.rows, with_padding);
+  const std::uint64_t without = header_.row_bytes(false);
+  has_padding_ = is_product(unpacked_bytes_, header_.rows, row_bytes_);
   if (!has_padding_ && !is_product(unpacked_bytes_, header_.rows, without)) {
     in_.fail_at_byte(place + 4, std::to_string(unpacked_bytes_) + " uncompressed bytes are not " +
                                     std::to_string(header_.rows) + " points of " + std::to_string(without) +
@@ -511,7 +517,7 @@ void PcdRows::open_block() {
 }
 
 // Unpacks the whole block once, to find where each column begins.
-void PcdRows::start_columns() {
+void PcdReader::start_columns() {
   LzfStream stream(in_.file(), in_.position(), block_bytes_, unpacked_bytes_);
   for (const PcdField& field : header_.fields) {
     if (field.is_padding() && !has_padding_) continue;
@@ -522,7 +528,7 @@ void PcdRows::start_columns() {
   in_.skip(block_bytes_);
 }
 
-void PcdRows::read_columns(std::byte* rows, std::size_t count) {
+void PcdReader::read_columns(std::byte* rows, std::size_t count) {
   if (columns_.empty()) start_columns();
   std::size_t offset = 0, column = 0;
   for (const PcdField& field : header_.fields) {
@@ -538,7 +544,7 @@ void PcdRows::read_columns(std::byte* rows, std::size_t count) {
   }
 }
 
-void PcdRows::read_text_row(std::byte* to) {
+void PcdReader::read_text_row(std::byte* to) {
   std::string_view line, word;
   do {
     const auto next = in_.next_line();
@@ -561,39 +567,6 @@ void PcdRows::read_text_row(std::byte* to) {
   }
   words.require_end(kNeeded);
 }
-
-class PcdReader final : public ScanReader {
- public:
-  explicit PcdReader(const std::filesystem::path& file)
-      : rows_(file), layout_(pcd_layout(rows_.in(), rows_.header())) {}
-
-  std::string format() const override { return std::string("PCD, ") + pcd_name(rows_.header().encoding); }
-  const RowLayout& layout() const override { return layout_; }
-  std::vector<Eigen::Vector3d> no_return_places() const override {
-    std::vector<Eigen::Vector3d> places{Eigen::Vector3d::Zero()};
-    if (const auto scanner = rows_.header().scanner()) places.push_back(*scanner);
-    return places;
-  }
-  std::vector<ScannerPose> scanners() const override {
-    const auto place = rows_.header().scanner();
-    return place ? std::vector{ScannerPose{.place = *place}} : std::vector<ScannerPose>{};
-  }
-  bool has_scanner_at_zero() const override { return !rows_.header().scanner(); }
-  std::optional<Pose> viewpoint() const override { return rows_.header().viewpoint; }
-  std::optional<std::uint64_t> expected_rows() const override { return rows_.header().rows; }
-
-  bool next(RowBatch& batch, std::size_t max_rows) override {
-    batch.count = rows_.next(raw_, max_rows);
-    batch.bytes.resize(batch.count * layout_.stride);
-    if (batch.count > 0) convert_pcd_rows(rows_.header(), raw_.data(), layout_, batch);
-    return batch.count > 0;
-  }
-
- private:
-  PcdRows rows_;
-  RowLayout layout_;
-  std::vector<std::byte> raw_;  // rows as the header describes them
-};
 
 }  // namespace
 

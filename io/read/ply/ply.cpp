@@ -300,8 +300,6 @@ void pass_rows(InputFile& in, const PlyElement& element, std::uint64_t count, st
   }
 }
 
-}  // namespace
-
 void read_ascii_rows(InputFile& in, const PlyElement& element, std::uint64_t count, std::byte* rows) {
   while (count > 0) {
     const auto line = in.next_line();
@@ -323,20 +321,6 @@ void read_ascii_rows(InputFile& in, const PlyElement& element, std::uint64_t cou
 void skip_ascii_rows(InputFile& in, const PlyElement& element, std::uint64_t count) {
   pass_rows(in, element, count, element.properties.size(), [](std::span<const std::int64_t>) {});
 }
-
-void skip_ascii_lines(InputFile& in, const PlyElement& element) {
-  if (element.properties.empty()) return;
-  for (std::uint64_t left = element.count; left > 0; --left) {
-    if (!in.next_row()) fail_few_rows(in, element, left);
-    in.next_line();
-  }
-}
-
-void visit_ascii_lists(InputFile& in, const PlyElement& element, std::size_t list, const ListVisitor& visit) {
-  pass_rows(in, element, element.count, list, visit);
-}
-
-namespace {
 
 template <class T>
 T read_value(InputFile& in, bool swapped) {
@@ -374,8 +358,6 @@ void read_list(InputFile& in, const PlyProperty& property, bool swapped, std::ve
     }
   });
 }
-
-}  // namespace
 
 void read_binary_rows(InputFile& in, const PlyElement& element, bool swapped, std::uint64_t count,
                       std::byte* rows) {
@@ -415,6 +397,12 @@ void skip_binary_rows(InputFile& in, const PlyElement& element, bool swapped, st
       }
     }
   }
+}
+
+}  // namespace
+
+void visit_ascii_lists(InputFile& in, const PlyElement& element, std::size_t list, const ListVisitor& visit) {
+  pass_rows(in, element, element.count, list, visit);
 }
 
 void visit_binary_lists(InputFile& in, const PlyElement& element, bool swapped, std::size_t list,

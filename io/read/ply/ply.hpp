@@ -65,28 +65,14 @@ void require_size(const InputFile& in, const PlyHeader& header);
 // Whether values have the other byte order than this machine's.
 bool is_swapped(PlyFormat format);
 
-// Reads `count` rows of an element: their scalars packed in `rows`.
+// Reads `count` rows of an element: their scalars packed in `rows` as in PlyElement::layout, lists passed
+// over. Memory does not grow with the rows or the lists (ASCII: a line is at most as long as InputFile's
+// buffer). Throws `Error` where the file ends or does not hold what the header says.
 void read_rows(InputFile& in, PlyFormat format, const PlyElement& element, std::uint64_t count,
                std::byte* rows);
 
 // Passes over all rows of one element.
 void skip_rows(InputFile& in, PlyFormat format, const PlyElement& element);
-
-// The rows of one element of a PLY file, in both encodings.
-
-// Reads `count` rows: their scalars packed in `rows` as in PlyElement::layout, lists passed over. Memory
-// does not grow with the rows or the lists (ASCII: a line is at most as long as InputFile's buffer). Throws
-// `Error` where the file ends or does not hold what the header says.
-void read_ascii_rows(InputFile& in, const PlyElement& element, std::uint64_t count, std::byte* rows);
-void read_binary_rows(InputFile& in, const PlyElement& element, bool swapped, std::uint64_t count,
-                      std::byte* rows);
-
-// Passes over `count` rows.
-void skip_ascii_rows(InputFile& in, const PlyElement& element, std::uint64_t count);
-void skip_binary_rows(InputFile& in, const PlyElement& element, bool swapped, std::uint64_t count);
-
-// Passes over all rows of an element without lists, by lines, without counting values.
-void skip_ascii_lines(InputFile& in, const PlyElement& element);
 
 using ListVisitor = std::function<void(std::span<const std::int64_t> values)>;
 

@@ -25,27 +25,17 @@ bool states_viewpoint(const PlyElement& element) {
   return element.name == "camera" && element.count == 1 && has_vectors(element.layout(), kViewpointNames);
 }
 
-// The reader of the points checks these rows.
-void pass_rows(InputFile& in, PlyFormat format, const PlyElement& element) {
-  if (format == PlyFormat::kAscii && !element.has_lists()) {
-    skip_ascii_lines(in, element);
-  } else {
-    skip_rows(in, format, element);
-  }
-}
-
 // Returns the properties view_px, view_py and view_pz of element `camera`, in the coordinates of the file.
 // Returns nothing unless the element has these properties and exactly one row. `header` is the file's header,
-// after require_size(). Cost: the function passes over rows before the camera. They are bytes in binary files
-// without lists, and lines or words in all others. Throws `Error` if the file ends before the camera, or a
-// number is not finite.
+// after require_size(). Cost: the function passes over the rows before the camera. Throws `Error` if the file
+// ends before the camera, or a number is not finite.
 std::optional<Eigen::Vector3d> read_ply_camera(const std::filesystem::path& file, const PlyHeader& header) {
   const auto camera = std::find_if(header.elements.begin(), header.elements.end(), states_viewpoint);
   if (camera == header.elements.end()) return std::nullopt;
   InputFile in(file);
   read_ply_header(in);
   for (auto element = header.elements.begin(); element != camera; ++element)
-    pass_rows(in, header.format, *element);
+    skip_rows(in, header.format, *element);
   const std::uint64_t begin = in.position();
   const RowLayout layout = camera->layout();
   RowBatch row{.count = 1, .bytes = std::vector<std::byte>(layout.stride)};

@@ -4,10 +4,8 @@
 #include "io/read/rows/scan_reader.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -153,7 +151,8 @@ bool is_share(const SampledRows& rows, std::size_t column) {
 }
 
 // Whether the first columns, one or three, are from 0 to 1, as intensities and colours are, and none of the
-// three behind them is. One of these goes beyond 10: normals and features behind points of a unit cube do not.
+// three behind them is. One of these goes beyond 10: normals and features behind points of a unit cube do
+// not.
 bool begins_with_shares(const SampledRows& rows, std::size_t count) {
   constexpr double kFar = 10;
   for (std::size_t column = 0; column < count + 3; ++column) {
@@ -166,99 +165,7 @@ bool begins_with_shares(const SampledRows& rows, std::size_t count) {
   return false;
 }
 
-// Whether all values of the first column have as many decimals, and those of the next three another number.
-bool has_other_decimals(const SampledRows& rows) {
-  const auto& decimals = rows.decimals;
-  return decimals.size() > 3 && decimals[0] && decimals[1] && decimals[0] != decimals[1] &&
-         decimals[1] == decimals[2] && decimals[2] == decimals[3];
-}
-
-// The value that a share of the values is below; NaN without values.
-double quantile(std::vector<double>& values, double share) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
-// Returns the median step to the value a row below, or a column to the right; NaN without one. Equal values
-// are no step.
-double median_step(const SampledRows& rows, std::size_t column, std::size_t right, std::size_t below) {
-  std::vector<double> steps;
-  for (std::size_t row = 0; row + below < rows.rows(); ++row) {
-    const double step = std::abs(rows.at(row + below, column + right) - rows.at(row, column));
-    if (std::isfinite(step) && step > 0) steps.push_back(step);
-  }
-  return quantile(steps, 0.5);
-}
-
-// Returns the rows with NaN for values that mean none, such as 0 of depths or -9999 of heights. These are the
-// least and the largest value, if many places have it.
-SampledRows without_missing(SampledRows rows) {
-  constexpr double kMany = 0.02;
-  double least = std::numeric_limits<double>::infinity(), largest = -least;
-  for (const double value : rows.values) {
-    if (!std::isfinite(value)) continue;
-    least = std::min(least, value);
-    largest = std::max(largest, value);
-  }
-  for (const double extreme : {least, largest}) {
-    if (static_cast<double>(std::ranges::count(rows.values, extreme)) <=
-        kMany * static_cast<double>(rows.values.size()))
-      continue;
-    std::ranges::replace(rows.values, extreme, std::numeric_limits<double>::quiet_NaN());
-  }
-  return rows;
-}
-
-// Whether the first column has even steps, behind a row that may number the columns.
-bool numbers_rows(const SampledRows& rows) {
-  const double step = rows.at(2, 0) - rows.at(1, 0);
-  for (std::size_t row = 2; row < rows.rows(); ++row) {
-    if (!(std::abs(rows.at(row, 0) - rows.at(row - 1, 0) - step) <= 1e-6 * std::abs(step))) return false;
-  }
-  return step != 0;
-}
-
-// `first`: the column from which the matrix begins.
-bool is_matrix_from(const SampledRows& rows, std::size_t first) {
-  constexpr double kAlike = 5, kSmooth = 0.2;
-  std::vector<double> along, down, values;
-  for (std::size_t column = first; column < rows.columns; ++column) {
-    if (column + 1 < rows.columns) along.push_back(median_step(rows, column, 1, 0));
-    down.push_back(median_step(rows, column, 0, 1));
-  }
-  for (std::size_t row = 0; row < rows.rows(); ++row) {
-    for (std::size_t column = first; column < rows.columns; ++column)
-      if (std::isfinite(rows.at(row, column))) values.push_back(rows.at(row, column));
-  }
-  const std::array<double, 3> of_first = {along[0], along[1], along[2]};
-  const auto is_none = [](double step) { return std::isnan(step); };
-  std::erase_if(down, is_none);
-  const std::size_t columns = along.size();
-  std::erase_if(along, is_none);
-  if (2 * along.size() < columns) return false;
-  const double spread = quantile(values, 0.9) - quantile(values, 0.1), step = quantile(along, 0.5);
-  const auto is_large = [&](double other) { return other > kAlike * step; };
-  return std::ranges::none_of(of_first, is_large) && quantile(along, 0.9) <= kAlike * step &&
-         step <= kSmooth * spread && !(quantile(down, 0.5) > kSmooth * spread);
-}
-
 }  // namespace
-
-bool is_matrix(const SampledRows& rows) {
-  constexpr std::size_t kMostOfPoints = 20, kFewestRows = 3;
-  if (rows.columns <= kMostOfPoints || rows.rows() < kFewestRows) return false;
-  const SampledRows known = without_missing(rows);
-  return is_matrix_from(known, 0) || (numbers_rows(rows) && is_matrix_from(known, 1));
-}
-
-std::string describe_matrix(std::uint64_t rows, std::size_t columns) {
-  return "a matrix of " + std::to_string(rows) + " x " + std::to_string(columns) +
-         ", as of heights or depths; points need x y z, such as `gdal_translate -of XYZ` makes of a raster; "
-         "--columns x,y,z,... says that the first columns are these";
-}
 
 bool is_name_of_degrees(std::string_view name) {
   const std::string plain = plain_name(name);
@@ -331,12 +238,11 @@ std::string doubt_of_first_columns(const SampledRows& rows) {
                             " columns have whole numbers alone, and three with decimals follow";
   if (whole == 0 && never_falls(rows) && has_decimals(1) && !is_grid_by_first(rows))
     return "the first column never falls from row to row, as times do";
-  if (has_other_decimals(rows) && has_decimals(1))
-    return "the first column has other decimals than the three that follow, as times and depths have";
   for (const std::size_t count : {1, 3}) {
     if (begins_with_shares(rows, count) && has_decimals(count))
-      return count == 1 ? "the first column is from 0 to 1, as intensities are, and the next three are not"
-                        : "the first three columns are from 0 to 1, as colours are, and the next three are not";
+      return count == 1
+                 ? "the first column is from 0 to 1, as intensities are, and the next three are not"
+                 : "the first three columns are from 0 to 1, as colours are, and the next three are not";
   }
   return {};
 }

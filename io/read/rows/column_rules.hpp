@@ -32,7 +32,6 @@ bool name_some_position(std::span<const std::string> names);
 struct SampledRows {
   std::size_t columns = 0;
   std::vector<double> values;
-  std::vector<std::optional<std::size_t>> decimals;  // of each column, where its values have as many each
 
   std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
   double at(std::size_t row, std::size_t column) const { return values[row * columns + column]; }
@@ -41,11 +40,5 @@ struct SampledRows {
 // Says why the first three columns without names may not be x, y and z; empty: nothing speaks against it.
 // Fewer than ten rows say nothing.
 std::string doubt_of_first_columns(const SampledRows& rows);
-
-// Whether rows are those of a matrix of one quantity, such as heights or depths. Rows have more than 20
-// columns. The first three continue the others, and neighbours in rows and columns differ little.
-bool is_matrix(const SampledRows& rows);
-// Says so, as a reason of an error.
-std::string describe_matrix(std::uint64_t rows, std::size_t columns);
 
 }  // namespace lacuna::io

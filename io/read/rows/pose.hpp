@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a file's own coordinates to those of the scan: by a pose, an offset, or another unit of z.
+// From a file's own coordinates to the scan's: by a pose, an offset, or another unit of z.
 #pragma once
 
 #include "engine/export.hpp"

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "engine/export.hpp"
-#include "io/read/options/trust.hpp"
 #include "io/read/rows/pose.hpp"
 
 #include <algorithm>
@@ -152,7 +151,6 @@ struct ReadOptions {
   // The bytes that a reader may hold of a file whose points cannot be read one by one: LAZ.
   std::uint64_t memory = std::uint64_t{64} << 20;
   Trust trust = Trust::kNeither;
-  bool skip_damaged = false;  // scans of a file that cannot be read take no part, if the others can
 };
 
 // Fills a batch with rows of `stride` bytes, at most `max_rows`, for a reader that has them one by one.

@@ -141,10 +141,7 @@ CommonSystem choose_systems(const InputConfig& config, const StatedCrs& stated,
 }  // namespace
 
 ReadOptions read_options(const InputConfig& config, std::uint64_t memory) {
-  return {.columns = config.columns,
-          .memory = memory,
-          .trust = config.trust,
-          .skip_damaged = config.skip_damaged};
+  return {.columns = config.columns, .memory = memory, .trust = config.trust};
 }
 
 ScanFiles::ScanFiles(std::vector<ScanInput> inputs, InputConfig config, std::uint64_t memory)

@@ -20,94 +20,35 @@
 namespace lacuna::io {
 namespace {
 
-// Rows whose values may be parts of numbers, because one sign has two meanings.
-
-constexpr std::string_view kDigits = "0123456789";
-constexpr std::size_t kCoordinates = 6;  // parts of x y z
-
-bool is_digits(std::string_view cell) {
-  return !cell.empty() && cell.find_first_not_of(kDigits) == cell.npos;
-}
-
-std::string_view without_sign(std::string_view cell) {
-  return cell.substr(cell.starts_with('-') || cell.starts_with('+') ? 1 : 0);
-}
-
-std::string_view before_decimals(std::string_view cell) {
-  return cell.substr(0, cell.find_first_of(".,"));
-}
-
-// What a column has in all rows.
-struct ColumnForm {
-  bool is_whole = true, is_unsigned = true, is_digit = true;  // a digit alone
-  bool begins_thousands = true, is_thousands = true;          // up to three digits; exactly three
-  bool has_leading_zero = false;                              // in a row
-
-  void take(std::string_view cell) {
-    const std::string_view whole = before_decimals(without_sign(cell));
-    is_whole = is_whole && is_digits(without_sign(cell));
-    is_unsigned = is_unsigned && without_sign(cell) == cell;
-    is_digit = is_digit && cell.size() == 1;
-    begins_thousands = begins_thousands && is_digits(whole) && whole.size() <= 3;
-    is_thousands = is_thousands && is_digits(whole) && whole.size() == 3;
-    has_leading_zero = has_leading_zero || (whole.size() > 1 && whole.front() == '0');
-  }
-};
-
-// Empty if rows have different numbers of values.
-std::vector<ColumnForm> forms_of(std::span<const Line> rows, char separator) {
-  std::vector<ColumnForm> forms;
-  for (const Line& row : rows) {
-    const Cells cells = split(row.text, separator);
-    if (forms.empty()) forms.resize(cells.size());
-    if (forms.size() != cells.size()) return {};
-    for (std::size_t i = 0; i < cells.size(); ++i) forms[i].take(cells[i]);
-  }
-  return forms;
-}
-
-bool are_decimals_split(std::span<const ColumnForm> forms, std::size_t rows) {
-  constexpr std::size_t kFewestRows = 10;
-  forms = forms.first(std::min(forms.size(), kCoordinates));
-  if (forms.size() + 1 < kCoordinates || !std::ranges::all_of(forms, &ColumnForm::is_whole)) return false;
-  bool has_zero = false, are_digits = forms.size() == kCoordinates && rows >= kFewestRows &&
-                                      !forms[0].is_digit && !forms[2].is_digit;
-  for (std::size_t i = 1; i < forms.size(); i += 2) {
-    if (!forms[i].is_unsigned) return false;
-    has_zero = has_zero || forms[i].has_leading_zero;
-    are_digits = are_digits && forms[i].is_digit;
-  }
-  return has_zero || are_digits;
-}
-
-// Numbers of several groups of digits, with decimals behind the last one.
-bool are_thousands_split(std::span<const ColumnForm> forms) {
-  int split_numbers = 0;
-  for (std::size_t i = 0; i + 1 < forms.size(); ++i) {
-    if (!forms[i].begins_thousands) continue;
-    bool has_zero = false;
-    std::size_t last = i;
-    while (last + 1 < forms.size() && forms[last].is_whole && forms[last + 1].is_thousands &&
-           forms[last + 1].is_unsigned) {
-      has_zero = has_zero || forms[++last].has_leading_zero;
-    }
-    if (last == i || forms[last].is_whole) continue;
-    if (has_zero || ++split_numbers == 2) return true;
-    i = last;
-  }
-  return false;
+// Whether the digits before the decimals begin with a zero that no number needs.
+bool has_leading_zero(std::string_view cell) {
+  return cell.size() > 1 && cell[0] == '0' && cell[1] >= '0' && cell[1] <= '9';
 }
 
 // Says why values of rows without names may be parts of numbers; empty: nothing speaks for it. Commas may
-// divide values and begin decimals, as in "500000,053,5400000,363". Blanks may divide values and thousands,
-// as in "500 000.25 5 400 000.36". Leading zeros, or the same form of two numbers in every row, say so.
+// divide values and begin decimals, as in "500000,053,5400000,363". Commas and blanks may divide values and
+// thousands, as in "500 000.25 5 400 000.36". A part of three digits or more that begins with a zero says so.
 std::string doubt_of_split_numbers(std::span<const Line> rows, char separator) {
-  const std::vector<ColumnForm> forms = forms_of(rows, separator);
-  if (separator == ',' && are_decimals_split(forms, rows.size()))
-    return "commas divide the values, and may begin their decimals, too";
-  if ((separator != ' ' && separator != ',') || !are_thousands_split(forms)) return {};
-  return std::string(separator == ',' ? "commas" : "blanks") +
-         " divide the values, and may divide the thousands of numbers, too";
+  constexpr std::string_view kDigits = "0123456789";
+  constexpr std::size_t kFewestParts = 5;  // of x y z, one of which has no decimals
+  if (separator != ',' && separator != ' ') return {};
+  for (const Line& row : rows) {
+    const Cells cells = split(row.text, separator);
+    const bool are_whole =
+        cells.size() >= kFewestParts && std::ranges::all_of(cells, [](std::string_view cell) {
+          return cell.find_first_not_of("+-0123456789") == cell.npos;
+        });
+    for (std::size_t i = 1; i < cells.size(); ++i) {
+      const std::string_view before = cells[i - 1].substr(cells[i - 1].starts_with('-') ? 1 : 0);
+      const std::size_t digits = std::min(cells[i].find_first_not_of(kDigits), cells[i].size());
+      if (!has_leading_zero(cells[i]) || before.find_first_not_of(kDigits) != before.npos) continue;
+      if (separator == ',' && are_whole) return "commas divide the values, and may begin their decimals, too";
+      if (digits == 3 && before.size() <= 3)
+        return std::string(separator == ',' ? "commas" : "blanks") +
+               " divide the values, and may divide the thousands of numbers, too";
+    }
+  }
+  return {};
 }
 
 // What the first lines of a text file say of its rows.
@@ -220,6 +161,13 @@ class ColumnFinder {
               "columns are, and rows begin with the first line of numbers");
     if (!cells.empty() && cells.size() < 3)
       in_.fail_at_line(in_.line(), std::to_string(cells.size()) + " values; at least x y z are needed");
+    constexpr std::size_t kMostUnnamed = 20;  // a matrix of heights or depths has more
+    if (cells.size() > kMostUnnamed)
+      in_.fail_at_line(in_.line(),
+                       std::to_string(cells.size()) +
+                           " columns without names, as a matrix of heights has; points need x y z, "
+                           "such as `gdal_translate -of XYZ` makes of a raster; --columns x,y,z,... "
+                           "says that the first columns are these");
     is_unnamed_ = true;
     if (start.count && !pts_names(cells.size()).empty()) {
       is_unnamed_ = false;
@@ -286,7 +234,6 @@ class ColumnFinder {
     columns_.are_degrees = columns_.are_degrees || position == PositionNames::kDegrees;
     const SampledRows rows = sample(names, lines);
     if (is_unnamed_) {
-      refuse_matrix(rows);
       if (const std::string doubt = doubt_of_split_numbers(lines, columns_.separator); !doubt.empty())
         in_.fail_at_line(in_.line(), doubt + ", in " + in_quotes(lines[0].text) +
                                          " first; the program that wrote them can divide values by "
@@ -298,31 +245,15 @@ class ColumnFinder {
     }
   }
 
-  void refuse_matrix(const SampledRows& rows) {
-    if (!is_matrix(rows)) return;
-    const std::uint64_t line = in_.line();
-    std::uint64_t count = 1;
-    while (const auto next = in_.next_line()) {
-      const std::string_view text = without_blanks(*next);
-      count += text.empty() || is_comment(text) ? 0 : 1;
-    }
-    in_.fail_at_line(line, describe_matrix(count, rows.columns));
-  }
-
   // Reads the sampled lines that have a value for each column, and marks columns with words as not read.
   SampledRows sample(std::vector<std::string>& names, const std::vector<Line>& lines) const {
-    SampledRows rows{.columns = names.size(), .values = {}, .decimals = {}};
+    SampledRows rows{.columns = names.size(), .values = {}};
     constexpr std::size_t kMostValues = std::size_t{1} << 16;
     for (const Line& line : lines) {
       if (rows.values.size() >= kMostValues) break;
       const Cells cells = split(line.text, columns_.separator);
       if (cells.size() < names.size() || (cells.size() > names.size() && !columns_.has_more)) continue;
-      const bool is_first = rows.values.empty();
-      rows.decimals.resize(names.size());
       for (std::size_t i = 0; i < names.size(); ++i) {
-        const std::size_t decimals = cells[i].size() - std::min(cells[i].find('.') + 1, cells[i].size());
-        if (is_first) rows.decimals[i] = decimals;
-        if (rows.decimals[i] != decimals) rows.decimals[i].reset();
         double value = std::numeric_limits<double>::quiet_NaN();
         if (!parse_cell(cells[i], value) && !is_missing(cells[i]) && names[i] != "x" && names[i] != "y" &&
             names[i] != "z")

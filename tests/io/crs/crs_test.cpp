@@ -64,7 +64,7 @@ TEST_CASE("a unit has its length in metres, and the length its unit") {
   for (const char* const none : {"", "M", "metre", "ft ", "fathom"}) CHECK_FALSE(metres_of_unit(none));
 }
 
-TEST_CASE("the unit of a system is that of its lengths, by its size") {
+TEST_CASE("the unit of a system is the unit of its lengths, by its size") {
   const std::pair<const char*, const char*> units[] = {{"metre\",1", "m"},
                                                        {"foot\",0.3048", "ft"},
                                                        {"US survey foot\",0.304800609601219", "us-ft"},

@@ -23,15 +23,13 @@ WholeFile plain(int minor, int format) {
   return {.name = "format_" + std::to_string(format) + ".las", .bytes = bytes, .complete_from = bytes.size()};
 }
 
-// `version` of the items; `chunks`: the points of each. Points of compressor 1 are one chunk without a table.
-WholeFile compressed(int minor, int format, std::uint16_t version, const std::vector<std::uint64_t>& chunks,
-                     bool has_table = true) {
+// `version` of the items; `chunks`: the points of each.
+WholeFile compressed(int minor, int format, std::uint16_t version, const std::vector<std::uint64_t>& chunks) {
   const LasFile las =
       las_file(minor, format, std::accumulate(chunks.begin(), chunks.end(), std::uint64_t{0}));
   const bool varies = chunks.front() < *std::max_element(chunks.begin(), chunks.end());
   const auto chunk_points = varies ? laz::kVariableChunks : static_cast<std::uint32_t>(chunks.front());
-  laz::Layout layout = laz_layout(format, 2, chunk_points, version);
-  if (!has_table) layout.compressor = laz::compressor::kPointwise;
+  const laz::Layout layout = laz_layout(format, 2, chunk_points, version);
   const std::string bytes = laz_file(las, layout, chunks);
   // LASzip codes a point in as little as 1/4096 byte: a file of 1 KB may have 4 million points of 40 bytes.
   return {.name = "format_" + std::to_string(format) + "_version_" + std::to_string(version) + ".laz",
@@ -51,16 +49,6 @@ void set_count(int format, std::uint64_t count, std::string& bytes) {
 }
 
 const std::vector<std::uint64_t> kFixed = {8, 8, 3}, kVarying = {2, 9, 1};
-
-TEST_CASE("LAZ without a chunk table: more points than its bytes can hold are an error at once", "[io]") {
-  const ScratchFolder folder;
-  std::string bytes = compressed(1, 0, 2, {12}, false).bytes;
-  const std::size_t points_at = 227 + 54 + 192 + 54 + 46;
-  put(bytes, 107, std::uint32_t{10'000'000});
-  CHECK(error_of([&] { open_scan(folder.write("a.laz", bytes), {}); })
-            .ends_with("a.laz: byte " + std::to_string(points_at) + ": 10000000 points in only " +
-                       std::to_string(bytes.size() - points_at) + " bytes"));
-}
 
 TEST_CASE("LAZ with two broken chunks: the error names the first, however many threads decode", "[io]") {
   constexpr std::size_t kPoints = 20'000;
@@ -90,8 +78,7 @@ TEST_CASE("LAZ with two broken chunks: the error names the first, however many t
 
 TEST_CASE("LAZ gives the same points, whether its chunks fit into the memory or not", "[io]") {
   const ScratchFolder folder;
-  for (const WholeFile& file : {compressed(2, 3, 2, {60'000, 60'000}), compressed(4, 7, 3, {60'000, 5}),
-                                compressed(1, 1, 2, {60'000}, false)}) {
+  for (const WholeFile& file : {compressed(2, 3, 2, {60'000, 60'000}), compressed(4, 7, 3, {60'000, 5})}) {
     const auto path = folder.write("a.laz", file.bytes);
     INFO(file.name);
     // Little more than what the models take, and much more than a chunk.
@@ -150,7 +137,6 @@ std::vector<WholeFile> all_las_files() {
   std::vector<WholeFile> files;
   for (int format = 0; format <= 10; ++format) files.push_back(plain(format < 6 ? format % 4 : 4, format));
   for (const int format : {0, 1, 2, 3}) {
-    files.push_back(compressed(1, format, 2, {12}, false));
     for (const auto& chunks : {kFixed, kVarying}) files.push_back(compressed(2, format, 2, chunks));
   }
   for (const int format : {6, 7, 8}) {

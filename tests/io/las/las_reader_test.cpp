@@ -15,68 +15,61 @@ void take(LasCrs& crs, std::uint16_t record, const std::string& data) {
   crs.take(record, std::as_bytes(std::span(data)));
 }
 
-std::string crs_of_keys(const std::vector<Key>& keys) {
+LasCrs crs_of(const std::vector<Key>& keys, const std::string& text = "") {
   LasCrs crs;
   take(crs, 34735, las_geo_keys(keys));
-  return crs.text();
+  if (!text.empty()) take(crs, 2112, text);
+  return crs;
 }
+
+constexpr bool kDegrees = true, kLengths = false;
 
 }  // namespace
 
-TEST_CASE("GeoTIFF keys give codes of EPSG, the projected before the geographic, with the vertical") {
-  const std::vector<std::pair<std::vector<Key>, std::string>> cases = {
-      {{}, ""},
-      {{{2048, 0, 1, 4258}}, "EPSG:4258"},
-      {{{2048, 0, 1, 4258}, {3072, 0, 1, 25832}}, "EPSG:25832"},
-      {{{1024, 0, 1, 1}, {3072, 0, 1, 25832}, {4096, 0, 1, 7837}}, "EPSG:25832+7837"},
-      {{{3072, 34736, 1, 5}}, ""},  // its value is elsewhere
-      {{{4096, 0, 1, 7837}}, ""},
-      // A vertical code that is no system of EPSG leaves the horizontal system.
-      {{{1024, 0, 1, 1}, {3072, 0, 1, 26913}, {4096, 0, 1, 5103}}, "EPSG:26913"},
-      // A projected system without a code is not the geographic one that it rests on.
-      {{{2048, 0, 1, 4258}, {3072, 0, 1, 32767}}, ""},
-      {{{1024, 0, 1, 1}, {2048, 0, 1, 4258}}, ""},
-      {{{1024, 0, 1, 2}, {2048, 0, 1, 4258}, {3072, 0, 1, 32767}}, "EPSG:4258"}};
-  for (const auto& [keys, system] : cases) CHECK(crs_of_keys(keys) == system);
-}
-
-TEST_CASE("GeoTIFF keys and well-known text say whether positions are longitude and latitude") {
-  const auto is_geographic = [](const std::vector<Key>& keys, const std::string& text = "") {
-    LasCrs crs;
-    take(crs, 34735, las_geo_keys(keys));
-    if (!text.empty()) take(crs, 2112, text);
-    return crs.is_geographic();
+TEST_CASE("GeoTIFF keys give codes of EPSG, and say whether positions are longitude and latitude") {
+  struct Case {
+    std::vector<Key> keys;
+    std::string system;
+    bool are_degrees;
   };
-  CHECK_FALSE(is_geographic({}));
-  CHECK(is_geographic({{1024, 0, 1, 2}, {2048, 0, 1, 4326}}));
-  CHECK(is_geographic({{1024, 0, 1, 2}, {2048, 0, 1, 32767}}));  // without a code
-  CHECK(is_geographic({{2048, 0, 1, 4326}}));                    // without a model
-  CHECK_FALSE(is_geographic({{1024, 0, 1, 1}, {2048, 0, 1, 4258}, {3072, 0, 1, 25832}}));
-  CHECK_FALSE(is_geographic({{1024, 0, 1, 1}, {2048, 0, 1, 4258}, {3072, 0, 1, 32767}}));
-  CHECK_FALSE(is_geographic({{2048, 0, 1, 4258}, {3072, 0, 1, 25832}}));
-  CHECK_FALSE(is_geographic({{1024, 0, 1, 3}, {2048, 0, 1, 4978}}));  // geocentric
-  CHECK(is_geographic({{1024, 0, 1, 1}, {3072, 0, 1, 25832}}, known_system("GEOGCS")));
-  CHECK_FALSE(is_geographic({{1024, 0, 1, 2}, {2048, 0, 1, 4326}}, known_system("a")));
+  const Case cases[] = {
+      {{}, "", kLengths},
+      {{{2048, 0, 1, 4258}}, "EPSG:4258", kDegrees},  // without a model
+      {{{2048, 0, 1, 4258}, {3072, 0, 1, 25832}}, "EPSG:25832", kLengths},
+      {{{1024, 0, 1, 1}, {3072, 0, 1, 25832}, {4096, 0, 1, 7837}}, "EPSG:25832+7837", kLengths},
+      {{{3072, 34736, 1, 5}}, "", kLengths},  // its value is elsewhere
+      {{{4096, 0, 1, 7837}}, "", kLengths},
+      // A vertical code that is no system of EPSG leaves the horizontal system.
+      {{{1024, 0, 1, 1}, {3072, 0, 1, 26913}, {4096, 0, 1, 5103}}, "EPSG:26913", kLengths},
+      // A projected system without a code is not the geographic one that it rests on.
+      {{{1024, 0, 1, 1}, {2048, 0, 1, 4258}, {3072, 0, 1, 32767}}, "", kLengths},
+      {{{1024, 0, 1, 1}, {2048, 0, 1, 4258}}, "", kLengths},
+      {{{1024, 0, 1, 2}, {2048, 0, 1, 4258}, {3072, 0, 1, 32767}}, "EPSG:4258", kDegrees},
+      {{{1024, 0, 1, 2}, {2048, 0, 1, 32767}}, "", kDegrees},
+      // A geocentric system is not the geographic one that names its datum.
+      {{{1024, 0, 1, 3}, {2048, 0, 1, 4326}}, "EPSG:4978", kLengths}};
+  for (const auto& [keys, system, are_degrees] : cases) {
+    INFO(system);
+    CHECK(crs_of(keys).text() == system);
+    CHECK(crs_of(keys).is_geographic() == are_degrees);
+    CHECK(crs_of(keys, known_system("GEOGCS")).is_geographic());
+    CHECK_FALSE(crs_of(keys, known_system("a")).is_geographic());
+  }
 }
 
-TEST_CASE("a geocentric system is in metres, and is not the geographic one that names its datum") {
-  LasCrs crs;
-  take(crs, 34735, las_geo_keys({{1024, 0, 1, 3}, {2048, 0, 1, 4326}}));
-  CHECK(crs.text() == "EPSG:4978");
-  CHECK(crs.length_unit() == "m");
-  CHECK_FALSE(crs.is_geographic());
-}
-
-TEST_CASE("keys and well-known text state the unit of z") {
-  LasCrs keys, text;
-  take(keys, 34735, las_geo_keys({{3072, 0, 1, 26913}, {3076, 0, 1, 9001}, {4099, 0, 1, 9003}}));
+TEST_CASE("keys and well-known text state the units, and the one that contradicts is the other unit") {
+  CHECK(crs_of({{1024, 0, 1, 3}, {2048, 0, 1, 4326}}).length_unit() == "m");  // geocentric
+  const LasCrs keys = crs_of({{3072, 0, 1, 26913}, {3076, 0, 1, 9001}, {4099, 0, 1, 9003}});
   CHECK(keys.length_unit() == "m");
   CHECK(keys.vertical_unit() == "us-ft");
-  take(text, 2112,
-       "COMPD_CS[\"a\"," + known_system("b") +
-           ",VERT_CS[\"c\",VERT_DATUM[\"d\",2005],UNIT[\"foot\",0.3048]]]");
+  CHECK(keys.other_unit().empty());
+  const LasCrs text = crs_of({}, "COMPD_CS[\"a\"," + known_system("b") +
+                                     ",VERT_CS[\"c\",VERT_DATUM[\"d\",2005],UNIT[\"foot\",0.3048]]]");
   CHECK(text.length_unit() == "m");
   CHECK(text.vertical_unit() == "ft");
+  const LasCrs both = crs_of({{3072, 0, 1, 25832}, {3076, 0, 1, 9003}}, known_system("b"));
+  CHECK(both.length_unit() == "m");
+  CHECK(both.other_unit() == "us-ft");
 }
 
 TEST_CASE("the size of a unit without a code is among the doubles of the keys, in any order") {
@@ -95,15 +88,6 @@ TEST_CASE("the size of a unit without a code is among the doubles of the keys, i
   CHECK(last.length_unit() == "us-ft");
 }
 
-TEST_CASE("a unit of the keys that well-known text contradicts is the other unit") {
-  LasCrs crs;
-  take(crs, 34735, las_geo_keys({{3072, 0, 1, 25832}, {3076, 0, 1, 9003}}));
-  CHECK(crs.other_unit().empty());
-  take(crs, 2112, known_system("b"));
-  CHECK(crs.length_unit() == "m");
-  CHECK(crs.other_unit() == "us-ft");
-}
-
 TEST_CASE("well-known text counts over keys, up to its first zero") {
   LasCrs crs;
   take(crs, 2112, std::string("PROJCS[\"A\"]\0\0", 13));
@@ -112,16 +96,14 @@ TEST_CASE("well-known text counts over keys, up to its first zero") {
 }
 
 TEST_CASE("the header's bit decides between keys and well-known text of two systems") {
-  const auto crs_of = [](std::uint16_t code, const std::string& text, bool has_text_bit) {
-    LasCrs crs;
-    take(crs, 34735, las_geo_keys({{3072, 0, 1, code}, {3076, 0, 1, 9003}}));
-    if (!text.empty()) take(crs, 2112, text);
+  const auto chosen = [](std::uint16_t code, const std::string& text, bool has_text_bit) {
+    LasCrs crs = crs_of({{3072, 0, 1, code}, {3076, 0, 1, 9003}}, text);
     crs.choose(has_text_bit);
     return crs;
   };
   for (const std::string& text :
        {known_system("b", "metre\",1", 25833), io::facts_of("EPSG:25833").known_text}) {
-    const LasCrs keys = crs_of(25832, text, false), of_text = crs_of(25832, text, true);
+    const LasCrs keys = chosen(25832, text, false), of_text = chosen(25832, text, true);
     CHECK(keys.text() == "EPSG:25832");
     CHECK(keys.other_text() == text);
     CHECK(keys.length_unit() == "us-ft");
@@ -130,13 +112,13 @@ TEST_CASE("the header's bit decides between keys and well-known text of two syst
     CHECK(of_text.other_text() == "EPSG:25832");
     CHECK(of_text.length_unit() == "m");
     for (const bool has_text_bit : {false, true}) {
-      const LasCrs same = crs_of(25833, text, has_text_bit);  // the text says more than the code
+      const LasCrs same = chosen(25833, text, has_text_bit);  // the text says more than the code
       CHECK(same.text() == text);
       CHECK(same.other_text().empty());
     }
   }
-  CHECK(crs_of(25832, "", true).text() == "EPSG:25832");
-  CHECK(crs_of(32767, "PROJCS[\"b\"]", false).text() == "PROJCS[\"b\"]");  // keys without a code
+  CHECK(chosen(25832, "", true).text() == "EPSG:25832");
+  CHECK(chosen(32767, "PROJCS[\"b\"]", false).text() == "PROJCS[\"b\"]");  // keys without a code
 }
 
 TEST_CASE("keys that are cut are passed over") {

@@ -44,7 +44,7 @@ unsigned below(Random& random, unsigned end) {
 }
 
 void put_time(Random& random, std::byte* at, std::uint64_t& time) {
-  // Steps like those of pulses, now and then a longer one, another flight line or a leap.
+  // Steps as of pulses, now and then a longer one, another flight line or a leap.
   const unsigned kind = below(random, 40);
   if (kind < 12) return store(at, time);
   if (kind < 30) time += 1000 * (1 + below(random, 3));
@@ -225,11 +225,11 @@ TEST_CASE("chunks have the bytes that an encoder of its own, written after the s
     INFO(name(expected.of));
     Random random(8);
     const Layout layout = layout_of(expected.of);
-    const LazBytes chunk = laz_chunk(layout, plausible_records(layout, 5000, random));
+    const LazBytes chunk = encode_chunk(layout, plausible_records(layout, 5000, random));
     CHECK(chunk.size() == expected.bytes);
     CHECK(digest(chunk) == expected.plausible);
-    CHECK(digest(laz_chunk(layout, leaping_records(layout, 5000, random))) == expected.leaping);
-    CHECK(digest(laz_chunk(layout, random_records(layout, 500, random))) == expected.random);
+    CHECK(digest(encode_chunk(layout, leaping_records(layout, 5000, random))) == expected.leaping);
+    CHECK(digest(encode_chunk(layout, random_records(layout, 500, random))) == expected.random);
   }
 }
 
@@ -258,12 +258,27 @@ TEST_CASE("records are the same after compression and decompression", "[laz]") {
   for (const Case& c : all_cases()) {
     INFO(name(c));
     const Layout layout = layout_of(c);
+    const auto check = [&](const LazBytes& records) {
+      const std::size_t points = records.size() / layout.record_bytes();
+      CHECK((decoded(layout, encode_chunk(layout, records), points) == records));
+    };
     for (const std::size_t points : {1, 2, 3, 50, 5000}) {
-      const LazBytes plausible = plausible_records(layout, points, random);
-      CHECK((decoded(layout, laz_chunk(layout, plausible), points) == plausible));
-      const LazBytes any = random_records(layout, std::min<std::size_t>(points, 1000), random);
-      CHECK((decoded(layout, laz_chunk(layout, any), std::min<std::size_t>(points, 1000)) == any));
+      check(plausible_records(layout, points, random));
+      check(random_records(layout, std::min<std::size_t>(points, 1000), random));
     }
+    // All the same, and the largest steps.
+    const LazBytes one = random_records(layout, 1, random);
+    LazBytes records;
+    for (int i = 0; i < 300; ++i) records.insert(records.end(), one.begin(), one.end());
+    check(records);
+    for (std::size_t i = 0; i < 300; ++i) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        using Limits = std::numeric_limits<std::int32_t>;
+        const std::int32_t values[] = {0, Limits::min(), Limits::max()};
+        store(&records[i * one.size() + axis * 4], values[below(random, 3)]);
+      }
+    }
+    check(records);
   }
 }
 
@@ -287,28 +302,7 @@ TEST_CASE("wave packets that follow each other, stay, step and leap are the same
       if (kind == 5) offset -= below(random, 100'000);
       if (kind == 6) offset += std::uint64_t{1} << 40;
     }
-    CHECK((decoded(layout, laz_chunk(layout, records), kPoints) == records));
-  }
-}
-
-TEST_CASE("points that are all the same, and the largest steps, are decompressed", "[laz]") {
-  Random random(2);
-  for (const Case& c : all_cases()) {
-    INFO(name(c));
-    const Layout layout = layout_of(c);
-    const std::size_t size = layout.record_bytes();
-    const LazBytes one = random_records(layout, 1, random);
-    LazBytes records;
-    for (int i = 0; i < 300; ++i) records.insert(records.end(), one.begin(), one.end());
-    CHECK((decoded(layout, laz_chunk(layout, records), 300) == records));
-    for (std::size_t i = 0; i < 300; ++i) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::int32_t values[] = {0, std::numeric_limits<std::int32_t>::min(),
-                                       std::numeric_limits<std::int32_t>::max()};
-        store(&records[i * size + axis * 4], values[below(random, 3)]);
-      }
-    }
-    CHECK((decoded(layout, laz_chunk(layout, records), 300) == records));
+    CHECK((decoded(layout, encode_chunk(layout, records), kPoints) == records));
   }
 }
 
@@ -318,7 +312,7 @@ TEST_CASE("a chunk has the same points, however few of its bytes and points are 
   for (const Case& c : kCases) {
     const Layout layout = layout_of(c);
     const LazBytes whole = plausible_records(layout, kPoints, random);
-    const LazBytes chunk = laz_chunk(layout, whole);
+    const LazBytes chunk = encode_chunk(layout, whole);
     for (const std::size_t piece : {1u, 7u, 512u}) {
       for (const std::size_t block : {1u, 2u, 77u, 1000u}) {
         const ChunkInPieces bytes(chunk, piece);
@@ -342,7 +336,7 @@ TEST_CASE("a chunk with changed sizes of layers gives records or an error", "[la
   for (const Case& c : kCases) {
     if (c.version < 3) continue;
     const Layout layout = layout_of(c);
-    const LazBytes chunk = laz_chunk(layout, plausible_records(layout, 40, random));
+    const LazBytes chunk = encode_chunk(layout, plausible_records(layout, 40, random));
     for (std::size_t layer = 0; layer < 9; ++layer) {
       for (const std::uint32_t size : {0u, 1u, 3u, 4u, 100000u, 0xffffffffu}) {
         LazBytes changed = chunk;
@@ -389,15 +383,16 @@ TEST_CASE("layouts that are not supported are errors that name the reason", "[la
         {2, {point14}, "POINT14 of version 3 and 30 bytes does not belong to the compressor"},
         {2, {{kPoint10, 21, 2}}, "POINT10 of version 2 and 21 bytes has a wrong size"},
         {2, {point, {kByte, 0, 2}}, "BYTE of version 2 and 0 bytes has a wrong size"},
-        {1, {{kPoint10, 20, 1}}, "`laszip` decompresses files from before 2011"},
+        {2, {{kPoint10, 20, 1}}, "`laszip` decompresses files from before 2011"},
+        {1, {point}, "compressor 1 is not supported (2 and 3 are); `laszip` decompresses files from before"},
         {3, {point14, {kRgb14, 6, 4}}, "RGB14 of version 4 and 6 bytes has not the version of the items"},
         {2, {{kGpsTime11, 8, 2}, point}, "is in a wrong place"},
         {2, {point, point}, "is in a wrong place"},
         {2, {point, {kRgb12, 6, 2}, {kGpsTime11, 8, 2}}, "is in a wrong place"},
         {3, {point14, {kRgb14, 6, 3}, {kRgbNir14, 8, 3}}, "RGBNIR14 of version 3 and 8 bytes is in a wrong"},
         {2, {{99, 20, 2}}, "item type 99 of the compressed points is not known"},
-        {0, {point}, "compressor 0 is not supported (1, 2 and 3 are)"},
-        {4, {point}, "compressor 4 is not supported (1, 2 and 3 are)"},
+        {0, {point}, "compressor 0 is not supported (2 and 3 are)"},
+        {4, {point}, "compressor 4 is not supported (2 and 3 are)"},
         {2, {}, "does not hold its 0 items"}})
     CHECK_THAT(error_of({compressor, 50000, items}), Contains(part));
   // As LASzip takes it.

@@ -218,32 +218,6 @@ TEST_CASE("PCD: counts and sizes that the file cannot hold are errors at once", 
   CHECK(error_of([&] { open_scan(file, {}); }).empty());
 }
 
-TEST_CASE("LZF: a block unpacks to what was packed, from any place on", "[io]") {
-  const ScratchFolder folder;
-  std::mt19937 random(2);
-  for (const unsigned letters : {1u, 2u, 5u, 256u}) {
-    std::string bytes(200'000, ' ');
-    for (char& c : bytes) c = static_cast<char>(random() % letters);
-    const std::string small = packed(bytes);
-    if (letters == 1) CHECK(small.size() < bytes.size() / 80);
-    const auto file = folder.write("a.lzf", "head" + small + "tail");
-    LzfStream stream(file, 4, small.size(), bytes.size());
-    std::string read;
-    while (read.size() < bytes.size()) {
-      const std::size_t count = std::min<std::size_t>(1 + random() % 30'000, bytes.size() - read.size());
-      LzfStream twin = stream.fork();
-      std::string part(count, ' '), same(count / 2, ' ');
-      stream.read(reinterpret_cast<std::byte*>(part.data()), count);
-      twin.skip(count - same.size());
-      twin.read(reinterpret_cast<std::byte*>(same.data()), same.size());
-      CHECK(part.ends_with(same));
-      read += part;
-    }
-    CHECK(read == bytes);
-    stream.require_end();
-  }
-}
-
 TEST_CASE("PCD: columns of a compressed file are joined to rows across buffers and batches", "[io]") {
   const ScratchFolder folder;
   constexpr std::uint32_t kRows = 60'000;

@@ -183,7 +183,7 @@ TEST_CASE("CR LF, blank lines, tabs and a missing last line end are accepted", "
   CHECK(read_table(folder.write("c.ply", dos(head) + row)).rows == Rows{{1, 2, 3}});
 }
 
-TEST_CASE("lines may end with a carriage return alone, as those of Rhinoceros do", "[io]") {
+TEST_CASE("lines may end with a carriage return alone, as Rhinoceros writes them", "[io]") {
   const ScratchFolder folder;
   const auto with_returns = [](std::string text) {
     std::replace(text.begin(), text.end(), '\n', '\r');
@@ -348,21 +348,6 @@ TEST_CASE("a list longer than any buffer is passed over", "[io]") {
   for (int i = 0; i < kLength; ++i) list += " 12";
   CHECK(read_table(folder.write("a.ply", head + list + "\n1 2 3\n")).rows == Rows{{1, 2, 3}});
   check_refused("a.ply", {{head + list + " 1\n1 2 3\n", "line 10: more values"}});
-}
-
-TEST_CASE("a batch is bounded in bytes, however many properties a row has", "[io]") {
-  const ScratchFolder folder;
-  std::string body = vertices(4000);
-  for (int i = 0; i < 4000; ++i) body += "property double p" + std::to_string(i) + "\n";
-  const auto file =
-      folder.write("a.ply", ply_header(body, "binary_little_endian") + std::string(4000u * 32012u, '\0'));
-  const auto reader = open_scan(file, {});
-  RowBatch batch;
-  REQUIRE(reader->next(batch, 65536));
-  CHECK(batch.bytes.size() < (40u << 20));
-  std::size_t rows = batch.count;
-  while (reader->next(batch, 65536)) rows += batch.count;
-  CHECK(rows == 4000);
 }
 
 // Without its last line's end the text is complete.

@@ -250,17 +250,6 @@ TEST_CASE("a section hides points above it, and loops that lie above it as a who
   CHECK(scene.loops.vertices[5].z() == 6);
 }
 
-TEST_CASE("a section above everything hides nothing, one below everything all") {
-  Scene scene = tower();
-  hide_above(scene, 109);
-  CHECK(scene.points.positions.size() == 10);
-  CHECK(scene.loops.ids.size() == 3);
-  hide_above(scene, 99.5);
-  CHECK(scene.points.positions.empty());
-  CHECK(scene.loops.vertices.empty());
-  CHECK(scene.loops.first == std::vector<std::size_t>{0, 0, 0, 0});
-}
-
 template <class T>
 std::vector<Colour> colours_of(Scalar type, const std::vector<std::vector<T>>& files) {
   const RowLayout layout = packed_layout(

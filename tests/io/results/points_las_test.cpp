@@ -179,20 +179,6 @@ TEST_CASE("the annotated LAS file has the points that --trust chooses, and its h
   }
 }
 
-TEST_CASE("waveforms of LAS 1.3 behind the points become an extended record", "[io][results]") {
-  const ScratchFolder folder;
-  std::string bytes = file_of(4, 3).bytes();
-  put<std::uint16_t>(bytes, 6, 2);
-  put<std::uint64_t>(bytes, 227, bytes.size());
-  const std::string waves = las_extended_record("LASF_Spec", 65535, "up and down");
-  const ScanFiles scan({folder.write("a.las", bytes + waves)}, {});
-  const std::string out = detect_to(folder, scan, 5, with_points());
-  CHECK(out.ends_with(waves));
-  CHECK(at<std::uint64_t>(out, 227) == out.size() - waves.size());
-  CHECK(at<std::uint64_t>(out, 235) == out.size() - waves.size());
-  CHECK(at<std::uint32_t>(out, 243) == 1);
-}
-
 TEST_CASE("extra bytes of another program with the name of a result stay", "[io][results]") {
   const ScratchFolder folder;
   LasFile las = file_of(6, 4, 1);

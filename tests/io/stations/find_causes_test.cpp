@@ -120,7 +120,7 @@ std::array<double, io::kCauses> true_shares(std::span<const io::InnerSample> pla
 namespace lacuna::io {
 namespace {
 
-// Holes of a synthetic scan with their causes, against those of its scene.
+// Holes of a synthetic scan with their causes, against the causes of its scene.
 struct Found {
   Found(synth::SceneKind scene, std::uint32_t stations, std::uint64_t points, InputConfig input = {},
         bool drives = false) {
@@ -179,7 +179,7 @@ struct Found {
 }  // namespace
 
 // Figures of 500,000 points are in docs/stations.md.
-TEST_CASE("causes of the holes in a room are those of its scene") {
+TEST_CASE("causes of the holes in a room agree with its scene") {
   const Found found(synth::SceneKind::kRoom, 1, 150'000);
   CHECK(found.agreement() > 0.9);
   CHECK(found.detection->stations.size() == 1);
@@ -203,7 +203,7 @@ TEST_CASE("what a filter has left out is the cause of the hole that it leaves") 
   CHECK(found.area_by(Cause::kFiltered) == Approx(1).epsilon(0.2));
 }
 
-TEST_CASE("the points of several stations taken for those of one have little certainty, and give no cause") {
+TEST_CASE("points of several stations taken for one station have little certainty, and give no cause") {
   const Found found(synth::SceneKind::kStreet, 3, 200'000);
   for (const StationSummary& station : found.detection->stations) CHECK(station.certainty > 0.99);
   const ScratchFolder folder;
@@ -216,7 +216,7 @@ TEST_CASE("the points of several stations taken for those of one have little cer
                      [](const LoopCause& cause) { return cause.main().has_value(); }));
 }
 
-TEST_CASE("causes of a scan from a moving scanner are those of its scene") {
+TEST_CASE("causes of a scan from a moving scanner agree with its scene") {
   const Found found(synth::SceneKind::kCourt, 2, 200'000, {}, true);
   CHECK(found.agreement() > 0.85);
   REQUIRE(found.detection->stations.size() == 1);
@@ -265,15 +265,7 @@ TEST_CASE("a scan from the first next station of a room sees what was promised")
   CHECK(kept_promise(Found(synth::SceneKind::kRoom, 1, 150'000)) == Approx(1).epsilon(0.2));
 }
 
-TEST_CASE("a scan from the first next station of each scene sees what was promised",
-          "[.slow]") {  // measured: 0.69 to 1.06
-  for (const auto scene :
-       {synth::SceneKind::kRoom, synth::SceneKind::kCourt, synth::SceneKind::kHall, synth::SceneKind::kPlant})
-    for (const std::uint32_t stations : {1, 2})
-      CHECK(kept_promise(Found(scene, stations, 500'000)) == Approx(1).epsilon(0.35));
-}
-
-TEST_CASE("causes of holes are those of the scenes, of moving scanners too", "[.slow]") {
+TEST_CASE("causes of holes agree with the scenes, of moving scanners too", "[.slow]") {
   for (const auto scene : {synth::SceneKind::kRoom, synth::SceneKind::kCourt, synth::SceneKind::kHall,
                            synth::SceneKind::kVault, synth::SceneKind::kStreet, synth::SceneKind::kPlant}) {
     for (const std::uint32_t stations : {1, 2, 3, 4}) {
@@ -339,33 +331,6 @@ TEST_CASE("next stations are chosen by what each adds, within range and angle") 
   CHECK(choose_stations(hidden, eyes, obstacles, {.range = 1, .least_cosine = 0}, 5).empty());
   CHECK(choose_stations(hidden, eyes, obstacles, {.range = 6, .least_cosine = 0.9}, 5).empty());
   CHECK(choose_stations({}, eyes, obstacles, limits, 5).empty());
-}
-
-TEST_CASE("two next stations see at least 63 % of what the best two would") {
-  const Obstacles nothing({}, 0.1);
-  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
-    Random random(seed);
-    std::vector<InnerSample> hidden;
-    for (int i = 0; i < 200; ++i)
-      hidden.push_back(on_floor(random.uniform(0, 20), random.uniform(0, 20), random.uniform()));
-    std::vector<Eigen::Vector3d> eyes;
-    for (int i = 0; i < 30; ++i) eyes.emplace_back(random.uniform(0, 20), random.uniform(0, 20), 1.6);
-    const SightLimits limits{.range = 6, .least_cosine = 0.1};
-    double best = 0;
-    for (const Eigen::Vector3d& a : eyes) {
-      for (const Eigen::Vector3d& b : eyes) {
-        double area = 0;
-        for (const NextStation& station : choose_stations(hidden, std::vector{a, b}, nothing, limits, 2))
-          area += station.area;
-        best = std::max(best, area);
-      }
-    }
-    const auto chosen = choose_stations(hidden, eyes, nothing, limits, 2);
-    REQUIRE(chosen.size() == 2);
-    CHECK(chosen[0].area >= chosen[1].area);
-    CHECK(chosen[0].area + chosen[1].area >= 0.632 * best);
-    CHECK(chosen[0].area + chosen[1].area <= best * (1 + 1e-12));
-  }
 }
 
 TEST_CASE("eyes stand over the floor, neither on tables nor in walls") {

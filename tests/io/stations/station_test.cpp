@@ -261,7 +261,7 @@ TEST_CASE("a trajectory of more lines than memory has space for is refused") {
   CHECK_THROWS_WITH(read(text, 299), Contains("more than the 2 lines that the memory limit has space for"));
 }
 
-TEST_CASE("a pause divides a path: there is no place in it, and axes are those of each part") {
+TEST_CASE("a pause divides a path: there is no place in it, and each part has its own axes") {
   const auto path = read(
       "time x y z\n"
       "0 0 0 0\n1 1 0 0\n2 2 0 0\n3 3 0 0\n"
@@ -279,7 +279,7 @@ TEST_CASE("a pause divides a path: there is no place in it, and axes are those o
   CHECK(axes.row(2).isApprox(Eigen::RowVector3d(0, 0, 1)));
 }
 
-TEST_CASE("a scanner measures in directions that have many rays, not in those of a few") {
+TEST_CASE("a scanner measures in directions of many rays, not of a few") {
   SweptDirections swept;
   for (int i = 0; i < 1000; ++i) swept.add({0, 1, i % 10 * 0.1});
   swept.add({1, 0, 0});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which loops are of one hole: true and found ones, and those of two results.
+// Which loops are of one hole: true and found ones, and loops of two results.
 #include "bench/evaluation/evaluation.hpp"
 #include "io/explain/matching/compare_loops.hpp"
 #include "io/explain/matching/match_loops.hpp"
