@@ -354,16 +354,20 @@ constexpr int kRoom = 15;                  // layers: least empty space below a 
 constexpr int kCeiling = 8, kSurface = 4;  // layers: of the ceilings of a storey, of one surface
 constexpr double kLeastCovered = 0.07;     // share of the columns
 
-}  // namespace
-
-std::pair<float, float> most_of(std::vector<float>& values, double share) {
+std::pair<float, float> narrowest(std::vector<float>& values, double share, float margin) {
   std::ranges::sort(values);
   const auto steps = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
   std::size_t at = 0;
   for (std::size_t i = 1; i + steps < values.size(); ++i)
     if (values[i + steps] - values[i] < values[at + steps] - values[at]) at = i;
-  const float more = 0.1f * (values[at + steps] - values[at]);
+  const float more = margin * (values[at + steps] - values[at]);
   return {std::max(values.front(), values[at] - more), std::min(values.back(), values[at + steps] + more)};
+}
+
+}  // namespace
+
+std::pair<float, float> most_of(std::vector<float>& values, double share) {
+  return narrowest(values, share, 0.1f);
 }
 
 // Idea: the plan is cut into columns. A ceiling is where the empty space of many columns ends at about one
@@ -379,7 +383,7 @@ std::vector<double> ceiling_cuts(const Scene& scene) {
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<float> values;
     for (const Eigen::Vector3f& p : positions) values.push_back(p[axis]);
-    ranges[std::size_t(axis)] = most_of(values, kFramed);
+    ranges[std::size_t(axis)] = narrowest(values, 0.99, 0.02f);
   }
   const auto part_of = [&](const Eigen::Vector3f& p, std::size_t axis, int parts) {
     const auto [low, high] = ranges[axis];
