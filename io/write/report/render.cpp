@@ -203,19 +203,14 @@ View looking_from(const Scene& scene, const Eigen::Vector3f& towards, const Eige
   return view;
 }
 
-constexpr std::size_t kSurest = 5;  // holes that a picture holds, too
-constexpr float kLoopPart = 0.6f;   // of the picture's width or height, which a chosen loop fills
+constexpr double kSure = 0.9;      // confidence of holes that a picture holds
+constexpr float kLoopPart = 0.6f;  // of the picture's width or height, which a chosen loop fills
 
-std::vector<Eigen::Vector3f> vertices_of_surest(const Scene::Loops& loops) {
-  std::vector<std::size_t> holes;
-  for (std::size_t i = 0; i < loops.ids.size(); ++i)
-    if (loops.measures[i].kind == LoopKind::kHole && loops.measures[i].track.confidence > 0)
-      holes.push_back(i);
-  std::ranges::stable_sort(holes, std::greater{},
-                           [&](std::size_t i) { return loops.measures[i].track.confidence; });
+std::vector<Eigen::Vector3f> vertices_of_sure(const Scene::Loops& loops) {
   std::vector<Eigen::Vector3f> vertices;
-  for (const std::size_t hole : std::span(holes).first(std::min(holes.size(), kSurest)))
-    vertices.insert(vertices.end(), loops.vertices_of(hole).begin(), loops.vertices_of(hole).end());
+  for (std::size_t i = 0; i < loops.ids.size(); ++i)
+    if (loops.measures[i].kind == LoopKind::kHole && loops.measures[i].track.confidence >= kSure)
+      vertices.insert(vertices.end(), loops.vertices_of(i).begin(), loops.vertices_of(i).end());
   return vertices;
 }
 
@@ -320,7 +315,7 @@ View find_view(const Scene& scene, std::string_view name, std::size_t width, std
   const NamedView& named = *std::ranges::find(kNamedViews, name, &NamedView::name);
   View view = looking_from(scene, named.towards, named.up);
   fit(scene.points.positions.empty() ? scene.loops.vertices : scene.points.positions, kFramed,
-      vertices_of_surest(scene.loops), aspect, view);
+      vertices_of_sure(scene.loops), aspect, view);
   return view;
 }
 

@@ -107,7 +107,7 @@ struct View {
 };
 
 // Returns the view of this name: "oblique", "top", "front", "side", or the id of a loop. The picture holds
-// what 98 in 100 of the points and the five surest holes need, and a little more. A loop fills 0.6 of its
+// what 98 in 100 of the points and the holes of confidence 0.9 or more need. A loop fills 0.6 of its
 // width or height. A loop is seen along its normal from above. The other side, or a view 35 degrees aslant,
 // takes its place where it shows at least a tenth more of the loop. What is shown begins 0.9 radii before the
 // loop's middle, or 1.2 times as far as its foremost vertex, whichever is more. So no ceiling or wall hides

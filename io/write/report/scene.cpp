@@ -367,7 +367,7 @@ std::pair<float, float> narrowest(std::vector<float>& values, double share, floa
 }  // namespace
 
 std::pair<float, float> most_of(std::vector<float>& values, double share) {
-  return narrowest(values, share, 0.1f);
+  return narrowest(values, share, 0.15f);
 }
 
 // Idea: the plan is cut into columns. A ceiling is where the empty space of many columns ends at about one

@@ -95,7 +95,7 @@ inline float percentile(std::vector<float>& values, double share) {
   return *at;
 }
 
-// Returns the narrowest range of this share of the values, with a tenth of it more on both sides. The range
+// Returns the narrowest range of this share of the values, with 0.15 of it more on both sides. The range
 // ends where the values end. The function sorts them; there is at least one.
 inline constexpr double kFramed = 0.98;
 std::pair<float, float> most_of(std::vector<float>& values, double share);

@@ -159,7 +159,7 @@ TEST_CASE("a scan has a cut below each ceiling that hides all else from above, a
   CHECK(ceiling_cuts(scene).empty());
 }
 
-TEST_CASE("a picture is as large as 98 in 100 points and the surest hole need, not as far pieces do") {
+TEST_CASE("a picture is as large as 98 in 100 points and a sure hole need, not as far pieces do") {
   Scene scene = sheet();
   const float all = find_view(scene, "top", 300, 300).half_height;
   CHECK(all == Approx(1.05f * 10));  // the edge of the sheet is not cut

@@ -4,8 +4,8 @@
 
 // How far the scan and its loops reach, in scene coordinates.
 
-const kFramed = 0.98, kFrameMore = 0.1;  // the part of the points that a picture holds; of its range, what it has around them
-const kSurest = 5;  // holes that it holds, too
+const kFramed = 0.98, kFrameMore = 0.15;  // the part of the points that a picture holds; of its range, what it has around them
+const kSure = 0.9;  // confidence of holes that it holds, too
 
 // {box: of most positions, outline: some of the positions, surest: vertices of the surest holes, middle and radius: a ball around all}
 function scene_bounds({points, loops, report, frame}) {
@@ -17,7 +17,8 @@ function scene_bounds({points, loops, report, frame}) {
   return {
     box,
     outline: outline_places(points.count > 0 ? points.positions : loops.vertices),
-    surest: surest_holes(loops).flatMap((i) => Array.from(loops.vertices.subarray(3 * loops.first[i], 3 * loops.first[i + 1]))),
+    surest: Array.from(loops.id.keys()).filter((i) => loops.is_hole[i] && loops.confidence[i] >= kSure)
+        .flatMap((i) => Array.from(loops.vertices.subarray(3 * loops.first[i], 3 * loops.first[i + 1]))),
     middle: new THREE.Vector3(...[0, 1, 2].map((k) => (low[k] + high[k]) / 2)),
     radius: Math.max(1e-3, Math.hypot(...[0, 1, 2].map((k) => (high[k] - low[k]) / 2))),
   };
@@ -70,11 +71,6 @@ function outline_places(positions) {
   const places = [];
   for (let i = 0; i < count; i += step) places.push(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]);
   return places.length > 0 ? places : [0, 0, 0];
-}
-
-function surest_holes({count, is_hole, confidence}) {
-  return Array.from({length: count}, (_, i) => i).filter((i) => is_hole[i] && confidence[i] > 0)
-      .sort((a, b) => confidence[b] - confidence[a] || a - b).slice(0, kSurest);
 }
 
 // The narrowest range that holds 98 in 100 of the values, and a little more.
