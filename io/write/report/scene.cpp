@@ -150,7 +150,7 @@ void read_holes(const fs::path& file, std::size_t most, Scene& scene) {
       throw Error(file.string() + ": its schema is " + print(scene.holes.at("schema"), -1) + "; \"" +
                   std::string(kHolesSchema) + "\" is read");
     }
-    // Of one point; that of the sample, when it has been read.
+    // It is that of one point, until the sample has been read.
     scene.points.spacing = static_cast<float>(kSpacing * number(scene.holes.at("median_distance")) *
                                               std::sqrt(scene.holes.at("counts").at("points").get<double>()));
     const Json& strays = scene.holes.at("strays");

@@ -163,7 +163,7 @@ TEST_CASE("a picture is as large as 98 in 100 points and a sure hole need, not a
   Scene scene = sheet();
   const float all = find_view(scene, "top", 300, 300).half_height;
   CHECK(all == Approx(1.05f * 10));  // the edge of the sheet is not cut
-  for (const float x : {300.0f, 310, 320}) scene.points.positions.push_back({x, x, 0});
+  for (const float x : {300.0f, 310.0f, 320.0f}) scene.points.positions.push_back({x, x, 0});
   CHECK(find_view(scene, "top", 300, 300).half_height < 1.3f * all);
   scene.loops.vertices[2] = {60, 8, 0};
   CHECK(find_view(scene, "top", 300, 300).half_height > 2.5f * all);
