@@ -50,7 +50,7 @@ detect room room.ply --stations room.stations.txt --report
 wc --bytes room.ply room/*
 render room --hide-above 2.5 --size 900x560
 
-# The report as it opens, in Chromium: without the ceiling. It shows times of the run, so no two pictures are equal.
+# The report as it opens, in Chromium: without the ceiling.
 page=$pictures/../../tests/program/report_page.py
 if [[ -e $page ]]; then
   python3 "$page" room/report.html --screenshot "$pictures/report.png" --size 1400x860 --no-checks || (($? == 77))

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes a report with other stations and causes, to work on the page of what few scans have.
 
-    mock_report.py REPORT.html OUT.html [--stations N]
+    mock_report.py REPORT.html OUT.html [--stations N] [--small]
 
 Holes have each cause in turn, with a smaller second one, and one of six has none. Stations stand over the diagonal of the scan.
+--small: all loops but the first are near the spacing, and nothing else is changed.
 """
 
 import argparse
@@ -56,12 +57,16 @@ def main():
     parser.add_argument("report", type=Path)
     parser.add_argument("out", type=Path)
     parser.add_argument("--stations", type=int, default=3)
+    parser.add_argument("--small", action="store_true")
     arguments = parser.parse_args()
     page = arguments.report.read_text(encoding="utf-8")
     report = json.loads(DATA.search(page)[2])
-    report["stations"] = stations_of(arguments.stations, report["bounds"])
-    report["next_stations"] = next_stations_of(report["stations"])
-    set_causes(report["loops"], report["stations"])
+    if arguments.small:
+        report["loops"]["small"] = [i > 0 for i in range(len(report["loops"]["id"]))]
+    else:
+        report["stations"] = stations_of(arguments.stations, report["bounds"])
+        report["next_stations"] = next_stations_of(report["stations"])
+        set_causes(report["loops"], report["stations"])
     areas, causes = report["loops"]["area"], report["loops"]["cause"]
     report["opening_area"] = sum(area for area, cause in zip(areas, causes) if cause == "opening")
     data = json.dumps(report).replace("<", "\\u003c")

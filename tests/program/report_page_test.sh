@@ -22,6 +22,8 @@ check out/report.html --size 1280x800 --save-marks "$scratch/marks.json"
 check mock.html --size "$mock_size" --causes
 
 if [ "$1" = flat ]; then
+  /usr/bin/python3 mock_report.py "$scratch/out/report.html" "$scratch/small.html" --small
+  for size in 1200x760 390x844; do check small.html --size "$size" --small; done
   # A hole is scanned, and the outer curve is as it was.
   "$LACUNA_BENCH_PROGRAM" synth surface --points 40000 --holes 5 --hole-radius 5 12 "$scratch/later.ply" > "$scratch/log"
   "$LACUNA_PROGRAM" detect "$scratch/later.ply" --out "$scratch/later" --quiet

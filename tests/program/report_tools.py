@@ -10,11 +10,14 @@ from report_browser import act, play, require, saved, value
 
 LINE_PIXELS = 4  # half of the widest line, and its soft edge
 
-# A page begins without the roof that hides all else from above, if there is one; all heights are there after a reset.
+# A page begins without the ceiling that hides all else from above, if there is one; all heights are there after a reset.
 LIMITS = "['above', 'below'].map((name) => Number($(`#${name}-slider`).value))"
-ROOF = [
-    ("a roof was hidden at first, if any", f"(([above, below]) => !kept.has_roof || (above > kept.begin[0] && below === kept.begin[1]))({LIMITS})",
-     f"kept.begin = {LIMITS}; kept.has_roof = !$('#reset').disabled; $('#reset').click();"),
+STOREYS = [
+    ("a ceiling was hidden at first, if any", f"(([above, below]) => !kept.is_within || (above > kept.begin[0] && below === kept.begin[1]))({LIMITS})",
+     f"kept.begin = {LIMITS}; kept.is_within = page.data.report.ceilings.length > 0; $('#reset').click();"),
+    ("the list of storeys is there then alone", "(getComputedStyle($('#storey')).display !== 'none') === kept.is_within && $('#storeys').value === 'all'"),
+    ("it takes the ceiling off again", f"!kept.is_within || String({LIMITS}) === String(kept.begin)", "if (kept.is_within) { $('#storeys').value = '0'; $('#storeys').dispatchEvent(new Event('change')); }"),
+    ("all heights", f"{LIMITS}[0] >= kept.begin[0]", "$('#reset').click()"),
 ]
 SECTION = [
     ("the section shows all heights", f"([kept.high, kept.low] = {LIMITS})[0] > kept.low", "click #view-more", "click [data-side=side]"),
@@ -50,12 +53,9 @@ NOW = "kept.now = kept.places.map(([, [x, y]]) => lacuna.loop_at(x, y))"
 SECTION_OF_LOOPS = [
     # What is shown up to the height of the camera that looks ahead ends in the middle of the picture.
     ("edges of loops are cut at the height", f"(({{high, height}}) => high - height / 2 <= {LINE_PIXELS})(lacuna.covered())",
-     "$('#show-points').click()", "type #above-number = ${lacuna.camera()[2].toFixed(6)}", "press TAB"),
+     "$('#show-points').click()", "slide #above-slider = ${lacuna.camera()[2].toFixed(6)}"),
     ("loops are picked, some above a height", "kept.hidden.length > 0", "click #reset", "$('#show-points').click()", "click [data-side=top]", PICKED),
-    ("the field moves the slider", f"Math.abs({LIMITS}[0] - kept.middle) <= (kept.high - kept.low) / 200",
-     "type #above-number = ${kept.middle.toFixed(6)}", "press TAB"),
-    ("the field keeps what is typed", "Number($('#above-number').value) === Number(kept.middle.toFixed(6))"),
-    ("hidden loops are not picked", "kept.hidden.every((id) => !kept.now.includes(id))", NOW),
+    ("hidden loops are not picked", "kept.hidden.every((id) => !kept.now.includes(id))", "slide #above-slider = ${kept.middle}", NOW),
     ("loops that are left are picked", "kept.left.length > 0 && kept.left.every((id) => kept.now.includes(id))"),
     ("after a reset all are picked", "kept.places.every(([id], i) => kept.now[i] === id)", "click #reset", NOW),
 
@@ -106,15 +106,9 @@ MEASURE = [
 
 # Places of the names of the axes.
 TRIAD = "Object.fromEntries($$('#triad text').map((text) => [text.textContent, ['x', 'y'].map((key) => Number(text.getAttribute(key)))]))"
-TURN = "Number(/rotate\\((.*?)\\)/.exec($('#north path').getAttribute('transform'))[1])"  # of the needle, in degrees clockwise
 NORTH = [
-    ("an arrow shows north if there is a CRS", "$('#north').hasAttribute('hidden') !== Boolean(page.data.report.crs)", "click [data-side=top]"),
-]
-NORTH_OF_CRS = [
-    ("from above it shows up", f"Math.abs({TURN}) < 0.5"),
-    ("it turns with the view, as y does", f"Math.abs(kept.turn) > 1 && Math.abs({TURN} - kept.turn) < 0.5",
-     "$('#canvas').focus()", *["press ARROW_LEFT"] * 3,
-     f"const [x, y] = {TRIAD}.y; kept.turn = Math.atan2(x, 3.5 - y) * 180 / Math.PI;"),
+    ("the axes have the names of a CRS if there is one", f"String(Object.keys({TRIAD}).sort()) === (page.data.report.crs ? 'E,N,z' : 'x,y,z')", "click [data-side=top]"),
+    ("north is up from above", f"(([x, y]) => Math.abs(x) < 0.5 && y < -20)({TRIAD}[page.data.report.crs ? 'N' : 'y'])"),
 ]
 
 
@@ -189,7 +183,7 @@ def check_table(driver):
 
 def check(driver):
     has_loops = value(driver, "page.data.loops.count > 0")
-    play(driver, ROOF)
+    play(driver, STOREYS)
     if value(driver, "$('#section').disabled"):
         require(value(driver, f"(([above, below]) => above === below)({LIMITS})"), "a flat scan has no section")
     else:
@@ -199,7 +193,7 @@ def check(driver):
         play(driver, (SECTION_OF_LOOPS if has_loops else []) + SECTION_BY_KEYS)
     play(driver, MEASURE)
     check_picture(driver)
-    play(driver, NORTH + (NORTH_OF_CRS if value(driver, "page.data.report.crs") else []) + UP)
+    play(driver, NORTH + UP)
     if has_loops:
         play(driver, RANGE)
         check_table(driver)

@@ -84,12 +84,13 @@ std::pair<std::size_t, std::size_t> parse_size(const std::string& text) {
   return {width, height};
 }
 
-// The height of the roof that a view leaves out. A loop that reaches above it keeps it, as in the page.
-std::optional<double> roof_before(std::optional<std::size_t> loop, const Scene& scene) {
-  const std::optional<double> height = roof_height(scene);
-  if (!height || !loop) return height;
-  const auto is_above = [&](const Eigen::Vector3f& p) { return scene.origin.z() + p.z() > *height; };
-  return std::ranges::any_of(scene.loops.vertices_of(*loop), is_above) ? std::nullopt : height;
+// The height of the ceiling that a view leaves out. A loop that reaches above it keeps it, as in the page.
+std::optional<double> ceiling_before(std::optional<std::size_t> loop, const Scene& scene) {
+  const std::vector<double> cuts = ceiling_cuts(scene);
+  const auto is_above = [&](const Eigen::Vector3f& p) { return scene.origin.z() + p.z() > cuts.front(); };
+  if (cuts.empty() || (loop && std::ranges::any_of(scene.loops.vertices_of(*loop), is_above)))
+    return std::nullopt;
+  return cuts.front();
 }
 
 void run_render(const RenderArguments& arguments) {
@@ -101,9 +102,11 @@ void run_render(const RenderArguments& arguments) {
   if (arguments.most_height && !std::isfinite(*arguments.most_height))
     throw WrongOption("--hide-above", "a finite height is allowed");
   Scene scene = read_scene(arguments.folder, limits_within(memory));
+  const std::optional<std::size_t> chosen = loop_of_view(scene, arguments.view);
   const std::optional<double> most_height =
-      arguments.most_height ? arguments.most_height : roof_before(loop_of_view(scene, arguments.view), scene);
-  if (most_height) hide_above(scene, *most_height);
+      arguments.most_height ? arguments.most_height : ceiling_before(chosen, scene);
+  const auto folded = std::ranges::count(small_loops(scene.loops), true);
+  if (most_height) scene.highest = static_cast<float>(*most_height - scene.origin.z());
   const View view = find_view(scene, arguments.view, width, height);
   const PictureSize size{width, height};
   NewFile out(arguments.out, picture_mark(), overwrite);
@@ -116,8 +119,11 @@ void run_render(const RenderArguments& arguments) {
   out.commit();
   std::cout << "written: " << visible(arguments.out.string()) << "\n";
   if (most_height && !arguments.most_height)
-    std::cout << "left out: the roof above " << most_height.value()
+    std::cout << "left out: the ceiling above " << most_height.value()
               << "; --hide-above with a greater height keeps it\n";
+  if (folded > 0)
+    std::cout << "left out: " << folded << " loops below " << kSmallWidth
+              << " spacings; --view ID draws one\n";
   if (scene.strays > 0)
     std::cout << "left out: " << scene.strays << (scene.strays == 1 ? " point" : " points")
               << " far from all others\n";
@@ -144,8 +150,8 @@ void add_render_command(CLI::App& program) {
       ->capture_default_str();
   command
       .add_option("--hide-above", arguments->most_height,
-                  "Draw nothing above this height, in units of the scan; by default nothing above a roof, "
-                  "where the scan has one")
+                  "Draw nothing above this height, in units of the scan; by default nothing above the "
+                  "highest ceiling of a scan within walls")
       ->check(real_number())
       ->type_name("Z");
   command.add_flag("--as-it-came", arguments->as_it_came,

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <exception>
 #include <new>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -40,7 +39,9 @@ class Projection {
     return {corner_.x() + scale_ * from.dot(view_.right), corner_.y() - scale_ * from.dot(view_.up),
             from.dot(view_.towards)};
   }
-  bool is_drawn(float depth) const { return depth <= view_.before; }
+  bool is_drawn(const Eigen::Vector3f& p, float depth) const {
+    return depth <= view_.before && p.z() <= view_.highest;
+  }
 
  private:
   View view_;
@@ -62,7 +63,8 @@ void draw_points(const Scene::Points& points, const View& view, const Projection
   const float radius = std::clamp(0.9f * points.spacing * project.scale(), 0.8f, 12.0f);
   for (std::size_t i = 0; i < points.positions.size(); ++i) {
     const Eigen::Vector3f at = project(points.positions[i]);
-    if (!project.is_drawn(at.z()) || !canvas.reaches(at.y() - radius, at.y() + radius)) continue;
+    if (!project.is_drawn(points.positions[i], at.z()) || !canvas.reaches(at.y() - radius, at.y() + radius))
+      continue;
     const Eigen::Vector3f& normal = points.normals[i];
     const float light = normal.isZero() ? 0.8f : 0.35f + 0.65f * std::abs(normal.dot(view.towards));
     canvas.disc(at.x(), at.y(), radius, at.z(), light * colour_of(points, i, as_it_came));
@@ -75,14 +77,15 @@ void trace(const Scene::Loops& loops, std::size_t loop, const Projection& projec
            const Draw& draw) {
   const std::span<const Eigen::Vector3f> vertices = loops.vertices_of(loop);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const Eigen::Vector3f a = project(vertices[i]), b = project(vertices[(i + 1) % vertices.size()]);
+    const Eigen::Vector3f from = vertices[i], to = vertices[(i + 1) % vertices.size()];
+    const Eigen::Vector3f a = project(from), b = project(to);
     const float length = std::max((b - a).head<2>().norm(), 1.0f);
     if (length > 4 * float(canvas.height())) continue;  // far beyond the picture
     const float reach = kThick * kFiner;
     if (!canvas.reaches(std::min(a.y(), b.y()) - reach, std::max(a.y(), b.y()) + reach)) continue;
     for (float along = 0; along <= length; along += 1) {
       const Eigen::Vector3f at = a + along / length * (b - a);
-      if (project.is_drawn(at.z())) draw(at.x(), at.y(), at.z());
+      if (project.is_drawn(from + along / length * (to - from), at.z())) draw(at.x(), at.y(), at.z());
     }
   }
 }
@@ -108,6 +111,7 @@ void veil_behind(const Scene& scene, std::size_t hole, const View& view, const P
 void draw_loops(const Scene& scene, const View& view, const Projection& project, Canvas& canvas) {
   const float nearer = kNearer * scene.points.spacing;
   const Scene::Loops& loops = scene.loops;
+  const std::vector<bool> are_small = small_loops(loops);
   const auto colour_at = [&](std::size_t loop) {
     const auto [red, green, blue] = io::colour_of(loops.measures[loop].kind);
     return Eigen::Vector3f(red, green, blue);
@@ -116,7 +120,7 @@ void draw_loops(const Scene& scene, const View& view, const Projection& project,
     veil_behind(scene, *view.loop, view, project, canvas);
   const float radius = (view.loop ? kThin : kLineWidth) * kFiner / 2;
   for (std::size_t loop = 0; loop < loops.ids.size(); ++loop) {
-    if (loop == view.loop) continue;
+    if (loop == view.loop || are_small[loop]) continue;
     const Eigen::Vector3f colour = view.loop ? pale(colour_at(loop)) : colour_at(loop);
     trace(loops, loop, project, canvas,
           [&](float x, float y, float depth) { canvas.disc(x, y, radius, depth + nearer, colour); });
@@ -145,7 +149,7 @@ class SeenParts {
   // Whether the surface does not hide this vertex of a loop.
   bool shows(const Eigen::Vector3f& vertex) const {
     const Eigen::Vector3f at = project_(vertex);
-    return project_.is_drawn(at.z()) &&
+    return project_.is_drawn(vertex, at.z()) &&
            canvas_.shows(at.x(), at.y(), at.z() + kNearer * scene_.points.spacing);
   }
 
@@ -165,8 +169,10 @@ class SeenParts {
 
 std::vector<Label> find_labels(const Scene& scene, const View& view, PictureSize size) {
   const Scene::Loops& loops = scene.loops;
-  std::vector<std::size_t> order(loops.ids.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
+  const std::vector<bool> are_small = small_loops(loops);
+  std::vector<std::size_t> order;
+  for (std::size_t loop = 0; loop < loops.ids.size(); ++loop)
+    if (loop == view.loop || !are_small[loop]) order.push_back(loop);
   const auto rank = [&](std::size_t loop) {
     return std::pair(loop != view.loop, -loops.measures[loop].diameter);
   };
@@ -188,23 +194,36 @@ std::vector<Label> find_labels(const Scene& scene, const View& view, PictureSize
   return place_labels(labelled, size);
 }
 
-View looking_from(const Eigen::Vector3f& towards, const Eigen::Vector3f& above) {
+View looking_from(const Scene& scene, const Eigen::Vector3f& towards, const Eigen::Vector3f& above) {
   View view;
+  view.highest = scene.highest;
   view.towards = towards.normalized();
   view.right = above.cross(view.towards).normalized();
   view.up = view.towards.cross(view.right);
   return view;
 }
 
-// Chooses half of the height that holds these positions, but for outliers.
-void fit(std::span<const Eigen::Vector3f> positions, float aspect, View& view) {
+constexpr double kSure = 0.9;      // confidence of holes that a picture holds
+constexpr float kLoopPart = 0.6f;  // of the picture's width or height, which a chosen loop fills
+
+std::vector<Eigen::Vector3f> vertices_of_sure(const Scene::Loops& loops) {
+  std::vector<Eigen::Vector3f> vertices;
+  for (std::size_t i = 0; i < loops.ids.size(); ++i)
+    if (loops.measures[i].kind == LoopKind::kHole && loops.measures[i].track.confidence >= kSure)
+      vertices.insert(vertices.end(), loops.vertices_of(i).begin(), loops.vertices_of(i).end());
+  return vertices;
+}
+
+// Chooses half of the height that holds this share of the positions, and all of `others`.
+void fit(std::span<const Eigen::Vector3f> positions, double share, std::span<const Eigen::Vector3f> others,
+         float aspect, View& view) {
   if (positions.empty()) return;
   const auto range = [&](const Eigen::Vector3f& axis) {
     std::vector<float> along;
     for (const Eigen::Vector3f& p : positions) along.push_back(p.dot(axis));
-    float low = percentile(along, 0.005), high = percentile(along, 0.995);
-    const auto [least, most] = std::minmax_element(along.begin(), along.end());
-    if (*most - *least < 2 * (high - low)) low = *least, high = *most;
+    auto [low, high] = most_of(along, share);
+    for (const Eigen::Vector3f& p : others)
+      low = std::min(low, p.dot(axis)), high = std::max(high, p.dot(axis));
     return std::pair{(low + high) / 2, (high - low) / 2};
   };
   const auto [x, half_width] = range(view.right);
@@ -216,10 +235,10 @@ void fit(std::span<const Eigen::Vector3f> positions, float aspect, View& view) {
 
 // The view of a loop along its normal, from the side that this points to.
 View view_along(const Scene& scene, std::size_t loop, const Eigen::Vector3f& normal, float aspect) {
-  View view =
-      looking_from(normal, std::abs(normal.z()) > 0.9f ? Eigen::Vector3f(0, 1, 0) : Eigen::Vector3f(0, 0, 1));
+  View view = looking_from(scene, normal,
+                           std::abs(normal.z()) > 0.9f ? Eigen::Vector3f(0, 1, 0) : Eigen::Vector3f(0, 0, 1));
   const std::span<const Eigen::Vector3f> vertices = scene.loops.vertices_of(loop);
-  fit(vertices, aspect, view);
+  fit(vertices, 1, {}, aspect, view);
   Eigen::AlignedBox3f box;
   float foremost = 0;
   for (const Eigen::Vector3f& vertex : vertices) {
@@ -227,7 +246,7 @@ View view_along(const Scene& scene, std::size_t loop, const Eigen::Vector3f& nor
     foremost = std::max(foremost, (vertex - view.middle).dot(view.towards));
   }
   const float radius = std::max(box.diagonal().norm() / 2, 3 * scene.points.spacing);
-  view.half_height = std::max(2 * view.half_height, 10 * scene.points.spacing);
+  view.half_height = std::max(view.half_height / (kMargin * kLoopPart), 4 * scene.points.spacing);
   view.before = std::max(0.9f * radius, 1.2f * foremost);
   view.loop = loop;
   return view;
@@ -254,7 +273,9 @@ std::size_t find_loop(const Scene& scene, std::string_view name) {
                      (ids.empty() ? "; there are no loops" : ", such as " + std::to_string(ids.front())));
   }
   const auto loop = static_cast<std::size_t>(found - ids.begin());
-  if (scene.loops.vertices_of(loop).empty()) throw Error("view '" + std::string(name) + "': " + kUndrawn);
+  if (std::ranges::none_of(scene.loops.vertices_of(loop),
+                           [&](const auto& v) { return v.z() <= scene.highest; }))
+    throw Error("view '" + std::string(name) + "': " + kUndrawn);
   return loop;
 }
 
@@ -292,8 +313,9 @@ View find_view(const Scene& scene, std::string_view name, std::size_t width, std
   const float aspect = static_cast<float>(width) / static_cast<float>(height);
   if (const auto loop = loop_of_view(scene, name)) return view_of_loop(scene, *loop, aspect);
   const NamedView& named = *std::ranges::find(kNamedViews, name, &NamedView::name);
-  View view = looking_from(named.towards, named.up);
-  fit(scene.points.positions.empty() ? scene.loops.vertices : scene.points.positions, aspect, view);
+  View view = looking_from(scene, named.towards, named.up);
+  fit(scene.points.positions.empty() ? scene.loops.vertices : scene.points.positions, kFramed,
+      vertices_of_sure(scene.loops), aspect, view);
   return view;
 }
 

@@ -101,17 +101,18 @@ struct View {
   Eigen::Vector3f middle{0, 0, 0};
   float half_height = 1;  // of the picture, in units of the scan
   float before =
-      std::numeric_limits<float>::infinity();      // what is nearer than the middle by more is not drawn
-  std::optional<std::size_t> loop = std::nullopt;  // the chosen one, as an index
+      std::numeric_limits<float>::infinity();  // what is nearer than the middle by more is not drawn
+  float highest = std::numeric_limits<float>::infinity();  // what is above is not drawn, from the origin
+  std::optional<std::size_t> loop = std::nullopt;          // the chosen one, as an index
 };
 
 // Returns the view of this name: "oblique", "top", "front", "side", or the id of a loop. The picture holds
-// nearly all points, or the loop with as much around it. A loop is seen along its normal from above. The
-// other side, or a view 35 degrees aslant, takes its place where it shows at least a tenth more of the loop.
-// What is shown begins 0.9 radii before the loop's middle, or 1.2 times as far as its foremost vertex,
-// whichever is more. So no ceiling or wall hides the loop; the report's page has the same rule. Throws
-// `Error` for any other name, and for a loop without vertices. Cost: up to ten pictures of 300 rows for a
-// loop.
+// what 98 in 100 of the points and the holes of confidence 0.9 or more need. A loop fills 0.6 of its
+// width or height. A loop is seen along its normal from above. The other side, or a view 35 degrees aslant,
+// takes its place where it shows at least a tenth more of the loop. What is shown begins 0.9 radii before the
+// loop's middle, or 1.2 times as far as its foremost vertex, whichever is more. So no ceiling or wall hides
+// the loop; the report's page has the same rule. Throws `Error` for any other name, and for a loop without
+// vertices. Cost: up to ten pictures of 300 rows for a loop.
 View find_view(const Scene& scene, std::string_view name, std::size_t width, std::size_t height);
 
 // Returns the loop that a view of this name is of, as an index; nothing for the four others. Throws `Error`
@@ -124,12 +125,13 @@ struct PictureStyle {
 };
 
 // Points are discs, grey to dark green by their boundary probability, if they do not keep their colours.
-// Curves of holes and outer curves have the colours of loops.ply. A chosen loop is thick, and pale where the
-// surface hides it; the others are thin and pale. What lies within the outline of a chosen hole and beyond
-// its plane is pale, too. A loop has its id in the middle of what is seen of it, if that is half or
-// more. The chosen one comes first, then the largest; no id overlaps another. `take_row` gets the rows from
-// the top. The picture is drawn in bands of at most `band_bytes`, or of one row if that takes more; its
-// pixels do not depend on them. Cost: about 0.1 us a point, and 0.01 us a point and band.
+// Curves of holes and outer curves have the colours of loops.ply. Small loops are not drawn, but for a chosen
+// one. A chosen loop is thick, and pale where the surface hides it; the others are thin and pale. What lies
+// within the outline of a chosen hole and beyond its plane is pale, too. A loop has its id in the middle of
+// what is seen of it, if that is half or more. The chosen one comes first, then the largest; no id overlaps
+// another. `take_row` gets the rows from the top. The picture is drawn in bands of at most `band_bytes`, or
+// of one row if that takes more; its pixels do not depend on them. Cost: about 0.1 us a point, and 0.01 us a
+// point and band.
 inline constexpr std::size_t kBandBytes = std::size_t{128} << 20;
 void render(const Scene& scene, const View& view, PictureSize size, PictureStyle style,
             const std::function<void(std::span<const Colour> row)>& take_row,

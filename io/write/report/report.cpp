@@ -14,7 +14,6 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -102,19 +101,6 @@ void write_bytes(std::string_view id, const Items& items, Encode&& encode, Outpu
   out.write("</script>\n");
 }
 
-// Returns the keys of the run that the user has changed.
-Json changed_parameters(const Json& parameters) {
-  const Json defaults = parameter_values(FilesConfig{}, [](std::string_view) { return true; });
-  Json changed = Json::array();
-  for (const auto& [section, values] : parameters.items()) {
-    for (const auto& [key, value] : values.items()) {
-      if (defaults.contains(section) && defaults[section].contains(key) && defaults[section][key] != value)
-        changed.push_back(key);
-    }
-  }
-  return changed;
-}
-
 std::string title_of(const Json& inputs) {
   if (inputs.size() != 1) return std::to_string(inputs.size()) + " files";
   return fs::path(inputs[0].at("file").get<std::string>()).filename().string();
@@ -125,19 +111,6 @@ Json inputs_of(const Json& inputs) {
   for (const Json& input : inputs)
     short_inputs.push_back({{"file", input.at("file")}, {"points", input.at("points")}});
   return short_inputs;
-}
-
-Json run_of(const Json& run) {
-  if (run.is_null()) return nullptr;
-  Json phases = Json::array();
-  for (const Json& phase : run.at("phases"))
-    phases.push_back({{"name", phase.at("name")}, {"seconds", phase.at("seconds")}});
-  return {{"threads", run.at("tiling").at("threads")},
-          {"memory_limit_bytes", run.at("tiling").at("memory_limit_bytes")},
-          {"peak_memory_bytes", run.at("peak_memory_bytes")},
-          {"cores", run.at("cores")},
-          {"phases", std::move(phases)},
-          {"seconds", run.at("total_seconds")}};
 }
 
 // Six digits are more than a reader wants, and keep the page small.
@@ -172,6 +145,8 @@ Json loops_of(const Scene::Loops& loops, int decimals) {
     return loop.cause.hidden_from < 0 ? Json() : list(loop.cause.hidden_from_place);
   });
   add("hidden_from", [](const ExplainedLoop& loop) { return Json(loop.cause.hidden_from); });
+  json["small"] = small_loops(loops);
+  json["small_below"] = kSmallWidth;
   json["first"] = loops.first;
   if (!loops.changes.empty()) {
     json["change"] = loops.changes;
@@ -183,7 +158,6 @@ Json loops_of(const Scene::Loops& loops, int decimals) {
 Json report_of(const Scene& scene) {
   const Json& holes = scene.holes;
   const Scene::Points& points = scene.points;
-  const std::optional<double> roof = roof_height(scene);
   return {{"lacuna", holes.at("lacuna")},
           {"title", title_of(holes.at("inputs"))},
           {"crs", holes.at("crs")},
@@ -193,7 +167,7 @@ Json report_of(const Scene& scene) {
           {"bounds", corners(scene.bounds)},
           {"strays", scene.strays},
           {"compared", scene.compared},
-          {"roof", roof ? Json(*roof) : Json()},
+          {"ceilings", ceiling_cuts(scene)},
           {"resolution", holes.at("resolution")},
           {"median_distance", holes.at("median_distance")},
           {"surface_area", holes.value("surface_area", 0.0)},
@@ -201,10 +175,6 @@ Json report_of(const Scene& scene) {
           {"opening_area", holes.value("opening_area", Json())},
           {"stations", holes.value("stations", Json::array())},
           {"next_stations", scene.next_stations},
-          {"method", holes.at("parameters").at("loops").at("method")},
-          {"parameters", holes.at("parameters")},
-          {"changed", changed_parameters(holes.at("parameters"))},
-          {"run", run_of(scene.run)},
           {"frame", {{"origin", list(scene.origin)}, {"edge", scene.edge}}},
           {"sample",
            {{"points", points.positions.size()},
@@ -252,8 +222,7 @@ void write_report(const Scene& scene, OutputFile& out) {
   try {
     report = report_of(scene);
   } catch (const Json::exception& error) {
-    throw Error(out.path().string() +
-                ": holes.json and run.json are not as lacuna detect writes them: " + error.what());
+    throw Error(out.path().string() + ": holes.json is not as lacuna detect writes it: " + error.what());
   }
   write_data("report", report, out);
   const auto position = [&](const Eigen::Vector3f& p) { return packed(p, scene.edge); };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/write/report/scene.hpp"
 
-#include "engine/bucket/z_curve.hpp"
 #include "engine/run/error.hpp"
 #include "io/explain/stations/find_causes.hpp"
 #include "io/read/formats.hpp"
@@ -9,7 +8,6 @@
 #include "io/read/rows/scan_reader.hpp"
 #include "io/write/report/report.hpp"
 
-#include <bit>
 #include <numeric>
 #include <utility>
 
@@ -86,6 +84,7 @@ namespace fs = std::filesystem;
 using Event = Json::parse_event_t;
 
 constexpr std::size_t kRowsAtATime = 1 << 16;
+constexpr double kSpacing = 0.6;  // edge of the square of a point over the distance of neighbours
 
 double number(const Json& value) {
   return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
@@ -120,6 +119,7 @@ ExplainedLoop measures_of(const Json& record) {
            .mean_probability = number(record.at("mean_probability")),
            .track = {.confidence = number(record.at("confidence")),
                      .evidence = {.spacing = number(record.at("evidence").at("spacing")),
+                                  .width = number(record.at("evidence").at("width")),
                                   .prominence = number(record.at("prominence"))},
                      .first_scale = number(record.at("first_scale")),
                      .last_scale = number(record.at("last_scale"))},
@@ -150,6 +150,9 @@ void read_holes(const fs::path& file, std::size_t most, Scene& scene) {
       throw Error(file.string() + ": its schema is " + print(scene.holes.at("schema"), -1) + "; \"" +
                   std::string(kHolesSchema) + "\" is read");
     }
+    // It is that of one point, until the sample has been read.
+    scene.points.spacing = static_cast<float>(kSpacing * number(scene.holes.at("median_distance")) *
+                                              std::sqrt(scene.holes.at("counts").at("points").get<double>()));
     const Json& strays = scene.holes.at("strays");
     scene.strays = strays.at("points").get<std::uint64_t>();
     if (const Json& rest = strays.at("rest"); !rest.is_null()) {
@@ -291,35 +294,6 @@ void read_loops(const fs::path& file, const SceneLimits& limits, Scene& scene) {
   loops.measures.resize(kept);
 }
 
-// Estimates the spacing from the number of cells that points lie in, if a cell has about eight points. Cells
-// halve from the cube of the scene on. Two neighbours on the Z curve part at the highest bit in which they
-// differ.
-float typical_spacing(const Scene& scene) {
-  constexpr int kLevels = 21, kPlaceBits = 62;
-  const ZCurve curve({Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(scene.edge)});
-  std::vector<ZPlace> places;
-  places.reserve(scene.points.positions.size());
-  for (const Eigen::Vector3f& p : scene.points.positions) places.push_back(curve.place(p.cast<double>()));
-  if (places.size() < 2) return 0;
-  std::sort(places.begin(), places.end(), comes_before);
-  std::array<std::uint64_t, kLevels + 1> parted{};  // neighbours on the curve that part at a level, from 1
-  for (std::size_t i = 1; i < places.size(); ++i) {
-    int bits = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      bits = std::max(bits, static_cast<int>(std::bit_width(places[i - 1][axis] ^ places[i][axis])));
-    const int level = kPlaceBits + 1 - bits;
-    if (level <= kLevels) ++parted[static_cast<std::size_t>(std::max(level, 1))];
-  }
-  const auto points = static_cast<double>(places.size());
-  std::uint64_t cells = 1;
-  int level = 0;
-  while (level < kLevels && points > 8 * static_cast<double>(cells))
-    cells += parted[static_cast<std::size_t>(++level)];
-  // A surface passes through about one and a half times as many cells as its area needs.
-  return static_cast<float>(std::ldexp(scene.edge, -level) *
-                            std::sqrt(static_cast<double>(cells) / points / 1.5));
-}
-
 }  // namespace
 
 SceneLimits limits_within(std::uint64_t memory) {
@@ -335,10 +309,10 @@ Scene read_scene(const fs::path& folder, const SceneLimits& limits) {
     throw Error(folder.string() + ": not a folder; allowed: a folder with results of lacuna detect");
   Scene scene;
   read_holes(folder / "holes.json", limits.all_loops, scene);
-  if (const fs::path run = folder / "run.json"; fs::exists(run)) scene.run = read_json(run, kResultOfDetect);
   read_loops(folder / "loops.ply", limits, scene);
   read_points(folder / "sample.ply", limits.positions - scene.loops.vertices.size(), scene);
-  scene.points.spacing = typical_spacing(scene);
+  const auto drawn = static_cast<float>(scene.points.positions.size());
+  scene.points.spacing = drawn > 1 ? scene.points.spacing / std::sqrt(drawn) : 0;
   return scene;
 }
 
@@ -375,99 +349,103 @@ Json read_next_stations(const fs::path& folder) {
 
 namespace {
 
-constexpr int kCells = 24;            // along each side of the plan
-constexpr float kLeastRoofed = 0.6f;  // share of the cells with something below their highest point
-constexpr float kThickness = 0.12f;   // of a roof: share of the heights
-constexpr float kLeastRoom = 0.4f;    // below a roof: share of the heights
-constexpr float kNone = -std::numeric_limits<float>::infinity();
+constexpr int kCells = 24, kLayers = 96;   // along each side of the plan; of the heights
+constexpr int kRoom = 15;                  // layers: least empty space below a ceiling
+constexpr int kCeiling = 8, kSurface = 4;  // layers: of the ceilings of a storey, of one surface
+constexpr double kLeastCovered = 0.07;     // share of the columns
 
-// Lowest and highest of most positions along an axis, so that a few outliers do not count.
-std::pair<float, float> usual_range(const std::vector<Eigen::Vector3f>& positions, int axis) {
-  std::vector<float> values;
-  for (const Eigen::Vector3f& p : positions) values.push_back(p[axis]);
-  const float low = percentile(values, 0.005), high = percentile(values, 0.995);
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  const float margin = 0.02f * (high - low);
-  return {std::max(*least, low - margin), std::min(*most, high + margin)};
+std::pair<float, float> narrowest(std::vector<float>& values, double share, float margin) {
+  std::ranges::sort(values);
+  const auto steps = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
+  std::size_t at = 0;
+  for (std::size_t i = 1; i + steps < values.size(); ++i)
+    if (values[i + steps] - values[i] < values[at + steps] - values[at]) at = i;
+  const float more = margin * (values[at + steps] - values[at]);
+  return {std::max(values.front(), values[at] - more), std::min(values.back(), values[at + steps] + more)};
 }
 
 }  // namespace
 
-std::optional<double> roof_height(const Scene& scene) {
+std::pair<float, float> most_of(std::vector<float>& values, double share) {
+  return narrowest(values, share, 0.15f);
+}
+
+// Idea: the plan is cut into columns. A ceiling is where the empty space of many columns ends at about one
+// height, below level points. Columns with a floor and nothing above it speak against it.
+std::vector<double> ceiling_cuts(const Scene& scene) {
   const std::vector<Eigen::Vector3f>& positions = scene.points.positions;
-  if (positions.empty()) return std::nullopt;
-  const std::pair<float, float> sides[] = {usual_range(positions, 0), usual_range(positions, 1)};
-  const auto [bottom, top] = usual_range(positions, 2);
-  const float tall = top - bottom;
-  const auto cell_of = [&](const Eigen::Vector3f& p) -> std::optional<std::size_t> {
-    std::size_t cell = 0;
-    for (int axis = 0; axis < 2; ++axis) {
-      const auto [low, high] = sides[axis];
-      const float part = kCells * (p[axis] - low) / std::max(1e-30f, high - low);
-      if (!(part >= 0 && part < kCells)) return std::nullopt;
-      cell = cell * kCells + static_cast<std::size_t>(part);
-    }
-    return cell;
+  if (positions.empty()) return {};
+  struct Column {
+    std::array<int, kLayers + kSurface> points{}, level{};
   };
-  std::vector<float> highest(kCells * kCells, kNone);
-  for (const Eigen::Vector3f& p : positions)
-    if (const auto cell = cell_of(p); cell && p.z() <= top) highest[*cell] = std::max(highest[*cell], p.z());
-  std::vector<bool> is_roofed(highest.size());
-  for (const Eigen::Vector3f& p : positions) {
-    if (const auto cell = cell_of(p))
-      if (highest[*cell] > top - 2 * kThickness * tall && p.z() < highest[*cell] - kLeastRoom * tall)
-        is_roofed[*cell] = true;
+  std::vector<Column> columns(kCells * kCells);
+  std::array<std::pair<float, float>, 3> ranges;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<float> values;
+    for (const Eigen::Vector3f& p : positions) values.push_back(p[axis]);
+    ranges[std::size_t(axis)] = narrowest(values, 0.99, 0.02f);
   }
-  std::vector<float> roofs;
-  std::ptrdiff_t occupied = 0;
-  for (std::size_t cell = 0; cell < highest.size(); ++cell) {
-    occupied += highest[cell] > kNone;
-    if (is_roofed[cell]) roofs.push_back(highest[cell]);
+  const auto part_of = [&](const Eigen::Vector3f& p, std::size_t axis, int parts) {
+    const auto [low, high] = ranges[axis];
+    const float part = float(parts) * (p[int(axis)] - low) / std::max(1e-30f, high - low);
+    return part >= 0 && part <= float(parts) ? std::min(int(part), parts - 1) : -1;
+  };
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const int x = part_of(positions[i], 0, kCells), y = part_of(positions[i], 1, kCells);
+    const int z = part_of(positions[i], 2, kLayers);
+    if (std::min({x, y, z}) < 0) continue;
+    Column& column = columns[std::size_t(x * kCells + y)];
+    ++column.points[std::size_t(z)];
+    column.level[std::size_t(z)] += std::abs(scene.points.normals[i].z()) > 0.8f;
   }
-  if (roofs.empty() || static_cast<float>(roofs.size()) < kLeastRoofed * static_cast<float>(occupied))
-    return std::nullopt;
-  return scene.origin.z() + double(percentile(roofs, 0.05) - kThickness * tall);
-}
-
-namespace {
-
-// Keeps the values of the given rows, in order.
-template <class Value>
-void keep(std::vector<Value>& values, const std::vector<std::size_t>& rows) {
-  if (values.empty()) return;
-  for (std::size_t i = 0; i < rows.size(); ++i) values[i] = values[rows[i]];
-  values.resize(rows.size());
-}
-
-void hide_points_above(float height, Scene::Points& points) {
-  std::vector<std::size_t> shown;
-  for (std::size_t i = 0; i < points.positions.size(); ++i)
-    if (points.positions[i].z() <= height) shown.push_back(i);
-  keep(points.positions, shown);
-  keep(points.probabilities, shown);
-  keep(points.normals, shown);
-  keep(points.colours, shown);
-}
-
-void hide_loops_above(float height, Scene::Loops& loops) {
-  std::vector<Eigen::Vector3f> vertices;
-  std::vector<std::size_t> first = {0};
-  for (std::size_t loop = 0; loop < loops.ids.size(); ++loop) {
-    const std::span<const Eigen::Vector3f> all = loops.vertices_of(loop);
-    if (std::ranges::any_of(all, [&](const Eigen::Vector3f& v) { return v.z() <= height; }))
-      vertices.insert(vertices.end(), all.begin(), all.end());
-    first.push_back(vertices.size());
+  int occupied = 0;
+  std::array<int, kLayers> covered{}, ends{}, open{};  // columns, by layer
+  const auto count = [](std::array<int, kLayers>& counts, int from, int to) {
+    for (int layer = std::max(0, from); layer <= to; ++layer) ++counts[std::size_t(layer)];
+  };
+  for (const Column& column : columns) {
+    const int all = std::reduce(column.points.begin(), column.points.end());
+    const auto is_level = [&](int layer) {
+      const auto sum = [layer](const auto& counts) {
+        return std::accumulate(counts.begin() + layer, counts.begin() + layer + kSurface, 0);
+      };
+      return 2 * sum(column.level) >= sum(column.points);
+    };
+    int last = -1;
+    for (int layer = 0; layer < kLayers; ++layer) {
+      if (100 * column.points[std::size_t(layer)] <= all) continue;
+      if (last >= 0 && layer - last > kRoom && is_level(layer)) {
+        count(covered, last + 2, layer);
+        count(ends, layer - kCeiling + 1, layer);
+      }
+      last = layer;
+    }
+    occupied += last >= 0;
+    if (last >= 0 && is_level(std::max(0, last + 1 - kSurface))) count(open, last + 1, kLayers - 1);
   }
-  loops.vertices = std::move(vertices);
-  loops.first = std::move(first);
+  std::vector<double> cuts;
+  const auto [bottom, top] = ranges[2];
+  for (int layer = kLayers - 1, best = 0, most = 0; layer >= 0; --layer) {
+    const auto at = std::size_t(layer);
+    const bool is_ceiling = ends[at] > 0 && covered[at] >= kLeastCovered * occupied &&
+                            covered[at] >= open[at] && 2 * ends[at] >= covered[at];
+    if (is_ceiling && ends[at] > most) best = layer, most = ends[at];
+    if (most == 0 || (is_ceiling && layer >= best - kCeiling)) continue;
+    cuts.push_back(scene.origin.z() + bottom + double(best - 3) / kLayers * (top - bottom));
+    layer = best - kRoom;  // the next storey
+    most = 0;
+  }
+  return cuts;
 }
 
-}  // namespace
-
-void hide_above(Scene& scene, double height) {
-  const auto relative = static_cast<float>(height - scene.origin.z());
-  hide_points_above(relative, scene.points);
-  hide_loops_above(relative, scene.loops);
+std::vector<bool> small_loops(const Scene::Loops& loops) {
+  std::vector<bool> are_small;
+  for (const ExplainedLoop& loop : loops.measures) {
+    const double width = loop.track.evidence.width;
+    are_small.push_back(width > 0 && width < kSmallWidth);
+  }
+  if (std::ranges::count(are_small, true) < kLeastSmall) are_small.assign(are_small.size(), false);
+  return are_small;
 }
 
 }  // namespace lacuna::io

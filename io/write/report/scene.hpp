@@ -29,13 +29,13 @@ using Colour = std::array<std::uint8_t, 3>;  // red, green, blue
 // names them) are left out, and so are the vertices of loops through strays: these loops have none.
 struct Scene {
   Json holes;                       // holes.json without its loops
-  Json run;                         // run.json; null where the folder has none
   Json next_stations;               // of read_next_stations(); null without
   Eigen::AlignedBox3d bounds;       // of the scan without its strays; empty without points
   std::uint64_t strays = 0;         // points of the scan that lie outside of them
   Eigen::Vector3d origin{0, 0, 0};  // least corner of the bounds
   double edge = 1;                  // of the cube from there that holds everything; above 0
   double rounding = 0;              // bound on the error of local coordinates (--local-coordinates)
+  float highest = std::numeric_limits<float>::infinity();  // pictures have nothing above; from the origin
 
   struct Points {
     std::vector<Eigen::Vector3f> positions;
@@ -73,7 +73,7 @@ struct SceneLimits {
 // Returns limits by which a scene fits in so many bytes, most of which are for reading.
 SceneLimits limits_within(std::uint64_t memory);
 
-// Reads holes.json, run.json, sample.ply and loops.ply of `folder`. Without a sample.ply, the scene has loops
+// Reads holes.json, sample.ply and loops.ply of `folder`. Without a sample.ply, the scene has loops
 // alone. Beyond the limits, points are left out evenly, and loops with the smallest perimeters. Loops are in
 // the order of their ids. Throws `Error` where a file is missing or not as `lacuna detect` writes it. Memory:
 // up to 40 bytes for each position and 150 for each loop of the run.
@@ -94,6 +94,11 @@ inline float percentile(std::vector<float>& values, double share) {
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
+
+// Returns the narrowest range of this share of the values, with 0.15 of it more on both sides. The range
+// ends where the values end. The function sorts them; there is at least one.
+inline constexpr double kFramed = 0.98;
+std::pair<float, float> most_of(std::vector<float>& values, double share);
 
 // The colours of points as the scan has them: red, green and blue of any type, or grey by intensity.
 class ColourColumns {
@@ -117,12 +122,15 @@ class ColourColumns {
   std::vector<std::size_t> files_ = {0};     // of each file, the first in taken_
 };
 
-// Returns the height below which a view sees into the scan, in coordinates of the scan; none without a roof.
-// A roof covers at least 0.6 of the plan, with points at least 0.4 of all heights below it. Cost: linear.
-std::optional<double> roof_height(const Scene& scene);
+// Returns the heights below which a view sees into each storey, in coordinates of the scan, the highest
+// first. They are none without ceilings. A ceiling is level, and covers at least as much as lies open. Below
+// it are empty 0.15 of all heights. Cost: linear.
+std::vector<double> ceiling_cuts(const Scene& scene);
 
-// Leaves out the points above `height`, in coordinates of the scan. Loops that lie above it with all of their
-// vertices have none afterwards, as loops through strays. Cost: linear.
-void hide_above(Scene& scene, double height);
+// Whether each loop is narrower than `kSmallWidth` spacings of its place, twice its area over its perimeter.
+// Pages and pictures fold such loops into one line where there are `kLeastSmall` or more; else none is small.
+inline constexpr double kSmallWidth = 3;
+inline constexpr std::ptrdiff_t kLeastSmall = 20;
+std::vector<bool> small_loops(const Scene::Loops& loops);
 
 }  // namespace lacuna::io

@@ -80,13 +80,12 @@ TEST_CASE("a picture from above has the surface, its hole and the loop where the
   CHECK(is_white(colour_at(picture, view, -4, 10)));    // next to the sheet
 }
 
-TEST_CASE("a loop is seen along its normal, with as much around it") {
+TEST_CASE("a loop is seen along its normal, and fills 0.6 of the picture") {
   const Scene scene = sheet();
   const View view = find_view(scene, "7", 300, 300);
   CHECK(view.towards.isApprox(Eigen::Vector3f(0, 0, 1)));
   CHECK((view.middle - Eigen::Vector3f(15, 5, 0)).norm() < 1e-4f);
-  CHECK(view.half_height > 6);
-  CHECK(view.half_height < 12);
+  CHECK(view.half_height == Approx(3 / 0.6f));
 }
 
 TEST_CASE("what lies before a loop at some distance does not hide it") {
@@ -115,7 +114,8 @@ TEST_CASE("a chosen loop is thick, and pale where the surface hides it, and othe
   Scene scene = sheet();
   scene.loops.ids.push_back(8);
   scene.loops.measures.push_back(scene.loops.measures.front());
-  for (const Eigen::Vector3f& corner : {Eigen::Vector3f(6, 2, 0), {9, 2, 0}, {9, 8, 0}, {6, 8, 0}})
+  for (const Eigen::Vector3f& corner :
+       {Eigen::Vector3f(10.5f, 2, 0), {11.5f, 2, 0}, {11.5f, 8, 0}, {10.5f, 8, 0}})
     scene.loops.vertices.push_back(corner);
   scene.loops.first.push_back(8);
   const auto count = [](const Picture& picture, Colour colour) {
@@ -136,18 +136,57 @@ TEST_CASE("a chosen loop is thick, and pale where the surface hides it, and othe
   CHECK(count(hidden, kPale) > 200);
 }
 
-TEST_CASE("a scan has a roof where a ceiling hides all else from above, and none without it") {
+TEST_CASE("a scan has a cut below each ceiling that hides all else from above, and none without ceilings") {
   Scene scene = with_sheet_at(10, sheet());
   scene.origin = {0, 0, 100};
-  REQUIRE(roof_height(scene));
-  CHECK(*roof_height(scene) > 104);
-  CHECK(*roof_height(scene) < 110);
-  CHECK_FALSE(roof_height(sheet()));
-  CHECK_FALSE(roof_height(Scene()));
-  // A ceiling over a quarter of the plan is no roof.
+  const std::vector<double> one = ceiling_cuts(scene);
+  REQUIRE(one.size() == 1);
+  CHECK(one.front() > 107);
+  CHECK(one.front() < 110);
+  CHECK(ceiling_cuts(sheet()).empty());
+  CHECK(ceiling_cuts(Scene()).empty());
+  // Another storey, whose floor is near the first ceiling.
+  const std::vector<double> two = ceiling_cuts(with_sheet_at(21, with_sheet_at(11, scene)));
+  REQUIRE(two.size() == 2);
+  CHECK(two.front() > 117);
+  CHECK(std::abs(two.back() - one.front()) < 1);
+  // Crowns of trees are not level, and a ceiling over a quarter of the plan hides little.
+  Scene crowns = scene;
+  std::ranges::fill(crowns.points.normals, Eigen::Vector3f(0.8f, 0, 0.6f));
+  CHECK(ceiling_cuts(crowns).empty());
   std::erase_if(scene.points.positions,
                 [](const Eigen::Vector3f& p) { return p.z() > 5 && (p.x() > 10 || p.y() > 10); });
-  CHECK_FALSE(roof_height(scene));
+  CHECK(ceiling_cuts(scene).empty());
+}
+
+TEST_CASE("a picture is as large as 98 in 100 points and a sure hole need, not as far pieces do") {
+  Scene scene = sheet();
+  const float all = find_view(scene, "top", 300, 300).half_height;
+  CHECK(all == Approx(1.05f * 10));  // the edge of the sheet is not cut
+  for (const float x : {300.0f, 310.0f, 320.0f}) scene.points.positions.push_back({x, x, 0});
+  CHECK(find_view(scene, "top", 300, 300).half_height < 1.3f * all);
+  scene.loops.vertices[2] = {60, 8, 0};
+  CHECK(find_view(scene, "top", 300, 300).half_height > 2.5f * all);
+}
+
+TEST_CASE("loops near the spacing are folded where they are many, and drawn where one is chosen") {
+  Scene scene = sheet();
+  const auto count = [&](const char* name) {
+    const Picture picture = draw(scene, find_view(scene, name, 200, 200), {200, 200});
+    return std::ranges::count_if(picture.pixels, is_reddish);
+  };
+  scene.loops.measures.front().track.evidence.width = 2.9;
+  const auto drawn = count("top");
+  CHECK(drawn > 0);
+  for (std::uint64_t id = 100; scene.loops.ids.size() < 20; ++id) {
+    scene.loops.ids.push_back(id);
+    scene.loops.measures.push_back(scene.loops.measures.front());
+    scene.loops.first.push_back(scene.loops.vertices.size());
+  }
+  CHECK(count("top") == 0);
+  CHECK(count("7") > 0);
+  scene.loops.measures.front().track.evidence.width = 3;  // the others are 19
+  CHECK(count("top") == drawn);
 }
 
 TEST_CASE("a view of another name is an error that says what is allowed") {
@@ -218,36 +257,20 @@ TEST_CASE("a scene without anything is a white picture") {
   CHECK(std::all_of(picture.pixels.begin(), picture.pixels.end(), is_white));
 }
 
-// Points at heights 100 to 109, and loops of three vertices: at 102, at 108, and from 104 to 106.
-Scene tower() {
-  Scene scene;
-  scene.origin = {5e5, 5e6, 100};
-  for (int z = 0; z < 10; ++z) {
-    scene.points.positions.push_back({0, 0, float(z)});
-    scene.points.probabilities.push_back(float(z) / 10);
-    scene.points.normals.push_back({0, 0, z % 2 == 0 ? 1.0f : -1.0f});
-  }
-  for (const auto& [a, b, c] : {std::array{2, 2, 2}, {8, 8, 8}, {4, 5, 6}}) {
-    for (const int z : {a, b, c}) scene.loops.vertices.push_back({1, 1, float(z)});
-    scene.loops.first.push_back(3 * scene.loops.ids.size());
-    scene.loops.ids.push_back(10 + scene.loops.ids.size());
-    scene.loops.measures.push_back({{.points = 3, .diameter = double(a)}, {}});
-  }
-  scene.loops.first.push_back(9);
-  return scene;
-}
-
-TEST_CASE("a section hides points above it, and loops that lie above it as a whole") {
-  Scene scene = tower();
-  hide_above(scene, 105);
-  REQUIRE(scene.points.positions.size() == 6);
-  CHECK(scene.points.positions.back().z() == 5);
-  CHECK(scene.points.probabilities == std::vector<float>{0, 0.1f, 0.2f, 0.3f, 0.4f, 0.5f});
-  CHECK(scene.points.normals.size() == 6);
-  CHECK(scene.points.colours.empty());
-  CHECK(scene.loops.ids == std::vector<std::uint64_t>{10, 11, 12});
-  CHECK(scene.loops.first == std::vector<std::size_t>{0, 3, 3, 6});
-  CHECK(scene.loops.vertices[5].z() == 6);
+TEST_CASE("nothing above the highest height is drawn, and a loop that lies there as a whole has no view") {
+  Scene scene = with_sheet_at(5, sheet());
+  const View all = find_view(scene, "top", 200, 200);
+  CHECK_FALSE(is_white(colour_at(draw(scene, all, {200, 200}), all, 15, 5)));
+  scene.highest = 4;
+  const View below = find_view(scene, "top", 200, 200);
+  const Picture picture = draw(scene, below, {200, 200});
+  CHECK(is_white(colour_at(picture, below, 15, 5)));
+  CHECK_FALSE(is_white(colour_at(picture, below, 5, 5)));
+  CHECK(is_reddish(colour_at(picture, below, 15, 2)));
+  scene.highest = -1;
+  const Picture none = draw(scene, find_view(scene, "top", 200, 200), {200, 200});
+  CHECK(std::all_of(none.pixels.begin(), none.pixels.end(), is_white));
+  CHECK_THROWS_WITH(find_view(scene, "7", 200, 200), Contains("above --hide-above"));
 }
 
 template <class T>

@@ -33,18 +33,11 @@ function write_header({report}, units) {
   find("summary").replaceChildren(...parts.map((part) => element("span", {}, part)));
 }
 
-// `set_theme(name)`; `other_theme()`: the name of the one that is not shown.
-function connect_header({set_theme, other_theme}) {
-  let is_theme_chosen = false;
+// `set_theme(name)`: the page has the colours of the system, light or dark.
+function connect_header(set_theme) {
   find("help-open").addEventListener("click", () => find("help").showModal());
   find("help").addEventListener("click", (event) => { if (event.target === find("help")) find("help").close(); });
-  find("theme").addEventListener("click", () => {
-    is_theme_chosen = true;
-    set_theme(other_theme());
-  });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => {
-    if (!is_theme_chosen) set_theme(event.matches ? "dark" : "light");
-  });
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => set_theme(event.matches ? "dark" : "light"));
 }
 
 // `name`: the data-tab of one of them.
@@ -70,11 +63,6 @@ function connect_tabs() {
     });
   }
   choose(tabs[0], false);
-  find("sheet").addEventListener("click", () => {
-    const is_tall = document.body.classList.toggle("tall-sheet");
-    find("sheet").setAttribute("aria-expanded", String(is_tall));
-    find("sheet").setAttribute("aria-label", is_tall ? "Smaller panel" : "Larger panel");
-  });
 }
 
 function connect_settings() {
@@ -86,13 +74,6 @@ function connect_settings() {
 }
 
 function connect_shown(scenes) {
-  const size = () => {
-    const factor = Math.pow(2, Number(find("point-size").value));
-    find("point-size-value").textContent = `× ${format_number(factor, 2)}`;
-    scenes.set_point_size(factor);
-  };
-  find("point-size").addEventListener("input", size);
-  size();
   const shown = () => scenes.set_shown(find("show-points").checked, find("show-loops").checked);
   find("show-points").addEventListener("change", shown);
   find("show-loops").addEventListener("change", shown);

@@ -81,10 +81,14 @@ function read_loops(loops, has_stations) {
   const count = loops && loops.id ? loops.id.length : 0;
   const has_changes = Boolean(loops && loops.change);
   const column = (name) => number_column(loops && loops[name], count);
+  const small = (loops && loops.small) || [];
   return {
     count,
     all: loops && Number.isFinite(loops.all) ? loops.all : count,
     is_hole: Uint8Array.from({length: count}, (_, i) => (loops.kind[i] === "hole" ? 1 : 0)),
+    is_small: Uint8Array.from(small),  // near the spacing; none where they are few
+    small_count: small.filter(Boolean).length,
+    small_below: loops && loops.small_below,  // spacings
     ...Object.fromEntries(["id", ...kMeasures].map((name) => [name, column(name)])),
     centroid: vector_column(loops && loops.centroid, count),
     normal: vector_column(loops && loops.normal, count),

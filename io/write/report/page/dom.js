@@ -41,20 +41,8 @@ function style_value(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }
 
-// The clipboard, or the old way where a page of a file may not use it.
 async function copy_text(text, button) {
-  let is_done = true;
-  try {
-    await navigator.clipboard.writeText(text);
-  } catch (error) {
-    const field = element("textarea", {class: "unseen", "aria-hidden": "true"});
-    field.value = text;
-    document.body.append(field);
-    field.select();
-    is_done = document.execCommand("copy");
-    field.remove();
-    button.focus();
-  }
+  const is_done = await Promise.resolve().then(() => navigator.clipboard.writeText(text)).then(() => true, () => false);
   const name = button.textContent;
   button.textContent = is_done ? "Copied" : "Not copied";
   setTimeout(() => { button.textContent = name; }, 1400);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Facts of the scan and of the run: sources, counts, parameters, times.
+// Facts of the scan and of its result: sources, counts, areas, causes, stations.
 
 const kLeastCertainty = 0.98;  // of a station that counts, as in io/explain/stations/station_views.hpp
 
 function draw_facts(data, units) {
   const {report} = data;
-  const parts = [area_facts(data, units), scan_facts(data, units), result_facts(data, units), cause_facts(data), station_facts(data),
-                 next_station_facts(data, units), parameter_facts(report)];
-  if (report.run) parts.push(run_facts(report.run));
+  const parts = [scan_facts(data, units), result_facts(data, units), cause_facts(data), station_facts(data),
+                 next_station_facts(data, units)];
   if (report.lacuna) parts.push(element("p", {class: "quiet"}, `Written by lacuna ${report.lacuna}.`));
   find("facts-body").replaceChildren(...parts.filter(Boolean));
 }
@@ -49,9 +48,6 @@ function scan_facts(data, units) {
   const crs = report.crs ? crs_name(report.crs) : "not stated";
   rows.push(["CRS", crs, crs.length > 22 ? "wide" : null]);
   const made = facts_part("Scan", description(rows));
-  if (report.crs && crs !== report.crs) {
-    made.append(element("details", {}, element("summary", {}, "Well-known text"), element("pre", {}, report.crs)));
-  }
   if (inputs.length > 0) made.append(file_list(inputs));
   return made;
 }
@@ -92,44 +88,6 @@ function result_facts(data, units) {
     made.append(element("p", {class: "quiet"},
         `This page holds the ${format_count(loops.count)} longest of ${format_count(loops.all)} loops; holes.json has all.`));
   }
-  return made;
-}
-
-function parameter_text(value) {
-  if (Array.isArray(value)) return value.length > 0 ? value.map(parameter_text).join(", ") : "none";
-  if (value === null || value === "") return "none";
-  if (typeof value === "number" && Number.isInteger(value)) return format_count(value);
-  return typeof value === "object" ? JSON.stringify(value) : String(value);
-}
-
-function parameter_facts(report) {
-  const changed = new Set(report.changed || []);
-  const rows = [], others = [];
-  for (const [section, values] of Object.entries(report.parameters || {})) {
-    for (const [key, value] of Object.entries(values || {})) {
-      const is_changed = changed.has(key) || changed.has(`${section}.${key}`);
-      (is_changed ? rows : others).push([element("span", {}, key.replace(/_/g, " "), element("small", {}, section)),
-                                         parameter_text(value), is_changed ? "changed" : null]);
-    }
-  }
-  const made = facts_part("Method", description([["Method", report.method || kMissing], ...rows]));
-  if (others.length > 0) {
-    made.append(element("details", {},
-        element("summary", {}, plural(others.length, "parameter", "parameters") + " at the default"), description(others)));
-  }
-  return made;
-}
-
-function run_facts(run) {
-  const rows = [["Time", format_seconds(run.seconds)]];
-  if (is_number(run.threads)) {
-    rows.push(["Threads", format_count(run.threads) + (is_number(run.cores) ? ` of ${plural(run.cores, "core", "cores")}` : "")]);
-  }
-  if (is_number(run.peak_memory_bytes)) rows.push(["Peak memory", format_bytes(run.peak_memory_bytes)]);
-  if (run.memory_limit_bytes > 0) rows.push(["Memory limit", format_bytes(run.memory_limit_bytes)]);
-  const made = facts_part("Run", description(rows));
-  const phases = (run.phases || []).filter(({seconds}) => is_number(seconds));
-  if (phases.length > 0) made.append(description(phases.map(({name, seconds}) => [name, format_seconds(seconds)])));
   return made;
 }
 
@@ -177,54 +135,4 @@ function next_station_facts({next_stations, report}, units) {
   return facts_part("Where to stand next", place_table(next_stations, [
     ["", ({rank}) => String(rank)], ["x  y  z", ({place}) => station_place(place, report)],
     ["Sees", ({area}) => units.area(area)], ["Of hidden", ({share}) => `${(100 * share).toPrecision(2)} %`]]));
-}
-
-// The check of an area: whether it is covered, a map of its voids, and the largest of them.
-
-const kMapWidth = 300;  // pixels; the style stretches it
-const kVoidRows = 10;
-
-// The map has the area as a sheet, the squares of the table as lines, and voids by whether they count.
-function area_map({polygons, voids, tiles, tile_edge}) {
-  const to = map_scale(polygons, kMapWidth);
-  const shape = (rings, style, title) => drawing("path", {d: to.path(rings), class: style, "fill-rule": "evenodd"},
-                                                 ...(title ? [drawing("title", {}, title)] : []));
-  return drawing("svg", {class: "area-map", viewBox: `-2 -2 ${(to.size[0] + 4).toFixed(1)} ${(to.size[1] + 4).toFixed(1)}`, role: "img",
-                         "aria-label": "Map of the area and its voids"},
-                 ...polygons.map(({outline, answer}) => shape(outline, "sheet", answer)),
-                 ...voids.map((each) => shape(each.outline, each.counts ? "counts" : "excepted", `void ${each.id}, ${each.kind}`)),
-                 ...tiles.map(({corner}) => shape(map_square(corner, tile_edge), "tile")));
-}
-
-function area_basis({basis, not_shown}) {
-  return element("details", {}, element("summary", {}, "Basis, and what is not shown"),
-                 description(basis.map(([thing, what]) => [thing, what, "wide"])),
-                 element("p", {}, "This check does not show:"),
-                 element("ul", {}, ...not_shown.map((text) => element("li", {}, text))));
-}
-
-function area_facts({report}, units) {
-  const {area} = report;
-  if (!area) return null;
-  const excepted = area.all - area.counting;
-  const share = (part) => `${(100 * part / area.area).toPrecision(3)} %`;
-  const rows = [["Answer", [area.answer, ...area.undecided].join(", "), "changed"],
-                ["Area", units.area(area.area, 4)],
-                ...(area.undecided.length === 0 ? [["Covered", share(area.area - area.missing_area)]] : []),
-                [`Voids of ${units.length(area.void_size)} or more`, format_count(area.counting)],
-                ...(excepted > 0 ? [["Voids in exceptions", format_count(excepted)]] : []),
-                ...area.classes.map(({name, voids_area}) => [`Voids in ${name}`, units.area(voids_area)]),
-                ["Points in it", format_count(area.points)],
-                ["Polygons", area.file, "wide"],
-                ...(area.except ? [["Exceptions", area.except, "wide"]] : [])];
-  const made = facts_part("Area", description(rows), area_map(area), area_basis(area));
-  if (area.voids.length === 0) return made;
-  const decimals = Math.max(0, place_decimals(area.void_size) - 1);
-  made.append(place_table(area.voids.slice(0, kVoidRows), [
-    ["Id", ({id}) => String(id)], ["Kind", ({kind, counts}) => (counts ? kind : `${kind}, excepted`)],
-    ["Area", (each) => units.area(each.area)], ["Circle", ({circle}) => units.length(circle)],
-    ["x  y", ({middle}) => middle.map((value) => format_place(value, decimals)).join("  ")]]));
-  if (area.all > kVoidRows)
-    made.append(element("p", {class: "quiet"}, `These are the largest of ${format_count(area.all)}; voids.csv has all.`));
-  return made;
 }

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which loops are shown: kind, mark, cause, diameter from and to, least confidence. Sliders and number fields say the same.
+// Which loops are shown: by kind, mark, cause, diameter and confidence. Many loops near the spacing are folded.
 
 class LoopFilter {
   // `on_change()` after each change, at most once a picture.
   constructor(loops, units, marks, on_change) {
     Object.assign(this, {loops, marks, on_change});
     this.clear();
-    const sizes = Array.from(loops.diameter).filter((value) => value > 0);
-    this.least = sizes.reduce((a, b) => Math.min(a, b), Infinity);
-    this.most = sizes.reduce((a, b) => Math.max(a, b), 0);
-    this.scale = units.scale(this.most, 1);
+    this.set_folded(loops.small_count > 0);
+    this.scale = units.scale(loops.diameter.reduce((a, b) => (b > a ? b : a), 0), 1);
     find("size-unit").textContent = this.scale.name;
     this.connect();
   }
@@ -17,47 +15,38 @@ class LoopFilter {
   // The least and the largest diameter are in the scan's unit.
   clear() { Object.assign(this, {kind: "all", mark: "any", cause: "any", size: 0, most_size: Infinity, confidence: 0}); }
 
+  set_folded(is_folded) {
+    this.is_folded = is_folded;
+    find("fold").hidden = this.loops.small_count === 0;
+    find("fold-text").textContent = this.fold_words() + (is_folded ? "" : " are shown");
+    find("fold-switch").textContent = is_folded ? "Show" : "Hide";
+    find("fold-switch").setAttribute("aria-pressed", String(!is_folded));
+  }
+
+  fold_words() {
+    const {small_count, small_below} = this.loops;
+    return small_count === 0 ? "" : `${plural(small_count, "loop", "loops")} below ${small_below} spacings`;
+  }
+
+  // For the legend: what the picture leaves out, to click.
+  fold_line() {
+    if (!this.is_folded) return [];
+    const line = element("button", {type: "button", class: "link"}, `${this.fold_words()}: show`);
+    line.addEventListener("click", () => find("fold-switch").click());
+    return [line];
+  }
+
   connect() {
+    find("fold-switch").addEventListener("click", () => { this.set_folded(!this.is_folded); this.changed(); });
     for (const radio of document.getElementsByName("kind")) {
       radio.addEventListener("change", () => { this.kind = radio.value; this.changed(); });
     }
     find("mark-filter").addEventListener("change", () => { this.mark = find("mark-filter").value; this.changed(); });
     find("cause-filter").addEventListener("change", () => { this.cause = find("cause-filter").value; this.changed(); });
-    const {least, most} = this;
-    const slider = find("size-slider"), number = find("size-number");
-    slider.disabled = !(most > 0);
-    slider.addEventListener("input", () => {
-      const part = slider.value / 1000;
-      // A little beyond the largest at the end, so that the slider can leave out all.
-      this.size = part === 0 ? 0 : least * Math.pow((most * 1.02) / least, part);
-      number.value = Number((this.size * this.scale.factor).toPrecision(3));
-      typed_number(number);
-      this.changed();
-    });
-    number.addEventListener("input", () => {
-      this.size = Math.max(0, typed_number(number) || 0) / this.scale.factor;
-      slider.value = this.size <= least || !(most > least) ? 0
-          : Math.round((1000 * Math.log(this.size / least)) / Math.log((most * 1.02) / least));
-      this.changed();
-    });
-    const largest = find("size-most");
-    largest.addEventListener("input", () => {
-      const value = typed_number(largest);
-      this.most_size = Number.isNaN(value) ? Infinity : value / this.scale.factor;
-      this.changed();
-    });
-    const confidence = find("confidence-slider"), field = find("confidence-number");
-    confidence.addEventListener("input", () => {
-      this.confidence = Number(confidence.value);
-      field.value = confidence.value;
-      typed_number(field);
-      this.changed();
-    });
-    field.addEventListener("input", () => {
-      this.confidence = Math.max(0, typed_number(field) || 0);
-      confidence.value = this.confidence;
-      this.changed();
-    });
+    const connect_number = (id, take) => find(id).addEventListener("input", () => { take(typed_number(find(id))); this.changed(); });
+    connect_number("size-number", (value) => { this.size = Math.max(0, value || 0) / this.scale.factor; });
+    connect_number("size-most", (value) => { this.most_size = Number.isNaN(value) ? Infinity : value / this.scale.factor; });
+    connect_number("confidence-number", (value) => { this.confidence = Math.max(0, value || 0); });
     find("filters").addEventListener("submit", (event) => event.preventDefault());
   }
 
@@ -82,11 +71,13 @@ class LoopFilter {
     if (this.size > 0) parts.push(`diameter at least ${units.length(this.size)}`);
     if (this.most_size < Infinity) parts.push(`diameter at most ${units.length(this.most_size)}`);
     if (this.confidence > 0) parts.push(`confidence at least ${format_number(this.confidence, 2)}`);
+    if (this.is_folded) parts.push(`without ${this.fold_words()}`);
     return parts.join(", ");
   }
 
   passes(i) {
-    const {is_hole, diameter, confidence} = this.loops;
+    const {is_hole, is_small, diameter, confidence} = this.loops;
+    if (this.is_folded && is_small[i] && this.marks.mark[i] === kNoMark) return false;
     if (this.kind === "hole" && !is_hole[i]) return false;
     if (this.kind === "outer" && is_hole[i]) return false;
     if (this.mark !== "any" && this.marks.mark[i] !== this.mark) return false;

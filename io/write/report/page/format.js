@@ -82,23 +82,6 @@ function format_place(value, decimals) {
   return Number(rounded) === 0 ? rounded.replace("-", "") : rounded.replace("-", "−");
 }
 
-function format_seconds(seconds) {
-  if (!is_number(seconds)) return kMissing;
-  if (seconds < 1) return `${format_number(seconds * 1000, seconds < 0.1 ? 2 : 3)} ms`;
-  if (seconds < 120) return `${format_number(seconds, 3)} s`;
-  const minutes = Math.floor(seconds / 60);
-  if (minutes < 120) return `${minutes} min ${Math.round(seconds % 60)} s`;
-  return `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
-}
-
-function format_bytes(bytes) {
-  if (!is_number(bytes)) return kMissing;
-  const names = ["B", "KiB", "MiB", "GiB", "TiB"];
-  let at = 0;
-  while (bytes >= 1024 && at < names.length - 1) { bytes /= 1024; ++at; }
-  return `${at === 0 ? bytes : format_number(bytes, 3)} ${names[at]}`;
-}
-
 // 1, 2 or 5 times a power of ten, at most `limit`.
 function round_step(limit) {
   const power = Math.pow(10, Math.floor(Math.log10(limit)));

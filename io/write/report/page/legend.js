@@ -67,8 +67,8 @@ function css_rgb(text) {
   return [(value >> 16) / 255, ((value >> 8) & 255) / 255, (value & 255) / 255];
 }
 
-// `heights`: real heights at the two ends of the colours; `hidden`: what the section hides, may be empty. `lines`: lists
-// of elements that say what loops and markers are.
+// `heights`: real heights at the two ends of the colours. `lines`: lists
+// of elements that say what loops and markers are. `hidden`: what the section hides, may be empty.
 function draw_legend(colouring, theme, heights, units, lines, hidden) {
   const parts = [];
   const names = {probability: "Boundary probability", height: "Height", colour: "Colours of the scan", plain: ""};
@@ -79,13 +79,12 @@ function draw_legend(colouring, theme, heights, units, lines, hidden) {
     const text = (part) => (colouring === "height" ? (low + (high - low) * part).toFixed(Math.max(0, digits - 1)) : String(part));
     const unit = colouring === "height" && units.name ? ` ${units.name}` : "";
     parts.push(element("p", {class: "legend-name"}, names[colouring], unit ? element("span", {class: "unit"}, unit) : null));
-    parts.push(element("div", {class: "ramp", style: `background:${ramp_gradient(ramp, "90deg")}`}));
-    parts.push(element("div", {class: "ramp-text"}, ...[0, 0.5, 1].map((part) => element("span", {}, text(part)))));
+    parts.push(element("div", {class: "ramp-text"}, text(0), element("div", {class: "ramp", style: `background:${ramp_gradient(ramp, "90deg")}`}), text(1)));
   } else if (names[colouring]) {
     parts.push(element("p", {class: "legend-name"}, names[colouring]));
   }
   for (const line of lines) if (line.length > 0) parts.push(element("p", {class: "legend-lines"}, ...line));
-  if (hidden) parts.push(element("p", {class: "legend-section"}, hidden));
+  if (hidden) parts.push(element("p", {}, hidden));
   find("legend").hidden = parts.length === 0;
   find("legend").replaceChildren(...parts);
 }
@@ -107,22 +106,10 @@ function draw_scale(view, units) {
   find("scale-text").textContent = units.length(length, 1);
 }
 
-// Where north is, the y axis of a projected coordinate system.
-function draw_north(camera) {
+// Names of the axes: east and north of a projected coordinate system.
+function draw_triad(camera, names) {
   const e = camera.matrixWorldInverse.elements;
-  const [x, y] = [e[4], -e[5]];
-  const length = Math.hypot(x, y);
-  find("north").toggleAttribute("hidden", length < 0.12);  // nearly along the view: its direction says nothing
-  if (length < 0.12) return;
-  const turn = (Math.atan2(x, -y) * 180) / Math.PI;
-  find("north").replaceChildren(
-      drawing("path", {d: "M0 -19 L6 13 L0 8 L-6 13 Z", transform: `rotate(${turn.toFixed(1)})`}),
-      drawing("text", {x: (26 * x / length).toFixed(2), y: (26 * y / length + 3.5).toFixed(2)}, "N"));
-}
-
-function draw_triad(camera) {
-  const e = camera.matrixWorldInverse.elements;
-  const axes = ["x", "y", "z"].map((name, k) => ({name, x: e[4 * k], y: -e[4 * k + 1], z: e[4 * k + 2]}));
+  const axes = names.map((name, k) => ({name, x: e[4 * k], y: -e[4 * k + 1], z: e[4 * k + 2]}));
   axes.sort((a, b) => a.z - b.z);
   find("triad").replaceChildren(...axes.map(({name, x, y, z}) => drawing("g", {class: z < -0.2 ? "far" : null},
       drawing("line", {x1: 0, y1: 0, x2: (19 * x).toFixed(2), y2: (19 * y).toFixed(2)}),

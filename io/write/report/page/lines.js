@@ -95,7 +95,6 @@ class LineCorners {
     const {count, first, vertices} = loops;
     const edges = vertices.length / 3;
     this.first = first;
-    this.edges = edges;
     const here = new Float32Array(edges * 12), other = new Float32Array(edges * 12), more = new Float32Array(edges * 16);
     for (let loop = 0; loop < count; ++loop) {
       let length = 0;

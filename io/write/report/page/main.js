@@ -26,6 +26,7 @@ class Page {
     this.apply_marks();
     this.set_theme(this.theme);
     if (this.view && loops.has_changes) this.set_by_cause(true);
+    if (this.view) this.view.begin();  // the legend, the table and the foot have their sizes
     this.open_link(false);
     if (this.view) this.view.draw();
   }
@@ -43,8 +44,7 @@ class Page {
       this.view = new View(find("canvas"), context, this.data, {
         on_frame: (view) => {
           draw_scale(view, this.units);
-          draw_triad(view.navigation.camera);
-          if (this.data.report.crs && this.data.frame.up === 2) draw_north(view.navigation.camera);
+          draw_triad(view.navigation.camera, this.data.report.crs ? ["E", "N", "z"] : ["x", "y", "z"]);
           if (!this.names) return;  // the last of them that is made
           this.sight.draw();
           this.station_marks.draw();
@@ -71,7 +71,7 @@ class Page {
   }
 
   connect() {
-    connect_header({set_theme: (name) => this.set_theme(name), other_theme: () => (this.theme === "dark" ? "light" : "dark")});
+    connect_header((name) => this.set_theme(name));
     connect_tabs();
     window.addEventListener("hashchange", () => this.open_link(true));
     this.connect_view();
@@ -85,7 +85,7 @@ class Page {
     connect_keys({navigation: this.view && this.view.navigation, press: {
       n: () => step(1), p: () => step(-1), escape: () => this.escape(), "?": () => find("help").showModal(),
       f: () => this.fly_to_side("fit"), 1: () => this.fly_to_side("top"), 2: () => this.fly_to_side("front"), 3: () => this.fly_to_side("side"),
-      c: () => this.next_colouring(), t: () => find("through").click(),
+      t: () => find("through").click(),
       m: () => find("measure").click(),
       0: () => this.set_mark(kNoMark), e: () => this.edit_note(),
       ...Object.fromEntries(kMarks.map(({name, key}) => [key, () => this.set_mark(name)])),
@@ -94,7 +94,10 @@ class Page {
 
   connect_view() {
     find("back").addEventListener("click", () => this.escape());
-    find("colouring").addEventListener("change", () => this.set_colouring(find("colouring").value));
+    find("colouring").addEventListener("change", () => {
+      this.colouring = find("colouring").value;
+      this.update_colours();
+    });
     connect_settings();
     if (!this.view) return;
     this.measure = new Measure(this.view, this.units, this.decimals);
@@ -109,7 +112,7 @@ class Page {
     find("loop-colouring").addEventListener("change", () => this.set_by_cause(find("loop-colouring").value === "cause"));
     find("up-axis").addEventListener("change", () => this.turn_up(Number(find("up-axis").value)));
     this.section = new Section(this.data, this.view.bounds, this.units, (low, high) => this.apply_section(low, high));
-    this.section.open_roof(this.data.report.roof);
+    this.section.open_storeys(this.data.report.ceilings || []);
     for (const button of document.querySelectorAll("[data-side]")) {
       button.addEventListener("click", () => this.fly_to_side(button.dataset.side));
     }
@@ -119,7 +122,7 @@ class Page {
   turn_up(up) {
     this.data.frame.up = up;
     this.former = null;
-    find("north").setAttribute("hidden", "");
+    find("storey").hidden = true;  // its heights are along z
     this.view.turn_up();
     this.view.set_cut(Infinity);
     this.section.set_ranges();
@@ -139,17 +142,6 @@ class Page {
     return (this.data.report.title || "scan").replace(/\.[a-z0-9]+$/i, "").replace(/[^\w.-]+/g, "_");
   }
 
-  next_colouring() {
-    const names = Array.from(find("colouring").options, (option) => option.value);
-    this.set_colouring(names[(names.indexOf(this.colouring) + 1) % names.length]);
-  }
-
-  set_colouring(name) {
-    this.colouring = name;
-    find("colouring").value = name;
-    this.update_colours();
-  }
-
   // Colours of loops: by cause, else by kind.
   set_by_cause(by_cause) {
     find("loop-colouring").value = by_cause ? "cause" : "kind";
@@ -161,7 +153,6 @@ class Page {
   set_theme(theme) {
     this.theme = theme;
     document.documentElement.dataset.theme = theme;
-    find("theme").setAttribute("aria-pressed", String(theme === "dark"));
     this.update_colours();
   }
 
@@ -175,7 +166,7 @@ class Page {
     const {low, high} = this.view.bounds.box;
     const {frame, loops} = this.data;
     const markers = this.station_marks && this.station_marks.is_shown ? station_legend(this.data) : [];
-    const lines = [this.view.scenes.by_cause ? cause_legend(loops) : kind_legend(loops), markers];
+    const lines = [this.view.scenes.by_cause ? cause_legend(loops) : kind_legend(loops), markers, this.filter.fold_line()];
     const heights = [low[frame.up], high[frame.up]].map((height) => real_height(frame, height));
     draw_legend(this.data.points.count > 0 ? this.colouring : "plain", this.theme, heights, this.units, lines,
                 this.section.words());
@@ -205,6 +196,7 @@ class Page {
     if (this.view) this.view.scenes.set_loops(this.table.shown);
     if (this.selected >= 0 && !passes(this.selected)) this.deselect();
     this.update_reset();
+    if (this.view && this.section) this.update_legend();
   }
 
   // ---- Marks
@@ -277,6 +269,7 @@ class Page {
     if (index === this.selected) return;
     if (!this.filter.passes(index)) {
       this.filter.reset();
+      this.filter.set_folded(false);
       this.apply_filter();
     }
     this.select(index, true);
@@ -312,7 +305,7 @@ class Page {
     find("canvas").style.cursor = index < 0 ? "" : "pointer";
     if (index < 0) return;
     const {loops} = this.data;
-    const box = find("view").getBoundingClientRect();
+    const box = find("stage").getBoundingClientRect();
     const cause = loops.cause[index] === kNoCause ? "" : ` · ${cause_title(loops.cause[index])}`;
     tag.textContent = `${loop_name(loops, index)} · ⌀ ${this.units.length(loops.diameter[index])}${cause}`;
     tag.style.transform = `translate(${Math.round(x - box.left + 14)}px, ${Math.round(y - box.top + 12)}px)`;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What lies over the view. First scene positions in pixels, then ids of holes, then stations with the places to stand
-// next. Last the line from a station to what hides the selected hole.
+// next. The line from a station to what hides the selected hole follows, and measures.
 
 // [right, up, ahead] of the eye.
 function seen_from(camera, place) {
-  const {x, y, z} = new THREE.Vector3(...place).applyMatrix4(camera.matrixWorldInverse);
-  return [x, y, -z];
+  const e = camera.matrixWorldInverse.elements;
+  const along = (k) => e[k] * place[0] + e[4 + k] * place[1] + e[8 + k] * place[2] + e[12 + k];
+  return [along(0), along(1), -along(2)];
 }
 
 // {width, height, focal}: the view in pixels of the page; `focal` is at distance 1.
@@ -48,14 +49,15 @@ function pixels_of_edge(view, from, to) {
   return {x1, y1, x2, y2};
 }
 
-const kMostNames = 60, kLeastPixels = 24;  // of a hole on the screen that has its id
+const kMostNames = 60, kMostCorners = 400;  // of a loop, to find a place for its id
 const kNamePixels = 15;  // height of an id
 
-// The pixels of a loop's vertices; null where one is behind the eye.
-function pixels_of_loop(view, {first, vertices}, index) {
+// The pixels of a loop's vertices, or of so many of them; null where one is behind the eye.
+function pixels_of_loop(view, {first, vertices}, index, most = Infinity) {
   const pixels = view_pixels(view), {camera} = view.navigation;
+  const step = Math.ceil((first[index + 1] - first[index]) / most) || 1;
   const places = [];
-  for (let i = first[index]; i < first[index + 1]; ++i) {
+  for (let i = first[index]; i < first[index + 1]; i += step) {
     const seen = seen_from(camera, vertices.subarray(3 * i, 3 * i + 3));
     if (!(seen[2] > 0)) return null;
     places.push(to_pixel(pixels, seen));
@@ -96,33 +98,41 @@ function hole_around(view, loops, shown, x, y) {
 
 class LoopNames {
   constructor(view, loops) {
-    Object.assign(this, {view});
+    Object.assign(this, {view, loops});
     const size = (i) => (loops.diameter[i] >= 0 ? loops.diameter[i] : -1);
-    this.largest = Array.from(loops.id.keys()).filter((i) => loops.is_hole[i]).sort((a, b) => size(b) - size(a)).slice(0, kMostNames);
-    this.boxes = this.largest.map((i) => loop_box(loops, i));
+    const largest = (is_hole) => Array.from(loops.id.keys()).filter((i) => loops.is_hole[i] === is_hole).sort((a, b) => size(b) - size(a)).slice(0, kMostNames);
+    this.largest = largest(1);
+    this.drawn = [...this.largest, ...largest(0)];
+    this.boxes = new Map(this.drawn.map((i) => [i, loop_box(loops, i)]));
     this.nodes = this.largest.map((i) => drawing("text", {}, String(loops.id[i])));
     find("names-over").replaceChildren(...this.nodes);
   }
 
-  // After each picture.
-  // The chosen one comes first, then the largest; an id that would lie on another one is left out.
+  // Whether the picture may have this loop.
+  is_seen(index) {
+    const box = this.boxes.get(index), {section} = this.view.uniforms, {up} = this.view.data.frame;
+    return Boolean(box) && this.is_shown.has(index) && box.low[up] <= section.value.y && box.high[up] >= section.value.x &&
+           seen_from(this.view.navigation.camera, box.middle)[2] > this.view.nearest();
+  }
+
+  // After each picture. An id stands in the middle of its hole, where it covers no line and no other id. The chosen one
+  // comes first, then the largest.
   draw(shown, selected) {
     if (this.shown !== shown) Object.assign(this, {shown, is_shown: new Set(shown)});
-    const are_shown = find("show-loops").checked;
-    const {focal} = view_pixels(this.view), {camera} = this.view.navigation;
-    const taken = [];
-    const order = Array.from(this.largest.keys()).sort((a, b) => (this.largest[b] === selected) - (this.largest[a] === selected) || a - b);
-    for (const k of order) {
-      const index = this.largest[k];
-      const box = are_shown && this.is_shown.has(index) ? this.boxes[k] : null;
-      const ahead = box ? seen_from(camera, box.middle)[2] : 0;
-      const is_large = ahead > this.view.nearest() && (2 * box.radius * focal) / ahead >= kLeastPixels;
-      const pixel = is_large ? pixel_of(this.view, box.middle, 0) : null;
-      const half = 4 * this.nodes[k].textContent.length + 2;
-      const at = pixel && taken.every(([x, y, wide]) => Math.abs(pixel[0] - x) >= half + wide || Math.abs(pixel[1] - y) >= kNamePixels) ? pixel : null;
-      if (at) taken.push([...at, half]);
-      this.nodes[k].toggleAttribute("hidden", !at);
-      if (at) this.nodes[k].setAttribute("transform", `translate(${at[0].toFixed(1)} ${at[1].toFixed(1)})`);
+    const drawn = new Map(find("show-loops").checked ? this.drawn.filter((i) => this.is_seen(i)).map((i) => [i, pixels_of_loop(this.view, this.loops, i, kMostCorners)]) : []);
+    const lines = Array.from(drawn.values()).filter(Boolean).flat(), taken = [];
+    for (const k of Array.from(this.largest.keys()).sort((a, b) => (this.largest[b] === selected) - (this.largest[a] === selected) || a - b)) {
+      const node = this.nodes[k], places = drawn.get(this.largest[k]);
+      const half = [4 * node.textContent.length + 2, kNamePixels / 2];
+      const ends = places && [0, 1].map((axis) => places.reduce(([low, high], at) => [Math.min(low, at[axis]), Math.max(high, at[axis])], [Infinity, -Infinity]));
+      const at = ends && ends.map(([low, high]) => (low + high) / 2);
+      const is_free = Boolean(at) && ends.every(([low, high], axis) => high - low > 2 * half[axis]) &&
+          !lines.some((place) => place.every((value, axis) => Math.abs(value - at[axis]) < half[axis])) &&
+          taken.every((other) => at.some((value, axis) => Math.abs(value - other.at[axis]) >= half[axis] + other.half[axis]));
+      node.toggleAttribute("hidden", !is_free);
+      if (!is_free) continue;
+      taken.push({at, half});
+      node.setAttribute("transform", `translate(${at[0].toFixed(1)} ${at[1].toFixed(1)})`);
     }
   }
 }
@@ -226,5 +236,66 @@ class SightLine {
     const at = this.places.length > 0 ? pixel_of(this.view, this.places[1], 10) : null;
     if (at) parts.push(drawing("circle", {cx: at[0], cy: at[1], r: 4}));
     document.querySelector("#stations-over .sight").replaceChildren(...parts);
+  }
+}
+
+// Measures in the view: coordinates of a point of the sample, and the distance of two.
+
+class Measure {
+  // `view`, not null; places have `decimals`.
+  constructor(view, units, decimals) {
+    Object.assign(this, {view, units, decimals});
+    this.is_on = false;
+    this.places = [];  // at most two, in scene coordinates
+    find("measure").addEventListener("click", () => this.set(!this.is_on));
+    find("measure-close").addEventListener("click", () => this.set(false));
+  }
+
+  set(is_on) {
+    this.is_on = is_on;
+    this.places = [];
+    find("measure").setAttribute("aria-pressed", String(is_on));
+    find("view").classList.toggle("measuring", is_on);
+    this.show();
+  }
+
+  // A third point begins anew.
+  pick(x, y) {
+    const found = this.view.point_at(x, y);
+    if (!found) {
+      find("measure-text").textContent = "No point is there.";
+      return;
+    }
+    if (this.places.length === 2) this.places = [];
+    this.places.push(found.place);
+    this.show();
+  }
+
+  real(place) { return to_real(this.view.data.frame, place); }
+
+  words(place) { return this.real(place).map((value) => format_place(value, this.decimals)); }
+
+  show() {
+    const {places} = this;
+    find("measure-panel").hidden = !this.is_on;
+    const parts = places.length === 0 ? ["Choose a point."] : [axes(this.words(places[places.length - 1]))];
+    if (places.length === 2) {
+      const [from, to] = places.map((place) => this.real(place));
+      const steps = to.map((value, axis) => format_place(value - from[axis], this.decimals));
+      const length = Math.hypot(...to.map((value, axis) => value - from[axis]));
+      parts.unshift(element("strong", {}, this.units.length(length, 4)));
+      parts.push(element("span", {class: "quiet"}, `Δ ${steps.join("  ")}`));
+    }
+    find("measure-text").replaceChildren(...parts);
+    this.draw();
+  }
+
+  // After each picture: signs at the points, and the line.
+  draw() {
+    const ends = this.places.length === 2 ? pixels_of_edge(this.view, ...this.places) : null;
+    const at = this.places.map((place) => pixel_of(this.view, place, 0)).filter(Boolean);
+    find("measure-over").replaceChildren(
+        ...(ends ? [drawing("line", {...ends, class: "casing"}), drawing("line", ends)] : []),
+        ...at.map(([cx, cy]) => drawing("circle", {cx, cy, r: 5})));
   }
 }

@@ -5,10 +5,10 @@ set(page_folder ${CMAKE_CURRENT_LIST_DIR})
 set(three_folder /usr/share/javascript/three CACHE PATH "three.js, as Debian's libjs-three has it")
 set(page_styles page view widths print)  # in this order: later rules win
 set(page_libraries ${three_folder}/three.min.js ${three_folder}/examples/js/controls/OrbitControls.js)
-set(page_scripts data format dom map causes legend bounds shading points lines scenes navigation pointer view overlay marks filter table
-    details facts controls section measure print main)  # only main does anything by itself; so their order does not matter
+set(page_scripts data format dom legend shading points lines scenes navigation pointer view overlay marks filter table details
+    facts controls section print main)  # only main does anything by itself; so their order does not matter
 set(sheet_styles page print)  # and sheet.css; the sheet looks on a screen as it does on paper
-set(sheet_scripts dom format map sheet)
+set(sheet_scripts dom format sheet)
 foreach(list page_styles sheet_styles)
   list(TRANSFORM ${list} REPLACE "(.+)" "${page_folder}/\\1.css")
 endforeach()

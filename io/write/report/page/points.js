@@ -95,7 +95,6 @@ class PointCloud {
     });
     this.object = new THREE.Points(geometry, this.material);
     this.object.frustumCulled = false;
-    this.factor = 1;  // of the size of points
   }
 
   set_colouring(name, theme) {
@@ -113,6 +112,6 @@ class PointCloud {
   set_drawn(count) {
     this.object.geometry.setDrawRange(0, count);
     const missing = Math.sqrt(this.count / Math.max(1, count));
-    this.uniforms.size.value = 1.35 * this.spacing * this.factor * Math.min(3, missing);
+    this.uniforms.size.value = 1.35 * this.spacing * Math.min(3, missing);
   }
 }

@@ -3,7 +3,7 @@
 //
 // The pages are made when printing begins, and go when it ends. Pictures are JPEG: a PDF takes them as they are.
 
-const kMostPages = 100;            // of holes, unless the reader chooses another number
+const kMostPages = 100;            // of holes: filters choose others
 const kSummaryRows = 12;
 const kPrintWidth = 1200, kPrintHeight = 690;  // pixels of a picture
 
@@ -17,27 +17,16 @@ class PrintPages {
     find("print-open").addEventListener("click", () => this.open());
     find("print-form").addEventListener("submit", (event) => {
       event.preventDefault();
-      if (this.most() === null) return;
       find("print-dialog").close();
       this.print();
     });
     find("print-cancel").addEventListener("click", () => find("print-dialog").close());
-    find("print-most").addEventListener("input", () => this.most());
   }
 
   open() {
     const count = this.loops().length;
-    find("print-count").textContent = `${plural(count, this.name(1), this.name(2))} ${count === 1 ? "passes" : "pass"} the filters. Each has a page of its own, the largest first.`;
+    find("print-count").textContent = `${plural(count, "hole", "holes")} ${count === 1 ? "passes" : "pass"} the filters. Each has a page of its own, the largest first${count > kMostPages ? `, up to ${kMostPages}` : ""}.`;
     find("print-dialog").showModal();
-  }
-
-  // Pages of holes at most; null where the field has no whole number, which marks it.
-  most() {
-    const field = find("print-most"), value = typed_number(field);
-    const is_right = Number.isInteger(value) && value >= 0;
-    field.setAttribute("aria-invalid", String(!is_right));
-    field.title = is_right ? "" : "A whole number from 0 is needed";
-    return is_right ? value : null;
   }
 
   // With the pages ready before: other browsers than Chromium do not wait for their pictures.
@@ -52,24 +41,16 @@ class PrintPages {
     this.is_filled = false;
   }
 
-  // Outer curves have pages where the filter shows them alone.
-  name(count) {
-    const is_outer = this.page.filter.kind === "outer";
-    return count === 1 ? (is_outer ? "outer curve" : "hole") : is_outer ? "outer curves" : "holes";
-  }
-
   // Indices of what has pages, the largest first.
   loops() {
     const {loops} = this.page.data;
-    const wanted = this.page.filter.kind === "outer" ? 0 : 1;
     const size = (i) => (loops.area[i] >= 0 ? loops.area[i] : -1);
-    return this.page.table.shown.filter((i) => loops.is_hole[i] === wanted).sort((a, b) => size(b) - size(a) || a - b);
+    return this.page.table.shown.filter((i) => loops.is_hole[i]).sort((a, b) => size(b) - size(a) || a - b);
   }
 
   fill() {
     const all = this.loops();
-    const most = this.most();
-    const shown = all.slice(0, most === null ? kMostPages : most);
+    const shown = all.slice(0, kMostPages);
     const root = document.documentElement, {theme} = this.page;
     root.dataset.theme = "light";  // of the pictures, too
     root.classList.add("on-paper");
@@ -131,8 +112,7 @@ class PrintPages {
     if (loops.has_causes) {
       rows.push([`${loops.cause_word}s`, cause_counts(loops, all).map(([cause, count]) => `${cause_title(cause)} ${format_count(count)}`).join(", ") || kMissing]);
     }
-    const origin = [["Unit", units.name || "not stated"], ["CRS", report.crs ? crs_name(report.crs) : "not stated"],
-                    ["Method", report.method || kMissing]];
+    const origin = [["Unit", units.name || "not stated"], ["CRS", report.crs ? crs_name(report.crs) : "not stated"]];
     const marked = kMarks.map(({name, title}) => [element("span", {}, mark_sign(name), title),
                                                   format_count(all.filter((i) => marks.mark[i] === name).length)]);
     return element("section", {class: "print-page print-summary"},
@@ -141,7 +121,7 @@ class PrintPages {
         pictures.summary ? element("img", {src: pictures.summary, class: "print-picture", alt: ""}) : plan.figure(-1),
         view && view.scenes.by_cause ? element("p", {class: "legend-lines"}, ...cause_legend(loops)) : "",
         element("p", {class: "print-words"},
-                `${plural(all.length, this.name(1), this.name(2))} ${all.length === 1 ? "passes" : "pass"} the filters` +
+                `${plural(all.length, "hole", "holes")} ${all.length === 1 ? "passes" : "pass"} the filters` +
                 `${words ? ` (${words})` : ""}. ${pages}`),
         element("div", {class: "print-columns"}, description(rows), description([...marked, ...origin])),
         shown.length > 0 ? this.summary_table(shown) : "");
@@ -233,11 +213,6 @@ class Plan {
       const [x, y] = this.at(box.middle, 0);
       const radius = Math.max(16, 0.62 * Math.hypot(...this.axes.map((axis) => box.high[axis] - box.low[axis])) * this.factor);
       const line = (x1, y1, x2, y2) => drawing("line", {x1, y1, x2, y2});
-      const {first, vertices} = this.data.loops;
-      const step = Math.max(1, Math.floor((first[index + 1] - first[index]) / 300));
-      const places = [];
-      for (let i = first[index]; i < first[index + 1]; i += step) places.push(this.at(vertices, i).map((value) => value.toFixed(1)).join());
-      over.append(drawing("polygon", {points: places.join(" ")}));
       over.append(drawing("circle", {cx: x, cy: y, r: radius}), line(0, y, x - radius, y), line(x + radius, y, width, y),
                   line(x, 0, x, y - radius), line(x, y + radius, x, height));
     }

@@ -75,11 +75,6 @@ class Scenes {
     this.set_colours();
   }
 
-  set_point_size(factor) {
-    this.cloud.factor = factor;
-    this.on_change();
-  }
-
   set_shown(are_points, are_loops) {
     this.cloud.object.visible = are_points;
     this.are_loops_shown = are_loops;

@@ -5,21 +5,13 @@
 
 const kSliderSteps = 200;  // at least
 
-// One of the two heights: a slider and a number field that say the same. At its end of the range it hides nothing.
+// One of the two heights. At its end of the range it hides nothing.
 class HeightLimit {
   // `name` of its controls, "above" or "below"; `on_change()` when the user has moved it. set_range() follows.
   constructor(name, units, on_change) {
     Object.assign(this, {name, units});
     this.slider = find(`${name}-slider`);
-    this.number = find(`${name}-number`);
-    find(`${name}-unit`).textContent = units.name;
     this.slider.addEventListener("input", () => { this.set(Number(this.slider.value)); on_change(); });
-    this.number.addEventListener("input", () => {
-      const value = typed_number(this.number);
-      this.set(Number.isNaN(value) ? this.off : value, true);
-      on_change();
-    });
-    this.number.addEventListener("change", () => this.set(this.value));
   }
 
   // In the scan's unit; `off`: the end at which it hides nothing. It is there afterwards.
@@ -29,30 +21,20 @@ class HeightLimit {
     this.set(off);
   }
 
-  // A field that is being typed in keeps its text.
-  set(value, is_typed = false) {
+  set(value) {
     this.value = Math.min(this.high, Math.max(this.low, value));
     this.slider.value = this.text(this.value);
-    if (!is_typed) {
-      this.number.value = this.text(this.value);
-      typed_number(this.number);
-    }
-    this.number.classList.toggle("quiet", !this.is_active());
+    find(`${this.name}-text`).textContent = this.is_active() ? this.height() : "";
     this.slider.setAttribute("aria-valuetext", this.is_active() ? this.words() : "off");
   }
 
   is_active() { return this.value !== this.off; }
 
-  // A height that was typed with more decimals keeps them.
-  text(value) {
-    const rounded = value.toFixed(this.decimals);
-    return Number(rounded) === value ? rounded : String(value);
-  }
+  text(value) { return value.toFixed(this.decimals); }
 
-  words() {
-    const unit = this.units.name ? ` ${this.units.name}` : "";
-    return `${this.name} ${this.text(this.value).replace("-", "−")}${unit}`;
-  }
+  height() { return `${this.text(this.value).replace("-", "−")}${this.units.name ? ` ${this.units.name}` : ""}`; }
+
+  words() { return `${this.name} ${this.height()}`; }
 }
 
 class Section {
@@ -88,7 +70,11 @@ class Section {
         (limit, i) => (limit.is_active() ? scene_height(this.frame, limit.value) : kAllHeights[i]));
   }
 
-  changed() { this.on_change(...this.heights()); }
+  changed() {
+    const storey = this.storeys ? this.storeys.indexOf(this.above.value) : -1;
+    find("storeys").value = this.is_active() ? (storey >= 0 ? storey : "") : "all";
+    this.on_change(...this.heights());
+  }
 
   reset() {
     this.former = null;
@@ -101,9 +87,17 @@ class Section {
     this.changed();
   }
 
-  // Hides what is above a roof's height, where there is one.
-  open_roof(height) {
-    if (Number.isFinite(height)) this.set(Number(height.toFixed(this.above.decimals)), this.below.off);
+  // A list of the storeys of a scan within walls, by the heights below their ceilings, the highest first. This one is open.
+  open_storeys(heights) {
+    this.storeys = heights.map((height) => Number(height.toFixed(this.above.decimals)));
+    const name = (i) => (heights.length === 1 ? "Ceiling off" : `Floor ${heights.length - i}`);
+    find("storeys").append(element("option", {value: "all"}, "All heights"), ...heights.map((_, i) => element("option", {value: i}, name(i))));
+    find("storey").hidden = heights.length === 0;
+    find("storeys").addEventListener("change", () => {
+      this.former = null;
+      this.set(find("storeys").value === "all" ? this.above.off : this.storeys[find("storeys").value], this.below.off);
+    });
+    if (heights.length > 0) this.set(this.storeys[0], this.below.off);
   }
 
   // Moves the heights that hide any of the box (scene coordinates, may be null) to where they hide nothing.

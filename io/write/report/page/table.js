@@ -3,19 +3,18 @@
 
 const kRowPixels = 30;
 
-// {key, name, kind of value}; "place" sorts by x.
+// {key, name, kind of value, pixels, rank}; "place" sorts by x. A table that is too narrow for all leaves out the last ranks.
 const kColumns = [
-  {key: "id", name: "Id", kind: "count"},
-  {key: "kind", name: "Kind", kind: "kind"},
-  {key: "mark", name: "Mark", kind: "mark"},
-  {key: "cause", name: "Cause", kind: "cause"},
-  {key: "area", name: "Area", kind: "area"},
-  {key: "perimeter", name: "Perimeter", kind: "length"},
-  {key: "diameter", name: "Diameter", kind: "length"},
-  {key: "confidence", name: "Confidence", kind: "fraction"},
-  {key: "planarity", name: "Planarity", kind: "fraction"},
-  {key: "points", name: "Points", kind: "count"},
-  {key: "place", name: "Place x, y, z", kind: "place"},
+  {key: "id", name: "Id", kind: "count", wide: 66, rank: 0},
+  {key: "kind", name: "Kind", kind: "kind", wide: 84, rank: 1},
+  {key: "mark", name: "Mark", kind: "mark", wide: 118, rank: 7},
+  {key: "cause", name: "Cause", kind: "cause", wide: 118, rank: 3},
+  {key: "area", name: "Area", kind: "area", wide: 92, rank: 2},
+  {key: "perimeter", name: "Perimeter", kind: "length", wide: 116, rank: 8},
+  {key: "diameter", name: "Diameter", kind: "length", wide: 112, rank: 4},
+  {key: "confidence", name: "Confidence", kind: "fraction", wide: 108, rank: 5},
+  {key: "points", name: "Points", kind: "count", wide: 84, rank: 9},
+  {key: "place", name: "Place x, y, z", kind: "place", rank: 6},
 ];
 
 class LoopTable {
@@ -27,18 +26,21 @@ class LoopTable {
     this.selected = -1;
     this.focused = 0;     // row
     this.scales = {};
-    this.columns = kColumns.filter(({key}) => key !== "cause" || loops.has_causes)
-        .map((column) => (column.key === "cause" ? {...column, name: loops.cause_word} : column));
-    for (const {key, kind} of this.columns) {
+    const longest = Array.from(loops.id, (_, i) => this.place(i).join("  ").length).reduce((a, b) => Math.max(a, b), 11);
+    const own = {cause: {name: loops.cause_word, wide: loops.has_changes ? 140 : 118}, place: {wide: 8.1 * longest + 22}};
+    this.all_columns = kColumns.filter(({key}) => key !== "cause" || loops.has_causes).map((column) => ({...column, ...own[column.key]}));
+    for (const column of this.all_columns) {
+      const {key, kind} = column;
       if (kind !== "length" && kind !== "area") continue;
       const most = loops[key].reduce((a, b) => (b > a ? b : a), 0);
       this.scales[key] = units.scale(most, kind === "area" ? 2 : 1);
+      column.wide = Math.max(column.wide, 8.1 * format_number(most * this.scales[key].factor).length + 22);
     }
     this.frame = find("rows");
     this.body = find("body");
-    this.make_head();
     this.frame.addEventListener("scroll", () => this.render(), {passive: true});
-    new ResizeObserver(() => this.render()).observe(this.frame);
+    this.fit_columns();
+    new ResizeObserver(() => { this.fit_columns(); this.render(); }).observe(this.frame);
     this.body.addEventListener("click", (event) => {
       const row = event.target.closest("tr[data-row]");
       if (!row || String(getSelection()).length > 0) return;
@@ -48,18 +50,36 @@ class LoopTable {
     this.body.addEventListener("keydown", (event) => this.key(event));
   }
 
+  // Shows the columns that the width holds. The others are in the details of a loop and in the CSV.
+  fit_columns() {
+    let left = this.frame.clientWidth;
+    const fit = new Set([...this.all_columns].sort((a, b) => a.rank - b.rank).filter(({wide, rank}) => (left -= wide) >= 0 || rank === 0));
+    const columns = this.all_columns.filter((column) => fit.has(column));
+    if (this.columns && columns.length === this.columns.length) return;
+    this.columns = columns;
+    this.make_head();
+    this.rendered = "";
+  }
+
   make_head() {
-    for (const {key, name, kind} of this.columns) {
+    find("head").replaceChildren();
+    for (const {key, name, kind, wide} of this.columns) {
       const unit = this.scales[key] ? this.scales[key].name : kind === "place" ? this.units.name : "";
       const button = element("button", {type: "button"}, element("span", {class: "arrow", "aria-hidden": "true"}), name,
                              unit ? element("span", {class: "unit"}, unit) : null);
       button.addEventListener("click", () => this.sort_by(key));
-      find("head").append(element("th", {scope: "col", "data-key": key, class: `${kind} column-${key}`}, button));
+      find("head").append(element("th", {scope: "col", "data-key": key, class: `${kind} column-${key}`, style: `width:${wide}px`}, button));
     }
     find("table").setAttribute("aria-colcount", this.columns.length);
-    let longest = 11;
-    for (let i = 0; i < this.loops.count; ++i) longest = Math.max(longest, this.place(i).join("  ").length);
-    find("table").style.setProperty("--place", `${longest}`);
+    this.mark_sort();
+  }
+
+  mark_sort() {
+    for (const head of find("head").children) {
+      const is_sorted = head.dataset.key === this.sort.key;
+      const direction = this.sort.is_falling ? "descending" : "ascending";
+      if (is_sorted) head.setAttribute("aria-sort", direction); else head.removeAttribute("aria-sort");
+    }
   }
 
   sort_by(key) {
@@ -103,11 +123,7 @@ class LoopTable {
     this.passes = passes;
     this.shown = this.sorted().filter(passes);
     this.focused = Math.max(0, Math.min(this.focused, this.shown.length - 1));
-    for (const head of find("head").children) {
-      const is_sorted = head.dataset.key === this.sort.key;
-      const direction = this.sort.is_falling ? "descending" : "ascending";
-      if (is_sorted) head.setAttribute("aria-sort", direction); else head.removeAttribute("aria-sort");
-    }
+    this.mark_sort();
     find("table").setAttribute("aria-rowcount", this.shown.length + 1);
     find("table").hidden = this.loops.count === 0;
     find("nothing").hidden = this.shown.length > 0;

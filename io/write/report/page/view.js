@@ -78,8 +78,7 @@ class View {
       is_busy: () => Boolean(this.navigation.flight),
     });
     this.set_heights();
-    this.resize();
-    this.navigation.set_pose(this.navigation.fit_pose(kHomePolar, kHomeAzimuth));
+    this.begin();
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
     canvas.addEventListener("webglcontextrestored", () => this.frames.request());
   }
@@ -140,6 +139,12 @@ class View {
   set_section(low, high) {
     this.uniforms.section.value.set(low, high);
     this.frames.changed();
+  }
+
+  // As a page begins: all of it in the picture.
+  begin() {
+    this.resize();
+    this.navigation.set_pose(this.navigation.fit_pose(kHomePolar, kHomeAzimuth));
   }
 
   resize() {
