@@ -265,12 +265,15 @@ void rate(std::span<const LevelLoops> levels, std::vector<TrackedLoop>& loops) {
 
 // By loop: the loops of the highest rank are chosen first.
 std::vector<double> ranks_of(std::span<const TrackedLoop> loops) {
-  constexpr double kSure = 4;         // log-odds from which on loops are equally good
-  constexpr double kLevelCost = 0.8;  // of a level, in log-odds: fine curves are closer to the hole
+  constexpr double kSure = 4;                 // log-odds from which on loops are equally good
+  constexpr double kLevelCost = 0.8;          // of a level, in log-odds: fine curves are closer to the hole
+  constexpr std::uint64_t kUsuallyAlike = 7;  // they are counted among the loops that stand, so later
   std::vector<double> ranks;
   for (const TrackedLoop& loop : loops) {
+    LoopEvidence usual = loop.evidence;
+    usual.alike = kUsuallyAlike;
     const double level = loop.level + 0.5 * loop.evidence.is_coarse;
-    ranks.push_back(std::min(loop.log_odds, kSure) - kLevelCost * level);
+    ranks.push_back(std::min(log_odds(usual), kSure) - kLevelCost * level);
   }
   return ranks;
 }

@@ -1282,7 +1282,7 @@ Tracked track(const Loops& loops, const std::vector<double>& edges, const std::v
       if (loops[a].level != loops[b].level && is_same(a, b)) last[a] = std::max(last[a], last[b]);
     const double ratio = edges[last[a]] / loops[a].spacing;
     odds[a] = loops[a].log_odds + (is_hole[a] ? 0.7 : 1) * (ratio > 1 ? std::min(octaves(ratio), 2.) : 0);
-    ranks[a] = std::min(odds[a], 4.) -
+    ranks[a] = std::min(odds[a] - (is_hole[a] ? 0 : 0.25 * octaves(1 + 7)), 4.) -
                0.8 * (static_cast<double>(loops[a].level) + 0.5 * double(loops[a].scale == 1));
   }
 

@@ -58,8 +58,8 @@ TEST_CASE("LAZ with two broken chunks: the error names the first, however many t
   for (const std::string& point : las.points) points += point;
   const std::size_t half = points.size() / 2, points_at = bytes.size();
   // The first breaks at its end, the second at its beginning, so that its error comes first.
-  std::string first = text_of(laz_chunk(layout, std::as_bytes(std::span(points).first(half))));
-  std::string second = text_of(laz_chunk(layout, std::as_bytes(std::span(points).last(half))));
+  std::string first = text_of(laz::encode_chunk(layout, std::as_bytes(std::span(points).first(half))));
+  std::string second = text_of(laz::encode_chunk(layout, std::as_bytes(std::span(points).last(half))));
   first.resize(first.size() - 100);
   put(second, las.points[0].size(), std::uint32_t{0xffffffff});
   const std::vector<laz::Chunk> chunks = {{0, first.size(), kPoints}, {0, second.size(), kPoints}};
