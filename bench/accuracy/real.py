@@ -42,7 +42,7 @@ def matched(arguments, result, scan, truth):
 
 
 def reported_loops(arguments, name, options):
-    """The loops of `lacuna detect`, each with the place of the rated loop that it matches, or None; and the rated
+    """The loops of `lacuna detect`, each with the place of the rated loop that it matches, or None. Then the rated
     loops, each with whether a reported one runs along it."""
     rated = rated_loops(RATED / f"{name}.eye.txt")
     folder = arguments.work / "out" / "real" / name

@@ -22,9 +22,9 @@ struct Coefficients {
   double goes_on = 0, layers = 0, volume = 0, alike = 0;  // of outer curves
 };
 
-// Fitted by bench/accuracy/calibrate.py, each kind of loop apart. Those of outer curves were then set by hand
-// between fits in which the loops that were rated by eye weigh little and much: synthetic scans have few
-// crowns and no layers.
+// Fitted by bench/accuracy/calibrate.py, each kind of loop apart. Outer curves then got values by hand: they
+// are between fits in which loops rated by eye weigh little and much. Synthetic scans have few crowns, and no
+// layers.
 constexpr Coefficients kOfHole{.surface = 9.3,
                                .width = 3.1,
                                .persistence = 0.7,

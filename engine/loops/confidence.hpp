@@ -13,8 +13,8 @@ double octaves(double ratio);
 // Returns the logarithm of the odds.
 double log_odds(const LoopEvidence& evidence);
 
-// Returns whether some prominence and track, and nothing beyond the rim, would make the loop more likely true
-// than false.
+// Returns whether some prominence and track would make the loop more likely true than false, with nothing
+// beyond it.
 bool could_be_probable(LoopEvidence evidence);
 
 // Whether the loop has a chance, however long its track is. Other loops are compared with none.

@@ -357,8 +357,8 @@ double radius_of(std::span<const LoopPoint> loop, const Eigen::Vector3d& middle,
 
 }  // namespace
 
-BeyondRim beyond_rim(const TileStore& points, std::span<const LoopPoint> loop, const LoopShape& shape,
-                     double radius, double spacing, Scratch& scratch) {
+BeyondCurve beyond_curve(const TileStore& points, std::span<const LoopPoint> loop, const LoopShape& shape,
+                         double radius, double spacing, Scratch& scratch) {
   constexpr double kSame = 0.5;  // spacings between heights of one surface
   if (!(shape.area > 0) || !std::isfinite(shape.area)) return {};
   const FlatLoop flat(loop, shape, scratch);
@@ -388,7 +388,7 @@ void rate_loops(const TileStore& points, Loops& loops, const Spill& spill, const
       if (evidence.kind == LoopKind::kHole)
         evidence.prominence = prominence(points, loop, shape, evidence.spacing, scratch);
       else
-        evidence.beyond = beyond_rim(points, loop, shape, evidence.radius, evidence.spacing, scratch);
+        evidence.beyond = beyond_curve(points, loop, shape, evidence.radius, evidence.spacing, scratch);
     }
     loops.set_evidence(i, evidence);
   });

@@ -9,7 +9,7 @@
 // decisions are counts of pixels and points, so the order in which points arrive changes nothing.
 //
 // Source: method.md, D.3; distances: Felzenszwalb, Huttenlocher, Distance Transforms of Sampled Functions,
-// 2012. Cost: linear in the points of loops, and `prominence` or `beyond_rim` of the loops that may be
+// 2012. Cost: linear in the points of loops, and `prominence` or `beyond_curve` of the loops that may be
 // probable.
 #pragma once
 
@@ -33,8 +33,8 @@ double prominence(const TileStore& points, std::span<const LoopPoint> loop, cons
 
 // Returns what lies over an outer curve and beyond it. `radius`: of its farthest point from the centroid.
 // Cost: the points in the box of the curve, as high as the radius, and twice those near the curve.
-BeyondRim beyond_rim(const TileStore& points, std::span<const LoopPoint> loop, const LoopShape& shape,
-                     double radius, double spacing, Scratch& scratch);
+BeyondCurve beyond_curve(const TileStore& points, std::span<const LoopPoint> loop, const LoopShape& shape,
+                         double radius, double spacing, Scratch& scratch);
 
 // Adds the evidence that the curves do not have, but not the track, which tracking finds. `points`: of
 // the level.

@@ -31,7 +31,7 @@ constexpr const char* name_of(LoopKind kind) {
 }
 
 // What lies over an outer curve and beyond it, as shares in [0, 1] (method.md, D.3). 0: not measured.
-struct BeyondRim {
+struct BeyondCurve {
   double goes_on = 0;  // of its points: the surface goes on beyond, at their height
   double layers = 0;   // of its points, if the curve is a slice of quantised depth: beyond is the next slice
   double volume = 0;   // of the points over it: far from its plane, as in crowns of trees
@@ -53,7 +53,7 @@ struct LoopEvidence {
   std::array<double, 3> middle{};  // the centroid of its points
   double radius = 0;               // of the farthest point from the middle
   double prominence = 0;           // of a hole over the gaps around it; 0: not measured
-  BeyondRim beyond = {};
+  BeyondCurve beyond = {};
   // The track.
   double persistence = 0;   // octaves from the spacing to the last scale, 0 or more
   std::uint64_t alike = 0;  // of an outer curve: others of its size around it that stand; 0: not counted

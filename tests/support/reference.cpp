@@ -1163,7 +1163,7 @@ struct Beyond {
   double goes_on = 0, layers = 0, volume = 0;
 };
 
-Beyond beyond_rim(const FoundLoop& loop, const Shape& shape, const Positions& points) {
+Beyond beyond_curve(const FoundLoop& loop, const Shape& shape, const Positions& points) {
   const double size = shape.area.stableNorm(), s = loop.spacing;
   if (!(size > 0) || !std::isfinite(size)) return {};
   const FlatLoop flat(loop, shape);
@@ -1193,8 +1193,9 @@ Beyond beyond_rim(const FoundLoop& loop, const Shape& shape, const Positions& po
     level += height <= 0.5;
   }
   const Raster raster(flat, 0, s);
+  std::set<std::array<double, 3>> counted;  // points at one place count once
   for (const Vector3d& p : points) {
-    if (!p.allFinite()) continue;
+    if (!p.allFinite() || !counted.insert({p.x(), p.y(), p.z()}).second) continue;
     const Vector3d at = flat(p);
     const std::optional<Pixel> pixel = raster.pixel_of(at);
     if (!pixel || !raster.is_within(flat, *pixel) || std::abs(at.z()) > radius) continue;
@@ -1218,7 +1219,7 @@ double own_log_odds(const FoundLoop& loop, const Positions& points) {
     const double rest = 1.5 * loop.surface + 2.3 * wide - 3.1 * gap - 6;
     // What lies beyond could only make it less probable.
     if (rest + 2 <= 0) return rest;
-    const Beyond beyond = beyond_rim(loop, shape, points);
+    const Beyond beyond = beyond_curve(loop, shape, points);
     return rest - 3.5 * beyond.goes_on - 2.4 * beyond.layers - 2.6 * beyond.volume;
   }
   const double rest = 9.3 * loop.surface + 3.1 * wide + 1.4 * compact - 7.4 * gap - 16.4;

@@ -115,7 +115,7 @@ TEST_CASE("all points over the raster count for a prominence, whatever cells the
 }
 
 // What lies over a flat round curve about 0 0 0 and beyond it, where its surface is within.
-BeyondRim beyond(const Cloud& cloud, double radius = 10) {
+BeyondCurve beyond(const Cloud& cloud, double radius = 10) {
   std::vector<LoopPoint> loop;
   const int count = static_cast<int>(2 * std::numbers::pi * radius);
   for (int i = 0; i < count; ++i) {
@@ -126,7 +126,7 @@ BeyondRim beyond(const Cloud& cloud, double radius = 10) {
   }
   const TiledScan scan(cloud, tiled({}, 4));
   Scratch scratch(scan.job.spill.folder, 1 << 20);
-  return beyond_rim(scan.store, loop, shape_of(loop, scratch), radius, 1, scratch);
+  return beyond_curve(scan.store, loop, shape_of(loop, scratch), radius, 1, scratch);
 }
 
 Cloud disc(double radius, double height = 0, double least = 0) {
@@ -144,33 +144,33 @@ Cloud both(Cloud a, const Cloud& b) {
 }
 
 TEST_CASE("the surface goes on beyond a curve where points lie outward of it, at its height") {
-  const BeyondRim edge = beyond(disc(10));
+  const BeyondCurve edge = beyond(disc(10));
   CHECK(edge.goes_on == 0);
   CHECK(edge.layers == 0);
   CHECK(edge.volume == 0);
   CHECK(beyond(disc(16)).goes_on == 1);
-  const BeyondRim half = beyond(both(disc(10), plane(12).translated({0, -6, 0}).translated({5, 0, 0})));
+  const BeyondCurve half = beyond(both(disc(10), plane(12).translated({0, -6, 0}).translated({5, 0, 0})));
   CHECK(half.goes_on > 0.1);
   CHECK(half.goes_on < 0.5);
   CHECK(beyond(both(disc(10), disc(20, 0, 15))).goes_on == 0);  // a ring too far away
 }
 
 TEST_CASE("beyond a slice of quantised depth is the next slice, a step higher") {
-  const BeyondRim slice = beyond(both(disc(10), disc(16, 1.5, 10)));
+  const BeyondCurve slice = beyond(both(disc(10), disc(16, 1.5, 10)));
   CHECK(slice.goes_on == 0);
   CHECK(slice.layers == 1);
   CHECK(beyond(both(disc(10), disc(16, 4, 10))).layers == 0);
 }
 
 TEST_CASE("points over a curve that are far from its plane are a volume, as a crown is") {
-  const BeyondRim crown = beyond(both(disc(10), disc(9, 6)));
+  const BeyondCurve crown = beyond(both(disc(10), disc(9, 6)));
   CHECK(crown.volume == Approx(0.45).margin(0.05));
   CHECK(beyond(both(disc(10), disc(9, 1.5))).volume == 0);  // as thick as the points are apart
   CHECK(beyond(both(disc(10), disc(9, 12))).volume == 0);   // another surface
 }
 
 TEST_CASE("what lies beyond an outer curve is the same wherever the scan lies, and in any direction") {
-  // A disc under a smaller one, beside a plane that goes on along a quarter of its rim.
+  // A disc under a smaller one; a plane goes on along a quarter of its curve.
   const Cloud cloud = both(both(disc(12), disc(8, 5)), plane(12).translated({9, -6, 0})).noisy(0.05, 3);
   const auto widest = [](const Cloud& of) {
     Config config;
@@ -185,8 +185,8 @@ TEST_CASE("what lies beyond an outer curve is the same wherever the scan lies, a
     CHECK(evidence.prominence == 0);
     return evidence.beyond;
   };
-  const BeyondRim before = widest(cloud),
-                  after = widest(cloud.rotated({1, 2, 3}, 40).translated({456'000, 5'432'000, 100}));
+  const BeyondCurve before = widest(cloud),
+                    after = widest(cloud.rotated({1, 2, 3}, 40).translated({456'000, 5'432'000, 100}));
   CHECK(before.volume > 0.1);
   CHECK(after.volume == Approx(before.volume).margin(0.02));
   CHECK(after.goes_on == Approx(before.goes_on).margin(0.05));
