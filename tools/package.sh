@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Makes the files of a release in build-package/, for the Debian that it runs on, and prints their names: the packages lacuna,
-# lacuna-bench, lacuna-gis, liblacuna0.1, liblacuna-dev and python3-lacuna, and a wheel. Takes further arguments for CMake.
+# Makes the files of a release in build-package/, for the Debian that it runs on, and prints their names. They are the packages
+# lacuna, lacuna-bench, lacuna-gis, liblacuna0.1, liblacuna-dev and python3-lacuna, and a wheel. Takes further arguments for CMake.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source tools/packages.sh
