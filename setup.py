@@ -28,12 +28,12 @@ class CMakeBuild(build_ext):
 
     def build_extension(self, extension: Extension) -> None:
         to = Path(self.get_ext_fullpath(extension.name)).resolve()
-        build = ROOT / "build"
+        build = ROOT / os.environ.get("LACUNA_BUILD", "build")
         if has_engine(build, to.name):
             print(f"the engine in {build} is used", flush=True)
         else:
-            build = Path(self.build_temp).resolve()
-            print(f"the engine is built in {build}: minutes; {ROOT / 'build'} has none for this Python", flush=True)
+            without, build = build, Path(self.build_temp).resolve()
+            print(f"the engine is built in {build}: minutes; {without} has none for this Python", flush=True)
             build.mkdir(parents=True, exist_ok=True)
             options = ["-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DLACUNA_TESTS=OFF", f"-DPython3_EXECUTABLE={sys.executable}"]
             subprocess.run(["cmake", "-S", str(ROOT), "-B", str(build), *options], check=True)

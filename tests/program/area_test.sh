@@ -223,7 +223,7 @@ END
 for rule in 2 3 9; do
   outline 0 whole.txt $rule "" 4731 0  # 79.5 x 59.5
   head -n 1 outline.txt | grep -qx "covered within its own outline"
-  grep -q "^  area *the scan's own outline, 1 polygon, without .* of its convex hull$" outline.txt
+  grep -q "^  area *the scan's own outline, 1 polygon in cells of 0\.5, without .* of its convex hull$" outline.txt
   outline 3 river.txt $rule "several parts" 3999 720
   outline 3 gap.txt $rule "bay" 4124 592
   cp outline/voids.json gap.json

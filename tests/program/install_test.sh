@@ -47,6 +47,29 @@ fi
 
 version=$("$prefix/bin/lacuna" --version)
 [[ $version == "lacuna "*.*.* ]] || fail "--version prints: $version"
+# The demo takes packages that lie next to the clone, and then what is installed. It builds nothing. Here, apt-get unpacks alone.
+mkdir -p "$work/clone" "$work/fake" "$work/root"
+cp -r tools CMakeLists.txt "$work/clone"
+printf '#!/bin/sh\nexec "$@"\n' >"$work/fake/sudo"
+cat >"$work/fake/apt-get" <<END
+#!/bin/bash
+echo "\$@" >>"$work/apt"
+[[ \$1 == update ]] || for file in "\${@: -2}"; do dpkg-deb --extract "\$file" "$work/root"; done
+END
+chmod +x "$work"/fake/*
+for program in lacuna lacuna-bench; do
+  mkdir -p "$work/$program/DEBIAN" "$work/$program/usr/bin"
+  cp "$prefix/bin/$program" "$work/$program/usr/bin"
+  printf '%s\n' "Package: $program" "Version: ${version#lacuna }" "Architecture: $(dpkg --print-architecture)" "Maintainer: none" \
+    "Description: none" >"$work/$program/DEBIAN/control"
+  dpkg-deb -Znone --build "$work/$program" "$work" >"$work/log"
+done
+for place in "../lacuna-bench_" PATH; do
+  PATH=$work/root/usr/bin:$work/fake:$PATH "$work/clone/tools/demo.sh" >"$work/log" || { cat "$work/log"; fail "the demo fails without a build"; }
+  grep --quiet "^This takes .* from $place" "$work/log" || fail "the demo takes nothing from $place"
+  [[ -s $work/clone/demo/holes/report.html && ! -e $work/clone/build && $(wc -l <"$work/apt") == 2 ]] || fail "the demo builds, or has no report"
+  rm -rf "$work"/*.deb "$work/clone/demo"
+done
 "$prefix/bin/lacuna-bench" synth surface "$work/plane.ply" --points 5000 --holes 1 >"$work/log"
 "$prefix/bin/lacuna" detect "$work/plane.ply" --out "$work/out" --quiet
 grep --quiet '"kind": *"hole"' "$work/out/holes.json" || fail "the installed program finds no hole"

@@ -57,7 +57,7 @@ def size(count):
 says("choosing.md", choosing, f"Its {points['rough']:,} points have random positions")
 of_room = [int(number) for number in re.findall(r"\d+", found["room"])]
 says("README.md", readme, f"{points['room']:,} points of one scanner. Lacuna finds its {of_room[1] + of_room[3]} true loops, "
-     f"and {of_room[4]} that are false.")
+     f"and {of_room[4] or 'none'} that {'are' if of_room[4] > 1 else 'is'} false.")
 if of_room[0] != of_room[1] or of_room[2] != of_room[3]:
     failed.append(f"README.md: not all true loops of the room are found: {found['room']}")
 sizes = {name: int(count) for count, name in re.findall(r"(\d+) room[/.](\S+)", numbers)}

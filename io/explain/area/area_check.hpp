@@ -139,7 +139,8 @@ struct HeightGroup {
 struct AreaCheck {
   std::vector<AreaPolygon> polygons;  // of the project
   bool is_outline = false;            // they are the scan's own outline
-  double left_out = 0;                // of the convex hull of that outline: the area beyond it
+  double outline_cell = 0;            // edge of the cells of that outline
+  double left_out = 0;                // of its convex hull: the area beyond the outline
   double void_size = 0;               // diameter of the least void
   double area = 0;                    // of the project
   double voids_area = 0;              // of all voids

@@ -168,7 +168,8 @@ std::vector<BasisLine> basis_of(const AreaCheck& check, const ScanFiles& scan, c
   std::string polygons = (check.is_outline ? "the scan's own outline" : config.area.area) + ", " +
                          counted(check.polygons.size(), "polygon");
   if (check.is_outline)
-    polygons += ", without " + print(check.left_out, unit.empty() ? "" : unit + "²") + " of its convex hull";
+    polygons += " in cells of " + print(check.outline_cell, unit) + ", without " +
+                print(check.left_out, unit.empty() ? "" : unit + "²") + " of its convex hull";
   if (!config.area.except.empty()) polygons += "; voids in " + config.area.except + " do not count";
   const std::string least = print(check.void_size, unit);
   const std::string& rule = config.area.void_rule;
@@ -317,6 +318,7 @@ AreaCheck check_scan(const ScanFiles& scan, const FilesConfig& config, Progress&
       check = std::move(part);
   }
   check->is_outline = is_outline;
+  check->outline_cell = outline.cell;
   check->left_out = left_out;
   if (is_outline && (check->polygons.size() > 1 || outline.has_dust))
     check->undecided.push_back(Undecided::kSeveralParts);

@@ -53,6 +53,7 @@ double tile_edge_of(const FilesConfig& config, double void_size, const Eigen::Al
 struct PlanOutline {
   // The polygons, in coordinates of the scan, in groups whose boxes are mostly land.
   std::vector<std::vector<PlanPolygon>> groups;
+  double cell = 0;        // edge of the cells with points
   bool has_bay = false;   // wider than the void size
   bool has_dust = false;  // more than a hundredth of the cells are in parts that are left out
 };

@@ -216,6 +216,7 @@ PlanOutline outline_of_points(const ScanFiles& scan, double void_size, Progress&
   while (points.cells.size() >= kLeastCells && !(points.is_area() && fits())) points.coarsen();
   PlanOutline result;
   if (points.cells.size() < kLeastCells) return result;
+  result.cell = points.edge();
   double largest = 0;
   std::size_t kept = 0;
   for (const CellGroup& group : groups) {

@@ -163,8 +163,8 @@ std::vector<Parameter> file_parameters(FilesConfig& config) {
       flag("input", "skip_damaged", Changes::kPoints, &input.skip_damaged,
            "Files that cannot be read to their end do not take part; each is read once more to know it."),
       {"area", "area", Changes::kNothingKept, &area.area, 0, 0, "a file name, or nothing",
-       "File of polygons, GeoPackage, GeoJSON or Shapefile, that the scan is to cover, seen from above; of "
-       "lacuna check."},
+       "File of polygons, GeoPackage, GeoJSON or Shapefile, that the scan is to cover in plan; nothing: its "
+       "own outline, as filters.hexbin of PDAL draws it."},
       {"area", "void_rule", Changes::kNothingKept, &area.void_rule, 0, 0, kAllowedRules,
        "Diameter of the smallest circle without points that is a void of the area; anps: four, spacing2: two "
        "nominal spacings."},
