@@ -385,6 +385,11 @@ std::vector<double> ceiling_cuts(const Scene& scene) {
     for (const Eigen::Vector3f& p : positions) values.push_back(p[axis]);
     ranges[std::size_t(axis)] = narrowest(values, 0.99, 0.02f);
   }
+  constexpr float kFlat = 0.02f;  // height over width: no storey, whatever layers chance leaves empty
+  const auto extent = [&](int axis) {
+    return ranges[std::size_t(axis)].second - ranges[std::size_t(axis)].first;
+  };
+  if (extent(2) < kFlat * std::max(extent(0), extent(1))) return {};
   const auto part_of = [&](const Eigen::Vector3f& p, std::size_t axis, int parts) {
     const auto [low, high] = ranges[axis];
     const float part = float(parts) * (p[int(axis)] - low) / std::max(1e-30f, high - low);
