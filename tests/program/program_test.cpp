@@ -118,6 +118,7 @@ TEST_CASE("wrong usage has exit code 2 and one line that names it") {
         "--cone: is no option; a file for --config sets it, in its section [criteria]: cone = 15.0"},
        {"detect", "a.ply", "--area", "a.gpkg", "unknown option --area; lacuna check has it"},
        {"detect", "a.ply", "--pose", "a.xf", "unknown option --pose; a list of files has poses"},
+       {"detect", "a.ply", "--poses=a.xf", "--poses; a list of files has poses: @LIST with lines such"},
        {"detect", "a.ply", "--out", "d", "--every-point", "--resolution", "1",
         "every_point and resolution are both set; allowed: at most one of them"},
        {"detect", scan, "--out", "d", "--columns", "x,y,z", "--columns: names columns of text, and no file"},

@@ -301,7 +301,7 @@ std::vector<std::string> ParameterOptions::idle_warnings(FilesConfig config,
 CLI::Option* add_scans(CLI::App& command, std::vector<fs::path>& scans) {
   return command
       .add_option("SCAN", scans,
-                  "Scan files, folders of them, or @LIST of their names; several are one registered scan")
+                  "Scan files, folders of them, or @LIST of names and poses; several are one registered scan")
       ->type_name("SCAN");
 }
 

@@ -133,7 +133,7 @@ std::string option_hint(const CLI::App& command, const std::string& name) {
   if (chooses_points && name.starts_with("--class"))
     return suggestion(name, {names.begin(), names.end()}) +
            "; --where 'Classification == 2' chooses points by their class";
-  if (chooses_points && name == "--pose")
+  if (chooses_points && name.starts_with("--pose"))
     return "; a list of files has poses: @LIST with lines such as scan2.ply pose=scan2.xf";
   if (name.starts_with("--")) return suggestion(name, {names.begin(), names.end()});
   for (const CLI::Option* option : command.get_options()) {
