@@ -123,7 +123,8 @@ void check_equal(const Detected& engine, const reference::Detection& plain, std:
   std::vector<double> expected = plain.confidences;
   std::sort(confidences.begin(), confidences.end());
   std::sort(expected.begin(), expected.end());
-  for (std::size_t i = 0; i < expected.size(); ++i) CHECK(std::abs(confidences[i] - expected[i]) < 1e-5);
+  // Rounding decides on which side of a pixel's edge a point lies: one point more or less over a curve.
+  for (std::size_t i = 0; i < expected.size(); ++i) CHECK(std::abs(confidences[i] - expected[i]) < 1e-3);
 }
 
 // The seed decides the cloud, every parameter and the tiling.

@@ -1055,9 +1055,10 @@ using Pixel = std::pair<int, int>;  // row, column
 class FlatLoop {
  public:
   FlatLoop(const FoundLoop& loop, const Shape& shape) : centroid_(shape.centroid) {
-    axes_.col(2) = shape.area.normalized();
-    Eigen::Index least = 0;
+    axes_.col(2) = shape.area / shape.area.stableNorm();
+    Eigen::Index least = 0, largest = 0;
     axes_.col(2).cwiseAbs().minCoeff(&least);
+    if (axes_.col(2).cwiseAbs().maxCoeff(&largest); axes_(largest, 2) < 0) axes_.col(2) *= -1;
     axes_.col(0) = Vector3d(axes_.col(2)).cross(Vector3d::Unit(least)).normalized();
     axes_.col(1) = axes_.col(2).cross(axes_.col(0));
     for (const Vector3d& p : loop.places) {
