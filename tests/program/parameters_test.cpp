@@ -384,7 +384,7 @@ class Sweep {
   ScratchFolder scratch_;
 };
 
-TEST_CASE("each command refuses the parameters that it does not offer; a run offers all but an area's") {
+TEST_CASE("each command refuses the parameters that it does not offer, and a run offers all but an area's") {
   io::FilesConfig config;
   std::map<std::string, std::set<std::string>> offered;
   for (const char* command : kCommands) offered[command] = offered_by(command);
