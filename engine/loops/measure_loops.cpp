@@ -100,17 +100,6 @@ class Runs {
   double best_ = 0;
 };
 
-// Calls visit(before, at, after) for each point of the loop, in order.
-template <class Visit>
-void for_each_with_neighbours(Points loop, Scratch& scratch, Visit&& visit) {
-  const std::size_t n = loop.size();
-  std::size_t i = 0;
-  scratch.for_each(loop, [&](const LoopPoint& at) {
-    visit(loop[(i + n - 1) % n], at, loop[(i + 1) % n]);
-    ++i;
-  });
-}
-
 double perimeter(Points loop, Scratch& scratch) {
   double sum = 0;
   for_each_with_neighbours(loop, scratch, [&](const auto&, const auto& at, const auto& after) {

@@ -36,6 +36,17 @@ struct LoopShape {
 };
 LoopShape shape_of(std::span<const LoopPoint> loop, Scratch& scratch);
 
+// Calls visit(before, at, after) for each point of the loop, in order.
+template <class Visit>
+void for_each_with_neighbours(std::span<const LoopPoint> loop, Scratch& scratch, Visit&& visit) {
+  const std::size_t n = loop.size();
+  std::size_t i = 0;
+  scratch.for_each(loop, [&](const LoopPoint& at) {
+    visit(loop[(i + n - 1) % n], at, loop[(i + 1) % n]);
+    ++i;
+  });
+}
+
 // Returns the largest distance between two points, exactly, by branch and bound over runs of the loop.
 double diameter(std::span<const LoopPoint> loop, Scratch& scratch);
 

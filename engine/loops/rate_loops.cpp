@@ -298,26 +298,9 @@ void for_each_height_beyond(const TileStore& points, std::span<const LoopPoint> 
     Eigen::Vector2d outward;
     double height = std::numeric_limits<double>::infinity();
   };
-  const std::size_t n = loop.size();
   std::vector<Vertex> run;
   std::vector<Eigen::AlignedBox3d> pieces;
-  for (std::size_t first = 0; first < n; first += kRun) {
-    run.clear();
-    pieces.clear();
-    for (std::size_t i = first; i < std::min(first + kRun, n); ++i) {
-      scratch.trim(sizeof(LoopPoint));
-      if (i % kPiece == 0) pieces.emplace_back();
-      pieces.back().extend(loop[i].position());
-      const Eigen::Vector3d before = plane(loop[(i + n - 1) % n].position()),
-                            after = plane(loop[(i + 1) % n].position());
-      const Eigen::Vector2d along = (after - before).head<2>();
-      const Eigen::Vector3d here = plane(loop[i].position());
-      const Eigen::Vector3d to_surface(loop[i].surface[0], loop[i].surface[1], loop[i].surface[2]);
-      const Eigen::Vector2d inward = (plane(loop[i].position() + to_surface) - here).head<2>();
-      Eigen::Vector2d outward = Eigen::Vector2d(along.y(), -along.x()).stableNormalized();
-      if (outward.dot(inward) > 0) outward = -outward;
-      run.push_back({here, outward});
-    }
+  const auto finish = [&] {
     for (Eigen::AlignedBox3d& piece : pieces) piece = widened(piece, kReach * spacing);
     for_each_point_near(points, pieces, [&](const Eigen::Vector3d& point) {
       const Eigen::Vector3d at = plane(point);
@@ -334,7 +317,22 @@ void for_each_height_beyond(const TileStore& points, std::span<const LoopPoint> 
       }
     });
     for (const Vertex& v : run) visit(v.height);
-  }
+    run.clear();
+    pieces.clear();
+  };
+  for_each_with_neighbours(loop, scratch, [&](const auto& before, const auto& at, const auto& after) {
+    if (run.size() % kPiece == 0) pieces.emplace_back();
+    pieces.back().extend(at.position());
+    const Eigen::Vector3d here = plane(at.position());
+    const Eigen::Vector2d along = (plane(after.position()) - plane(before.position())).template head<2>();
+    const Eigen::Vector3d to_surface(at.surface[0], at.surface[1], at.surface[2]);
+    const Eigen::Vector2d inward = (plane(at.position() + to_surface) - here).template head<2>();
+    Eigen::Vector2d outward = Eigen::Vector2d(along.y(), -along.x()).stableNormalized();
+    if (outward.dot(inward) > 0) outward = -outward;
+    run.push_back({here, outward});
+    if (run.size() == kRun) finish();
+  });
+  finish();
 }
 
 // Whether the points of the curve are at one height, but for rounding: depth that is measured in steps.
@@ -349,10 +347,9 @@ bool is_slice(std::span<const LoopPoint> loop, const LoopPlane& plane, double ra
 }
 
 double radius_of(std::span<const LoopPoint> loop, const Eigen::Vector3d& middle, Scratch& scratch) {
-  double squared = 0;
-  scratch.for_each(
-      loop, [&](const LoopPoint& p) { squared = std::max(squared, (p.position() - middle).squaredNorm()); });
-  return std::sqrt(squared);
+  double most = 0;
+  scratch.for_each(loop, [&](const LoopPoint& p) { most = std::max(most, (p.position() - middle).norm()); });
+  return most;
 }
 
 }  // namespace
@@ -362,16 +359,14 @@ BeyondCurve beyond_curve(const TileStore& points, std::span<const LoopPoint> loo
   constexpr double kSame = 0.5;  // spacings between heights of one surface
   if (!(shape.area > 0) || !std::isfinite(shape.area)) return {};
   const FlatLoop flat(loop, shape, scratch);
-  std::uint64_t beyond = 0, level = 0;
+  const auto count = static_cast<double>(loop.size());
+  double beyond = 0, level = 0;  // of the points
   for_each_height_beyond(points, loop, flat.plane, spacing, scratch, [&](double height) {
     beyond += std::isfinite(height);
     level += height <= kSame;
   });
-  const auto share = [&](std::uint64_t part) {
-    return static_cast<double>(part) / static_cast<double>(loop.size());
-  };
-  return {.goes_on = share(level),
-          .layers = is_slice(loop, flat.plane, radius, scratch) ? share(beyond) : 0,
+  return {.goes_on = level / count,
+          .layers = is_slice(loop, flat.plane, radius, scratch) ? beyond / count : 0,
           .volume = volume_over(points, loop, flat, radius, spacing, scratch)};
 }
 
@@ -382,12 +377,13 @@ void rate_loops(const TileStore& points, Loops& loops, const Spill& spill, const
     evidence.width = 2 * shape.area / shape.perimeter / evidence.spacing;
     evidence.compactness = evidence.width / static_cast<double>(loop.size());
     evidence.kind = shape.kind;
-    evidence.middle = {shape.centroid.x(), shape.centroid.y(), shape.centroid.z()};
-    evidence.radius = radius_of(loop, shape.centroid, scratch);
-    if (could_be_probable(evidence)) {
-      if (evidence.kind == LoopKind::kHole)
+    if (evidence.kind == LoopKind::kHole) {
+      if (could_be_probable(evidence))
         evidence.prominence = prominence(points, loop, shape, evidence.spacing, scratch);
-      else
+    } else {
+      evidence.middle = {shape.centroid.x(), shape.centroid.y(), shape.centroid.z()};
+      evidence.radius = radius_of(loop, shape.centroid, scratch);
+      if (could_be_probable(evidence))
         evidence.beyond = beyond_curve(points, loop, shape, evidence.radius, evidence.spacing, scratch);
     }
     loops.set_evidence(i, evidence);

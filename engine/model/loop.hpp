@@ -50,14 +50,17 @@ struct LoopEvidence {
   double width = 0;  // 2 area / perimeter, in spacings
   double compactness =
       0;  // width over the number of points: about 1/6 for a circle, 0 for a line there and back
-  std::array<double, 3> middle{};  // the centroid of its points
-  double radius = 0;               // of the farthest point from the middle
+  std::array<double, 3> middle{};  // of an outer curve: the centroid of its points
+  double radius = 0;               // of its farthest point from there
   double prominence = 0;           // of a hole over the gaps around it; 0: not measured
   BeyondCurve beyond = {};
   // The track.
   double persistence = 0;   // octaves from the spacing to the last scale, 0 or more
   std::uint64_t alike = 0;  // of an outer curve: others of its size around it that stand; 0: not counted
 
+  // Returns whether the loop is hardly wider than the gaps between points.
+  static constexpr double kSmallWidth = 3;
+  bool is_small() const { return width > 0 && width < kSmallWidth; }
   // Returns whether the loop may be reported. Other loops are gaps of the sampling.
   bool may_be_hole() const {
     constexpr double kLeastClearness = 0.5, kLeastSurface = 0.3;

@@ -350,14 +350,12 @@ void count_alike(std::span<const std::uint32_t> chosen, double min_confidence,
   std::vector<std::pair<std::uint32_t, double>> near;  // with squared distances
   for (const auto& [size, others] : by_size) {
     const NanoflannTree<std::uint32_t> tree(others.middles);
-    for (int octave = size - 1; octave <= size + 1; ++octave) {
-      const auto counted = by_size.find(octave);
-      if (counted == by_size.end()) continue;
-      for (std::size_t i = 0; i < counted->second.loops.size(); ++i) {
-        TrackedLoop& loop = loops[counted->second.loops[i]];
+    for (auto of = by_size.lower_bound(size - 1); of != by_size.upper_bound(size + 1); ++of) {
+      for (const std::uint32_t i : of->second.loops) {
+        TrackedLoop& loop = loops[i];
         if (probability_of(loop.log_odds) < min_confidence) continue;
         const double radius = loop.evidence.radius, reach = kNear * radius;
-        tree.index.radiusSearch(counted->second.middles[i].data(), reach * reach, near,
+        tree.index.radiusSearch(loop.evidence.middle.data(), reach * reach, near,
                                 nanoflann::SearchParams(0, 0, false));
         for (const auto& [place, squared_distance] : near) {
           const TrackedLoop& other = loops[others.loops[place]];

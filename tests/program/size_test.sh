@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # The house stays as small as it is: whoever brings lines or files takes as many away elsewhere, and lowers these numbers.
 set -euo pipefail
-most_lines=83104 most_files=476
+most_lines=83097 most_files=476
 cd ../..
 mapfile -t files < <(find engine io tools tests bench -name '*.?pp' -not -path '*/work/*')
 lines=$(cat "${files[@]}" | wc -l)

@@ -122,7 +122,7 @@ void run_render(const RenderArguments& arguments) {
     std::cout << "left out: the ceiling above " << most_height.value()
               << "; --hide-above with a greater height keeps it\n";
   if (folded > 0)
-    std::cout << "left out: " << folded << " loops below " << kSmallWidth
+    std::cout << "left out: " << folded << " loops below " << LoopEvidence::kSmallWidth
               << " spacings; --view ID draws one\n";
   if (scene.strays > 0)
     std::cout << "left out: " << scene.strays << (scene.strays == 1 ? " point" : " points")

@@ -359,13 +359,12 @@ void warn_of_own_frames(const ScanFiles& scan, const ExplainedDetection& detecti
 }  // namespace
 
 std::string small_loops_warning(const std::vector<LoopMeasures>& loops) {
-  constexpr double kSmall = 3;      // width, in spacings
   constexpr double kWanted = 10;    // diameter of a hole that stands out, in spacings
   constexpr std::size_t kFew = 20;  // loops
   std::vector<double> spacings;     // of small loops
   for (const LoopMeasures& loop : loops) {
     const LoopEvidence& evidence = loop.track.evidence;
-    if (evidence.width > 0 && evidence.width < kSmall) spacings.push_back(evidence.spacing);
+    if (evidence.is_small()) spacings.push_back(evidence.spacing);
   }
   if (spacings.size() < kFew || 2 * spacings.size() <= loops.size()) return "";
   const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
@@ -374,7 +373,7 @@ std::string small_loops_warning(const std::vector<LoopMeasures>& loops) {
   return fmt::format(
       "{} of {} loops are less than {:g} spacings wide, hardly more than the gaps between points; --min-hole "
       "{:g} leaves most of them out",
-      spacings.size(), loops.size(), kSmall, rounded);
+      spacings.size(), loops.size(), LoopEvidence::kSmallWidth, rounded);
 }
 
 std::string nothing_warning(const Detection& detection, const SelectionConfig& selection) {

@@ -146,7 +146,7 @@ Json loops_of(const Scene::Loops& loops, int decimals) {
   });
   add("hidden_from", [](const ExplainedLoop& loop) { return Json(loop.cause.hidden_from); });
   json["small"] = small_loops(loops);
-  json["small_below"] = kSmallWidth;
+  json["small_below"] = LoopEvidence::kSmallWidth;
   json["first"] = loops.first;
   if (!loops.changes.empty()) {
     json["change"] = loops.changes;

@@ -445,10 +445,7 @@ std::vector<double> ceiling_cuts(const Scene& scene) {
 
 std::vector<bool> small_loops(const Scene::Loops& loops) {
   std::vector<bool> are_small;
-  for (const ExplainedLoop& loop : loops.measures) {
-    const double width = loop.track.evidence.width;
-    are_small.push_back(width > 0 && width < kSmallWidth);
-  }
+  for (const ExplainedLoop& loop : loops.measures) are_small.push_back(loop.track.evidence.is_small());
   if (std::ranges::count(are_small, true) < kLeastSmall) are_small.assign(are_small.size(), false);
   return are_small;
 }

@@ -127,9 +127,9 @@ class ColourColumns {
 // it are empty 0.15 of all heights. Cost: linear.
 std::vector<double> ceiling_cuts(const Scene& scene);
 
-// Whether each loop is narrower than `kSmallWidth` spacings of its place, twice its area over its perimeter.
-// Pages and pictures fold such loops into one line where there are `kLeastSmall` or more; else none is small.
-inline constexpr double kSmallWidth = 3;
+// Whether each loop is narrower than `LoopEvidence::kSmallWidth` spacings of its place, twice its area over
+// its perimeter. Pages and pictures fold such loops into one line where there are `kLeastSmall` or more; else
+// none is small.
 inline constexpr std::ptrdiff_t kLeastSmall = 20;
 std::vector<bool> small_loops(const Scene::Loops& loops);
 
